@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Arena: one block of memory, taken at boot, given out front to back.
+//
+// Freeing is a no-op; reset() takes everything back at once and wipe() zeroes
+// it first. Exhaustion throws std::bad_alloc, which run_stage() turns into
+// Errc::OutOfMemory: no caller ever sees the exception.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <memory_resource>
+#include <new>
+#include <span>
+
+#include <string.h>
+
+namespace relievo {
+
+class Arena final : public std::pmr::memory_resource {
+ public:
+  explicit Arena(std::span<std::byte> block) : block_(block) {}
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
+  std::size_t used() const { return used_; }
+  std::size_t capacity() const { return block_.size(); }
+  std::size_t high_water() const { return high_water_; }
+
+  void reset() { used_ = 0; }
+  void wipe() {
+    explicit_bzero(block_.data(), high_water_);  // not optimised away
+    reset();
+  }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* place = block_.data() + used_;
+    std::size_t space = block_.size() - used_;
+    if (!std::align(alignment, bytes, place, space)) throw std::bad_alloc();
+    used_ = block_.size() - space + bytes;
+    if (used_ > high_water_) high_water_ = used_;
+    return place;
+  }
+  void do_deallocate(void*, std::size_t, std::size_t) override {}
+  bool do_is_equal(const memory_resource& other) const noexcept override {
+    return this == &other;
+  }
+
+  std::span<std::byte> block_;
+  std::size_t used_ = 0;
+  std::size_t high_water_ = 0;
+};
+
+}  // namespace relievo

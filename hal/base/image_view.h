@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ImageView: pixels that somebody else owns. Row-major, origin at the centre of the top left pixel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace relievo {
+
+enum class PixelFormat : std::uint8_t { Grey8, Rgb8, Grey16 };
+
+constexpr int bytes_per_pixel(PixelFormat format) {
+  return format == PixelFormat::Rgb8 ? 3 : format == PixelFormat::Grey16 ? 2 : 1;
+}
+
+struct ImageView {
+  const std::byte* bytes = nullptr;
+  int width_px = 0;
+  int height_px = 0;
+  int stride_bytes = 0;
+  PixelFormat format = PixelFormat::Grey8;
+
+  bool empty() const { return bytes == nullptr || width_px <= 0 || height_px <= 0; }
+  const std::uint8_t* row(int y) const {
+    return reinterpret_cast<const std::uint8_t*>(bytes) +
+           static_cast<std::ptrdiff_t>(y) * stride_bytes;
+  }
+};
+
+}  // namespace relievo

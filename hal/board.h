@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Board: the hardware of one appliance, opened and closed as a whole. The chosen board owns every
+// device; the references stay valid as long as it lives. Which board it is, firmware/main.cc says.
+#pragma once
+
+#include <string_view>
+
+#include "hal/camera.h"
+#include "hal/clock.h"
+#include "hal/removable_media.h"
+#include "hal/trigger_line.h"
+#include "hal/watchdog.h"
+
+namespace relievo::hal {
+
+class Board {
+ public:
+  virtual ~Board() = default;
+  virtual std::string_view name() const = 0;   // "sim", "folder", "linux"
+  // The mode in which this board's cameras give their best picture.
+  virtual CaptureMode preferred_mode() const = 0;
+  virtual Camera& left() = 0;                  // left as the cameras see it: the image's left half of the pair
+  virtual Camera& right() = 0;
+  virtual TriggerLine& trigger() = 0;
+  virtual RemovableMedia& media() = 0;
+  virtual Clock& clock() = 0;
+  virtual Watchdog& watchdog() = 0;
+};
+
+}  // namespace relievo::hal

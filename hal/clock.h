@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Clock: the only source of time. Tests advance theirs by hand.
+#pragma once
+
+#include <chrono>
+
+namespace relievo::hal {
+
+using Instant = std::chrono::steady_clock::time_point;
+
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual Instant now() const = 0;
+  virtual std::chrono::system_clock::time_point wall_now() const = 0;
+};
+
+}  // namespace relievo::hal

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A picture in a file: PNG or JPEG, 8 or 16 bit, grey or colour. Read whole into memory that the
+// Picture owns; written through a temporary name and renamed, so that nobody meets half a file.
+// Errors: NotFound, InvalidInput (not a picture, empty, larger than the limit), IoFailed, MediaFull.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "hal/base/image_view.h"
+#include "hal/base/result.h"
+
+namespace relievo::hal {
+
+// Longest side and area that are read: twice today's largest industrial sensor class we support.
+inline constexpr int kMaxPictureSidePx = 8192;
+inline constexpr long kMaxPictureAreaPx = 40'000'000;
+
+struct Picture {
+  std::vector<std::byte> bytes;
+  int width_px = 0;
+  int height_px = 0;
+  PixelFormat format = PixelFormat::Rgb8;
+
+  ImageView view() const {
+    return {bytes.data(), width_px, height_px, width_px * bytes_per_pixel(format), format};
+  }
+};
+
+Result<Picture> read_picture(const std::filesystem::path& file);  // Grey8, Rgb8 or Grey16
+Result<void> write_picture(const std::filesystem::path& file, const ImageView& image);  // by extension
+Result<std::vector<std::byte>> encode_png(const ImageView& image);
+Result<Picture> decode_picture(const std::byte* bytes, std::size_t size);
+
+}  // namespace relievo::hal

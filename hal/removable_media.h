@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RemovableMedia: the USB stick, as far as an export cares.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include "hal/base/result.h"
+namespace relievo::hal {
+
+struct Medium {
+  std::filesystem::path root;
+  std::uint64_t free_bytes = 0;
+};
+class RemovableMedia {
+ public:
+  virtual ~RemovableMedia() = default;
+  virtual std::optional<Medium> current() = 0;   // cheap; asked on every tick
+  virtual Result<void> flush_and_eject() = 0;    // safe to pull out afterwards
+};
+}  // namespace relievo::hal

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Mesher: points to one connected, consistently oriented surface with normals.
+// Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled.
+#pragma once
+
+#include <string_view>
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+class Mesher {
+ public:
+  virtual ~Mesher() = default;
+  virtual std::string_view name() const = 0;
+  virtual Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const = 0;
+};
+
+}  // namespace relievo::pipeline

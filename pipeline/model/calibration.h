@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a calibration knows. Camera model: pinhole with Brown-Conrady distortion in OpenCV's order
+// k1 k2 p1 p2 k3 (Brown 1971; Zhang 2000). Millimetres, pixels; right_from_left maps a point of the
+// left camera's frame into the right camera's.
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+struct CameraIntrinsics {
+  Vec2d focal_px;
+  Vec2d centre_px;
+  double distortion[5] = {0, 0, 0, 0, 0};
+  int width_px = 0;
+  int height_px = 0;
+};
+
+struct StereoCalibration {
+  CameraIntrinsics left;
+  CameraIntrinsics right;
+  RigidTransform right_from_left;
+  double rms_px = 0;            // pair reprojection rms of the views used; 0 where unknown
+  std::uint32_t revision = 0;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FaceMesh: a surface of triangles in the left camera's frame, millimetres. Triangles are
+// counter-clockwise seen from outside; normals point out of the face, unit length.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+struct FaceMesh {
+  explicit FaceMesh(std::pmr::memory_resource* memory)
+      : vertices_mm(memory), normals(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
+  std::pmr::vector<Vec3f> vertices_mm;
+  std::pmr::vector<Vec3f> normals;           // one a vertex
+  std::pmr::vector<float> sigma_mm;          // one a vertex: standard deviation perpendicular to the surface
+  std::pmr::vector<std::uint8_t> measured;   // one a vertex: 1 seen by both cameras, 0 completed
+  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FaceModel: the finished face, and what is known about how good it is.
+#pragma once
+
+#include <memory_resource>
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/texture_atlas.h"
+
+namespace relievo::pipeline {
+
+struct ModelQuality {
+  double median_sigma_mm = 0;       // of the measured vertices
+  double measured_area_mm2 = 0;
+  double coverage = 0;              // share of the face region that carries surface
+  double width_mm = 0;              // of the surface in the head frame, first to last percentile
+  double height_mm = 0;
+  double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
+  double epipolar_residual_px = 0;  // median vertical disagreement of the face's own matches
+};
+
+// Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the
+// face. Mesh and normals stay in the left camera's frame; head_from_camera takes them over.
+struct FaceModel {
+  explicit FaceModel(std::pmr::memory_resource* memory) : mesh(memory), texture(memory) {}
+  FaceMesh mesh;
+  TextureAtlas texture;
+  RigidTransform head_from_camera;
+  ModelQuality quality;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RectifiedPair: both pictures resampled so that a point of the scene lies on the same row in each.
+//
+// Both windows have the same size, focal length and vertical centre. Each has a horizontal centre of
+// its own, laid over the face volume, so that a toed-in rig is neither zoomed nor cut:
+//   disparity_px = x_left - x_right (window pixels)
+//   z_mm = focal_px * baseline_mm / (disparity_px - disparity_at_infinity_px())
+//   x_mm = (x_left - left_centre_px.x) * z / focal_px,  y_mm = (y - left_centre_px.y) * z / focal_px
+// in the rectified frame, whose origin is the left camera; p_left = rectified_from_left^T * p.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/model/calibration.h"
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+// Shared by all rows: width_px * height_px values, no padding.
+struct RectifiedView {
+  explicit RectifiedView(std::pmr::memory_resource* memory) : grey(memory), rgb(memory), valid(memory) {}
+  std::pmr::vector<float> grey;          // 0..255, luminance
+  std::pmr::vector<std::uint8_t> rgb;    // 3 a pixel, as captured
+  std::pmr::vector<std::uint8_t> valid;  // 1 where the source picture covers the pixel
+};
+
+struct RectifiedPair {
+  explicit RectifiedPair(std::pmr::memory_resource* memory) : left(memory), right(memory), region(memory) {}
+  int width_px = 0;
+  int height_px = 0;
+  double focal_px = 0;
+  double baseline_mm = 0;
+  Vec2d left_centre_px;
+  Vec2d right_centre_px;                 // .y equals left_centre_px.y
+  double near_mm = 0, far_mm = 0;        // the volume in which a surface is looked for
+  Rotation rectified_from_left;
+  Rotation rectified_from_right;
+  RigidTransform right_from_left;        // of the cameras, as calibrated
+  RectifiedView left;
+  RectifiedView right;
+  std::pmr::vector<std::uint8_t> region; // left view: 1 where the face may be; empty means everywhere
+
+  double disparity_at_infinity_px() const { return left_centre_px.x - right_centre_px.x; }
+  double depth_mm(double disparity_px) const {
+    return focal_px * baseline_mm / (disparity_px - disparity_at_infinity_px());
+  }
+  double disparity_px(double depth_mm) const {
+    return focal_px * baseline_mm / depth_mm + disparity_at_infinity_px();
+  }
+};
+
+}  // namespace relievo::pipeline

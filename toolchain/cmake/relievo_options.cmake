@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 The Relievo authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What every room is built with.
+
+set(RELIEVO_SANITIZE "" CACHE STRING "address,undefined or thread; empty for none")
+option(RELIEVO_COVERAGE "instrument for gcov" OFF)
+
+add_library(relievo_options INTERFACE)
+target_include_directories(relievo_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(relievo_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wswitch-enum -Werror
+  # The inner loops are written to vectorise; none of them asks for errno or traps.
+  -fno-math-errno -fno-trapping-math)
+if(RELIEVO_SANITIZE)
+  target_compile_options(relievo_options INTERFACE -fsanitize=${RELIEVO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(relievo_options INTERFACE -fsanitize=${RELIEVO_SANITIZE})
+  target_compile_definitions(relievo_options INTERFACE RELIEVO_SANITIZED=1)
+endif()
+if(RELIEVO_COVERAGE)
+  target_compile_options(relievo_options INTERFACE --coverage)
+  target_link_options(relievo_options INTERFACE --coverage)
+endif()
+
+# relievo_room(NAME [DIR sub/folders...] [LIBS private libraries...] [DOORS rooms it may use...])
+# One static library from every .cc below the folders named (default: all of the current folder).
+function(relievo_room name)
+  cmake_parse_arguments(arg "" "" "DIRS;EXCLUDE;LIBS;DOORS" ${ARGN})
+  if(NOT arg_DIRS)
+    set(arg_DIRS .)
+  endif()
+  set(sources)
+  foreach(dir ${arg_DIRS})
+    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${dir}/*.cc)
+    list(APPEND sources ${found})
+  endforeach()
+  foreach(pattern ${arg_EXCLUDE})
+    list(FILTER sources EXCLUDE REGEX ${pattern})
+  endforeach()
+  add_library(relievo_${name} STATIC ${sources})
+  set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(relievo_${name} PUBLIC relievo_options ${arg_DOORS} PRIVATE ${arg_LIBS})
+endfunction()
+
+# relievo_tests(NAME LIBS...): one GoogleTest program from every *_test.cc below the current folder.
+function(relievo_tests name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${name} ${sources})
+  target_link_libraries(test_${name} PRIVATE relievo_options ${ARGN} GTest::gtest_main)
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. PROPERTIES TIMEOUT 900 DISCOVERY_TIMEOUT 60)
+endfunction()
