@@ -1,8 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Relievo authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fails when a file includes what its folder may not (README.md, "Who may include whom")."""
-import pathlib, re, sys
+"""Fails when a file includes what its folder may not.
+
+    check_includes.py [ROOT]
+
+The rules, each with one line here and one planted violation in tests/toolchain/check_includes_test.py:
+  - a room includes only the rooms in MAY (the table "Who may include whom");
+  - a library's header appears only in .cc files named after the library (LIBRARIES);
+  - a library that has no line here may not be used at all;
+  - the folders in CHOSEN_BY are named only by the one file that chooses the implementation;
+  - a concrete algorithm's header is included only by pipeline/algorithms.cc, by its own .cc and by tests.
+"""
+import pathlib
+import re
+import sys
 
 MAY = {  # folder: the folders it may include besides itself; the longest prefix wins
     "hal/base": [],
@@ -14,42 +26,127 @@ MAY = {  # folder: the folders it may include besides itself; the longest prefix
     "firmware": ["hal", "pipeline", "storage", "ui"],
     "tests": ["hal", "pipeline", "storage", "ui", "firmware"],
 }
-# A library's header may be included only by a file named after the library.
-OWNED = {r"opencv2/": "opencv_", r"CGAL/": "cgal_", r"sqlite3\.h": "sqlite_", r"gpiod": "gpiod_",
-         r"linux/videodev2\.h": "v4l2_", r"libudev\.h": "udev_", r"systemd/": "systemd_",
-         r"png\.h": "png_", r"SDL": "sdl_", r"GLES": "gles_"}
+# A library's header: the prefix of the .cc files that may include it.
+LIBRARIES = {
+    r"opencv2/": "opencv_",
+    r"CGAL/|boost/": "cgal_",
+    r"embree3/|embree4/": "embree_",
+    r"sqlite3\.h$": "sqlite_",
+    r"sodium(\.h$|/)": "sodium_",
+    r"gpiod(\.h|\.hpp)$": "gpiod_",
+    r"linux/videodev2\.h$": "v4l2_",
+    r"libudev\.h$": "udev_",
+    r"systemd/": "systemd_",
+    r"png\.h$": "png_",
+    r"j(peglib|error)\.h$|turbojpeg\.h$": "jpeg_",
+    r"zip\.h$": "zip_",
+    r"SDL2?/|SDL.*\.h$": "sdl_",
+    r"GLES[23]?/|EGL/|KHR/": "gles_",
+    r"ft2build\.h$|freetype": "freetype_",
+    r"hb.*\.h$|harfbuzz/": "harfbuzz_",
+    r"CLI/": "cli11_",
+    r"toml\+\+/|toml\.hpp$": "toml_",
+    r"nlohmann/": "json_",
+    r"tiny_gltf\.h$|stb_": "gltf_",
+    r"mimalloc": "mimalloc_",
+    r"assimp/": "assimp_",
+}
+TESTS_ONLY = r"gtest/|gmock/|benchmark/"
+# The system's own headers: C's, POSIX's and Linux's. Everything else in angle brackets is a library.
+SYSTEM = re.compile(
+    r"^[a-z0-9_]+$"                                    # C++: <vector>
+    r"|^(errno|fcntl|poll|pthread|sched|signal|spawn|stdint|stdio|stdlib|string|strings|termios|time|unistd"
+    r"|dirent|limits|math|glob|fenv|getopt|malloc|ucontext|execinfo)\.h$"
+    r"|^sys/[a-z0-9_]+\.h$|^linux/(dma-buf|dma-heap|fs|magic|input|media)\.h$"
+    r"|^(imm|x86|arm_neon|xmm|emm|nmm|smm|tmm|pmm|cpuid)[a-z]*\.h$")
 # An implementation may be named only by the one file that chooses it (and by tests).
-CHOSEN_BY = {"hal/linux/": "firmware/main.cc", "hal/sim/": "firmware/main.cc",
-             "storage/sqlite/": "firmware/main.cc", "ui/platform/": "firmware/main.cc"}
+CHOSEN_BY = {
+    "hal/linux/": "firmware/main.cc",
+    "hal/sim/": "firmware/main.cc",
+    "storage/sqlite/": "firmware/main.cc",
+    "ui/platform/": "firmware/main.cc",
+}
+ALGORITHMS = "pipeline/algorithms.cc"
+
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
+CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::([^;{]*))?\{")
+BASE = re.compile(r"\bpublic\s+(?:\w+::)*(\w+)")
+
 
 def folder_of(path):
     return max((f for f in MAY if path == f or path.startswith(f + "/")), key=len, default=None)
 
+
+def sources(root):
+    for room in ("hal", "pipeline", "storage", "ui", "firmware", "tests"):
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix in (".h", ".cc"):
+                yield path.relative_to(root).as_posix(), path.read_text(errors="replace")
+
+
+def concrete_algorithms(files):
+    """Headers below pipeline/ that define a class derived from one of pipeline/'s interfaces."""
+    headers = {p: t for p, t in files.items() if p.startswith("pipeline/") and p.endswith(".h")}
+    interfaces = {name for text in headers.values() if re.search(r"=\s*0\s*;", text)
+                  for name, bases in CLASS.findall(text) if not bases}
+    return {path for path, text in headers.items()
+            for _, bases in CLASS.findall(text) if interfaces & set(BASE.findall(bases))}
+
+
+def stem(path):
+    """a/opencv_sgbm_matcher.cc and a/sgbm_matcher.h are one pair."""
+    folder, _, name = path.rpartition("/")
+    name = name.rsplit(".", 1)[0]
+    for prefix in set(LIBRARIES.values()):
+        name = name.removeprefix(prefix)
+    return f"{folder}/{name}"
+
+
+def library_problem(here, target):
+    name, suffix = here.rsplit("/", 1)[-1], here.rsplit(".", 1)[-1]
+    if target.startswith("Eigen/"):
+        if folder_of(here) == "pipeline" or here.startswith("tests/"):
+            return None
+        return "Eigen stays inside pipeline/ and out of pipeline/model/"
+    if re.match(TESTS_ONLY, target):
+        return None if here.startswith("tests/") else f"{target} only in tests/"
+    for pattern, prefix in LIBRARIES.items():
+        if re.match(pattern, target):
+            if name.startswith(prefix) and suffix == "cc":
+                return None
+            return f"{target} only in {prefix}*.cc files"
+    if not SYSTEM.match(target):
+        return f"{target} belongs to no library that toolchain/check_includes.py knows"
+    return None
+
+
+def room_problem(here, target):
+    home, to = folder_of(here), folder_of(target)
+    if to is None or target.startswith("."):
+        return f"{target}: include from the repository root"
+    if to != home and not any(target == m or target.startswith(m + "/") for m in MAY[home]):
+        return f"{home}/ may not include {target}"
+    return None
+
+
 def problems(root):
-    for file in sorted(p for t in ("hal", "pipeline", "storage", "ui", "firmware", "tests")
-                       for p in (root / t).rglob("*") if p.suffix in (".h", ".cc")):
-        here = file.relative_to(root).as_posix()
-        home = folder_of(here)
-        for number, line in enumerate(file.read_text().splitlines(), 1):
+    files = dict(sources(root))
+    concrete = concrete_algorithms(files)
+    for here, text in files.items():
+        for number, line in enumerate(text.splitlines(), 1):
             found = INCLUDE.match(line)
             if not found:
                 continue
             quote, target = found.groups()
-            if quote == '"':
-                to = folder_of(target)
-                if to is None or target.startswith("."):
-                    yield f"{here}:{number}: {target}: include from the repository root"
-                elif to != home and not any(target == m or target.startswith(m + "/") for m in MAY[home]):
-                    yield f"{here}:{number}: {home}/ may not include {target}"
+            said = [room_problem(here, target) if quote == '"' else library_problem(here, target)]
             for inside, chooser in CHOSEN_BY.items():
                 if target.startswith(inside) and not here.startswith((inside, "tests/")) and here != chooser:
-                    yield f"{here}:{number}: only {chooser} may choose {target}"
-            for pattern, prefix in OWNED.items():
-                if re.match(pattern, target) and not (file.name.startswith(prefix) and file.suffix == ".cc"):
-                    yield f"{here}:{number}: {target} only in {prefix}*.cc files"
-            if target.startswith("Eigen/") and not (home == "pipeline"):
-                yield f"{here}:{number}: Eigen stays inside pipeline/ and out of pipeline/model/"
+                    said.append(f"only {chooser} may choose {target}")
+            if (target in concrete and here != ALGORITHMS and not here.startswith("tests/")
+                    and stem(here) != stem(target)):
+                said.append(f"only {ALGORITHMS} may choose {target}")
+            yield from (f"{here}:{number}: {what}" for what in said if what)
+
 
 if __name__ == "__main__":
     found = list(problems(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))
