@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every limit of the appliance, with its name: memory, sizes, times. Nowhere else is one written down.
+// Memory is one block taken at boot and cut by BootMemory; pages of it that nothing touches cost
+// nothing. Bytes; pixels; std::chrono.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace relievo::firmware::budget {
+
+inline constexpr std::size_t kMiB = std::size_t{1} << 20;
+
+// --- pictures -----------------------------------------------------------------------------------
+inline constexpr int kMaxFrameWidthPx = 2448;    // 5 megapixels: the largest sensor of the parts list
+inline constexpr int kMaxFrameHeightPx = 2048;
+inline constexpr std::size_t kFrameBytes =
+    std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
+inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes;
+inline constexpr std::size_t kStereoSlots = 1;   // the person's own pair, kept until the session closes
+
+// --- memory -------------------------------------------------------------------------------------
+inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
+inline constexpr std::size_t kOutputArenaBytes = 512 * kMiB;    // what the stages hand on
+inline constexpr std::size_t kScratchArenaBytes = 768 * kMiB;   // what one stage needs for itself
+inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
+
+inline constexpr std::size_t kLibraryBytes = 256 * kMiB;        // OpenCV, CGAL, SQLite: measured, not enforced
+inline constexpr std::size_t kQueueBytes = 64 * 1024;
+inline constexpr std::size_t kApplianceBytes = 2048 * kMiB;     // of the machine's memory, for the process
+static_assert(kBlockBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
+              "the parts need more than the appliance has");
+
+// --- queues and names ---------------------------------------------------------------------------
+inline constexpr std::size_t kEventQueueLength = 32;
+inline constexpr std::size_t kSubjectNameBytes = 128;
+
+// --- threads ------------------------------------------------------------------------------------
+inline constexpr int kMaxPoolThreads = 4;        // inside the worker, the worker counted
+
+// --- time ---------------------------------------------------------------------------------------
+using std::chrono::milliseconds;
+using std::chrono::microseconds;
+inline constexpr milliseconds kTick{50};                  // the main loop turns at least this often
+inline constexpr milliseconds kCancelWithin{100};         // a job has stopped this long after it was asked to
+inline constexpr microseconds kTriggerPulse{100};
+inline constexpr milliseconds kFrameWait{2000};           // from the trigger to both pictures
+inline constexpr microseconds kMaxSkew{1000};             // between the two exposures of a pair
+inline constexpr int kCaptureAttempts = 3;                // until a person is asked to come again
+inline constexpr milliseconds kSelfTestLimit{30'000};
+inline constexpr milliseconds kCaptureLimit{30'000};
+inline constexpr milliseconds kStageLimit{60'000};        // a stage that runs longer is stopped
+inline constexpr milliseconds kReviewLimit{60'000};       // nobody answers: nothing is kept
+inline constexpr milliseconds kStoreLimit{30'000};
+inline constexpr milliseconds kExportLimit{600'000};
+inline constexpr milliseconds kCalibrateLimit{600'000};
+inline constexpr milliseconds kTechnicianLimit{300'000};
+inline constexpr milliseconds kFaultRetry{30'000};        // a fault tests itself again after this
+
+}  // namespace relievo::firmware::budget

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/machine/machine.h"
+
+#include "firmware/budget.h"
+
+namespace relievo::firmware {
+
+std::optional<std::chrono::milliseconds> limit_of(State state) {
+  switch (state) {
+    case State::SelfTest: return budget::kSelfTestLimit;
+    case State::Capture: return budget::kCaptureLimit;
+    case State::Match:
+    case State::Reconstruct:
+    case State::Mesh:
+    case State::Texture: return budget::kStageLimit;
+    case State::Review: return budget::kReviewLimit;
+    case State::Store: return budget::kStoreLimit;
+    case State::Export: return budget::kExportLimit;
+    case State::Calibrate: return budget::kCalibrateLimit;
+    case State::Technician: return budget::kTechnicianLimit;
+    case State::Fault: return budget::kFaultRetry;
+    case State::Idle:
+    case State::Count: break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Change> Machine::handle(Event event, hal::Instant now) {
+  const std::optional<State> to = next(state_, event);
+  if (!to) return std::nullopt;
+  const Change change{state_, event, *to};
+  state_ = *to;
+  entered_ = now;
+  return change;
+}
+
+std::optional<Change> Machine::tick(hal::Instant now) {
+  const auto limit = limit_of(state_);
+  if (!limit || now - entered_ < *limit) return std::nullopt;
+  return handle(Event::Timeout, now);
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The whole life of the appliance, as one table.
+//
+//   SelfTest -> Idle -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store -> Idle
+//                |                                                    |
+//                +-> Technician -> Calibrate | Export                  +-> Capture (Retake)
+//   Fault is entered when the machine cannot; it tests itself again.
+//
+// The compiler proves the table: one event leads one way, every state can be reached, every state
+// leads back to Idle, and every state answers Cancel, Timeout and Failed or says why it is deaf.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace relievo::firmware {
+
+enum class State : std::uint8_t {
+  SelfTest, Idle, Calibrate, Capture, Match, Reconstruct, Mesh, Texture, Review, Store, Export,
+  Technician, Fault, Count
+};
+
+enum class Event : std::uint8_t {
+  Passed,          // the self test found everything in place
+  Failed,          // the machine cannot: a camera gone, a library at its end
+  Begin,           // a person wants to start
+  Triggered,       // both pictures are here
+  StageDone,       // the job of the present state is done
+  StageFailed,     // it could not, and the person can help or try again
+  Accept, Retake,  // the person's answer to the model
+  Cancel,
+  Timeout,         // the state lasted longer than budget.h allows
+  TechnicianIn, TechnicianOut,
+  CalibrateAsked, ExportAsked,
+  Count
+};
+
+struct Transition {
+  State from;
+  Event event;
+  State to;
+};
+
+inline constexpr std::array kTransitions{
+    Transition{State::SelfTest, Event::Passed, State::Idle},
+    Transition{State::SelfTest, Event::Failed, State::Fault},
+    Transition{State::SelfTest, Event::Timeout, State::Fault},
+
+    Transition{State::Idle, Event::Begin, State::Capture},
+    Transition{State::Idle, Event::TechnicianIn, State::Technician},
+    Transition{State::Idle, Event::Failed, State::Fault},
+
+    Transition{State::Capture, Event::Triggered, State::Match},
+    Transition{State::Capture, Event::StageFailed, State::Capture},  // advice is shown, another try
+    Transition{State::Capture, Event::Cancel, State::Idle},
+    Transition{State::Capture, Event::Timeout, State::Idle},
+    Transition{State::Capture, Event::Failed, State::Fault},
+
+    Transition{State::Match, Event::StageDone, State::Reconstruct},
+    Transition{State::Match, Event::StageFailed, State::Capture},
+    Transition{State::Match, Event::Cancel, State::Idle},
+    Transition{State::Match, Event::Timeout, State::Idle},
+    Transition{State::Match, Event::Failed, State::Fault},
+
+    Transition{State::Reconstruct, Event::StageDone, State::Mesh},
+    Transition{State::Reconstruct, Event::StageFailed, State::Capture},
+    Transition{State::Reconstruct, Event::Cancel, State::Idle},
+    Transition{State::Reconstruct, Event::Timeout, State::Idle},
+    Transition{State::Reconstruct, Event::Failed, State::Fault},
+
+    Transition{State::Mesh, Event::StageDone, State::Texture},
+    Transition{State::Mesh, Event::StageFailed, State::Capture},
+    Transition{State::Mesh, Event::Cancel, State::Idle},
+    Transition{State::Mesh, Event::Timeout, State::Idle},
+    Transition{State::Mesh, Event::Failed, State::Fault},
+
+    Transition{State::Texture, Event::StageDone, State::Review},
+    Transition{State::Texture, Event::StageFailed, State::Capture},
+    Transition{State::Texture, Event::Cancel, State::Idle},
+    Transition{State::Texture, Event::Timeout, State::Idle},
+    Transition{State::Texture, Event::Failed, State::Fault},
+
+    Transition{State::Review, Event::Accept, State::Store},
+    Transition{State::Review, Event::Retake, State::Capture},
+    Transition{State::Review, Event::Cancel, State::Idle},
+    Transition{State::Review, Event::Timeout, State::Idle},  // no answer is no consent
+    Transition{State::Review, Event::Failed, State::Fault},
+
+    Transition{State::Store, Event::StageDone, State::Idle},
+    Transition{State::Store, Event::StageFailed, State::Review},  // a full disk: accept again, or leave
+    Transition{State::Store, Event::Timeout, State::Fault},
+    Transition{State::Store, Event::Failed, State::Fault},
+
+    Transition{State::Technician, Event::CalibrateAsked, State::Calibrate},
+    Transition{State::Technician, Event::ExportAsked, State::Export},
+    Transition{State::Technician, Event::TechnicianOut, State::Idle},
+    Transition{State::Technician, Event::Cancel, State::Idle},
+    Transition{State::Technician, Event::Timeout, State::Idle},
+    Transition{State::Technician, Event::Failed, State::Fault},
+
+    Transition{State::Calibrate, Event::StageDone, State::Technician},
+    Transition{State::Calibrate, Event::StageFailed, State::Technician},
+    Transition{State::Calibrate, Event::Cancel, State::Technician},
+    Transition{State::Calibrate, Event::Timeout, State::Technician},
+    Transition{State::Calibrate, Event::Failed, State::Fault},
+
+    Transition{State::Export, Event::StageDone, State::Technician},
+    Transition{State::Export, Event::StageFailed, State::Technician},
+    Transition{State::Export, Event::Cancel, State::Technician},
+    Transition{State::Export, Event::Timeout, State::Technician},
+    Transition{State::Export, Event::Failed, State::Fault},
+
+    Transition{State::Fault, Event::Timeout, State::SelfTest},
+    Transition{State::Fault, Event::TechnicianIn, State::Technician},
+};
+
+struct Deaf {
+  State state;
+  Event event;
+  std::string_view why;
+};
+inline constexpr std::array kDeaf{
+    Deaf{State::SelfTest, Event::Cancel, "nobody has asked for anything yet"},
+    Deaf{State::Idle, Event::Cancel, "nothing is under way"},
+    Deaf{State::Idle, Event::Timeout, "waiting is its work"},
+    Deaf{State::Store, Event::Cancel, "one transaction: it ends in a moment, whole or not at all"},
+    Deaf{State::Fault, Event::Cancel, "nothing is under way"},
+    Deaf{State::Fault, Event::Failed, "it already is"},
+};
+
+// Where an event leads, or nothing when the state does not listen to it.
+constexpr std::optional<State> next(State from, Event event) {
+  for (const Transition& t : kTransitions) {
+    if (t.from == from && t.event == event) return t.to;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(State state);
+std::string_view name_of(Event event);
+
+// --- proofs -------------------------------------------------------------------------------------
+namespace proof {
+
+inline constexpr std::size_t kStates = static_cast<std::size_t>(State::Count);
+
+consteval bool deterministic() {
+  for (std::size_t i = 0; i < kTransitions.size(); ++i) {
+    for (std::size_t j = i + 1; j < kTransitions.size(); ++j) {
+      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event) return false;
+    }
+  }
+  return true;
+}
+
+// Forward: the states reached from `start`. Backward: those from which `start` is reached.
+consteval bool all_connected(State start, bool backward) {
+  std::array<bool, kStates> seen{};
+  seen[static_cast<std::size_t>(start)] = true;
+  for (std::size_t round = 0; round < kStates; ++round) {
+    for (const Transition& t : kTransitions) {
+      const auto from = static_cast<std::size_t>(backward ? t.to : t.from);
+      const auto to = static_cast<std::size_t>(backward ? t.from : t.to);
+      if (seen[from]) seen[to] = true;
+    }
+  }
+  for (const bool reached : seen) {
+    if (!reached) return false;
+  }
+  return true;
+}
+
+consteval bool answers_or_is_deaf(Event event) {
+  for (std::size_t s = 0; s < kStates; ++s) {
+    const auto state = static_cast<State>(s);
+    int deaf = 0;
+    for (const Deaf& d : kDeaf) deaf += d.state == state && d.event == event ? 1 : 0;
+    if (deaf + (next(state, event) ? 1 : 0) != 1) return false;  // exactly one of the two
+  }
+  return true;
+}
+
+static_assert(deterministic(), "one event, one way out");
+static_assert(all_connected(State::SelfTest, false), "a state nobody can reach");
+static_assert(all_connected(State::Idle, true), "a state with no way back to Idle");
+static_assert(answers_or_is_deaf(Event::Cancel), "a state that neither answers Cancel nor says why");
+static_assert(answers_or_is_deaf(Event::Timeout), "a state that neither answers Timeout nor says why");
+static_assert(answers_or_is_deaf(Event::Failed), "a state that neither answers Failed nor says why");
+
+}  // namespace proof
+
+}  // namespace relievo::firmware

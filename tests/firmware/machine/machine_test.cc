@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Rows: time, event, expected state.
+#include "firmware/machine/machine.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "firmware/budget.h"
+
+namespace relievo::firmware {
+namespace {
+
+using std::chrono::milliseconds;
+using S = State;
+using E = Event;
+
+struct Row {
+  milliseconds at{0};
+  E event = E::Count;  // Count: only time passes
+  S expected = S::Count;
+};
+
+void play(const std::vector<Row>& rows) {
+  const hal::Instant boot{};
+  Machine machine(boot);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    (void)machine.tick(boot + row.at);
+    if (row.event != E::Count) (void)machine.handle(row.event, boot + row.at);
+    ASSERT_EQ(machine.state(), row.expected)
+        << "row " << i << ": " << name_of(row.event) << " led to " << name_of(machine.state()) << ", not "
+        << name_of(row.expected);
+  }
+}
+
+milliseconds ms(int n) { return milliseconds(n); }
+
+TEST(Machine, OneEnrolment) {
+  play({{ms(0), E::Passed, S::Idle}, {ms(10), E::Begin, S::Capture}, {ms(20), E::Triggered, S::Match},
+        {ms(30), E::StageDone, S::Reconstruct}, {ms(40), E::StageDone, S::Mesh}, {ms(50), E::StageDone, S::Texture},
+        {ms(60), E::StageDone, S::Review}, {ms(70), E::Accept, S::Store}, {ms(80), E::StageDone, S::Idle}});
+}
+
+TEST(Machine, RetakeAndAdviceLeadBackToCapture) {
+  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::Begin, S::Capture}, {ms(2), E::StageFailed, S::Capture},
+        {ms(3), E::Triggered, S::Match}, {ms(4), E::StageFailed, S::Capture}, {ms(5), E::Triggered, S::Match},
+        {ms(6), E::StageDone, S::Reconstruct}, {ms(7), E::StageFailed, S::Capture}, {ms(8), E::Triggered, S::Match},
+        {ms(9), E::StageDone, S::Reconstruct}, {ms(10), E::StageDone, S::Mesh}, {ms(11), E::StageDone, S::Texture},
+        {ms(12), E::StageDone, S::Review}, {ms(13), E::Retake, S::Capture}});
+}
+
+TEST(Machine, AFullDiskLeadsBackToReview) {
+  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::Begin, S::Capture}, {ms(2), E::Triggered, S::Match},
+        {ms(3), E::StageDone, S::Reconstruct}, {ms(4), E::StageDone, S::Mesh}, {ms(5), E::StageDone, S::Texture},
+        {ms(6), E::StageDone, S::Review}, {ms(7), E::Accept, S::Store}, {ms(8), E::StageFailed, S::Review},
+        {ms(9), E::Accept, S::Store}, {ms(10), E::Cancel, S::Store}, {ms(11), E::StageDone, S::Idle}});
+}
+
+TEST(Machine, NoAnswerIsNoConsent) {
+  play({{ms(0), E::Passed, S::Idle}, {ms(0), E::Begin, S::Capture}, {ms(0), E::Triggered, S::Match},
+        {ms(0), E::StageDone, S::Reconstruct}, {ms(0), E::StageDone, S::Mesh}, {ms(0), E::StageDone, S::Texture},
+        {ms(0), E::StageDone, S::Review}, {budget::kReviewLimit - ms(1), E::Count, S::Review},
+        {budget::kReviewLimit, E::Count, S::Idle}, {budget::kReviewLimit + ms(1), E::Accept, S::Idle}});
+}
+
+TEST(Machine, AnotherTryGetsItsTimeAnew) {
+  const milliseconds most = budget::kCaptureLimit - ms(1);
+  play({{ms(0), E::Passed, S::Idle}, {ms(0), E::Begin, S::Capture}, {most, E::StageFailed, S::Capture},
+        {most + most, E::Count, S::Capture}, {most + budget::kCaptureLimit, E::Count, S::Idle}});
+}
+
+TEST(Machine, AFaultTestsItselfAgain) {
+  play({{ms(0), E::Failed, S::Fault}, {budget::kFaultRetry, E::Count, S::SelfTest},
+        {budget::kFaultRetry, E::Passed, S::Idle}, {budget::kFaultRetry, E::TechnicianIn, S::Technician},
+        {budget::kFaultRetry, E::CalibrateAsked, S::Calibrate}, {budget::kFaultRetry, E::StageFailed, S::Technician},
+        {budget::kFaultRetry, E::ExportAsked, S::Export}, {budget::kFaultRetry, E::Cancel, S::Technician},
+        {budget::kFaultRetry, E::TechnicianOut, S::Idle}});
+}
+
+// The answer of every state to the three events nobody may forget.
+struct Answer {
+  S state;
+  S cancel, timeout, failed;
+};
+
+TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
+  const std::vector<Answer> answers{
+      {S::SelfTest, S::SelfTest, S::Fault, S::Fault},      {S::Idle, S::Idle, S::Idle, S::Fault},
+      {S::Capture, S::Idle, S::Idle, S::Fault},            {S::Match, S::Idle, S::Idle, S::Fault},
+      {S::Reconstruct, S::Idle, S::Idle, S::Fault},        {S::Mesh, S::Idle, S::Idle, S::Fault},
+      {S::Texture, S::Idle, S::Idle, S::Fault},            {S::Review, S::Idle, S::Idle, S::Fault},
+      {S::Store, S::Store, S::Fault, S::Fault},            {S::Technician, S::Idle, S::Idle, S::Fault},
+      {S::Calibrate, S::Technician, S::Technician, S::Fault}, {S::Export, S::Technician, S::Technician, S::Fault},
+      {S::Fault, S::Fault, S::SelfTest, S::Fault}};
+  ASSERT_EQ(answers.size(), static_cast<std::size_t>(S::Count));
+  for (const Answer& a : answers) {
+    EXPECT_EQ(next(a.state, E::Cancel).value_or(a.state), a.cancel) << name_of(a.state);
+    EXPECT_EQ(next(a.state, E::Timeout).value_or(a.state), a.timeout) << name_of(a.state);
+    EXPECT_EQ(next(a.state, E::Failed).value_or(a.state), a.failed) << name_of(a.state);
+  }
+}
+
+TEST(Machine, EveryStateWithATimeoutHasALimit) {
+  for (std::size_t s = 0; s < static_cast<std::size_t>(S::Count); ++s) {
+    const auto state = static_cast<S>(s);
+    EXPECT_EQ(next(state, E::Timeout).has_value(), limit_of(state).has_value()) << name_of(state);
+  }
+}
+
+TEST(Machine, RandomEventsNeverLeaveTheTable) {
+  const hal::Instant boot{};
+  Machine machine(boot);
+  unsigned seed = 1;
+  for (int i = 0; i < 100'000; ++i) {
+    seed = seed * 1664525u + 1013904223u;
+    const S before = machine.state();
+    const auto event = static_cast<E>((seed >> 16) % static_cast<unsigned>(E::Count));
+    const auto change = machine.handle(event, boot);
+    ASSERT_EQ(machine.state(), change ? *next(before, event) : before);
+  }
+}
+
+TEST(Machine, EveryStateAndEventHasAName) {
+  for (std::size_t s = 0; s < static_cast<std::size_t>(S::Count); ++s) EXPECT_NE(name_of(static_cast<S>(s)), "?");
+  for (std::size_t e = 0; e < static_cast<std::size_t>(E::Count); ++e) EXPECT_NE(name_of(static_cast<E>(e)), "?");
+}
+
+}  // namespace
+}  // namespace relievo::firmware
