@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GridMesher (`grid`, the default): joins neighbours of the pixel lattice on which a dense matcher
+// measured. Needs PointCloud::lattice_step_px > 0.
+//
+// Promises: one connected component (the largest), every edge in at most two triangles, one fan a
+// vertex, counter-clockwise seen from the cameras, no triangle steeper than max_incidence_deg to the
+// line of sight of the left camera, a boundary without fringe. Small holes are closed with
+// measured = 0 and a thin-plate surface, larger ones stay open. sigma_mm is perpendicular to the
+// surface: the line of sight's sigma times the cosine of the angle of incidence.
+// Frame: the left camera's, millimetres. Memory: arenas only; one exact reserve a vector.
+// Errors: Unsupported (scattered points), PoorGeometry (no surface of a face's size), OutOfMemory,
+// Cancelled. Thread: any; keeps no state.
+#pragma once
+
+#include "pipeline/mesh/mesher.h"
+
+namespace relievo::pipeline {
+
+struct GridMesherOptions {
+  int max_triangles = 320'000;        // the lattice is thinned until twice its points fit
+  double max_incidence_deg = 80;      // steepest triangle, between its normal and the line of sight
+  double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
+  double step_slope_ratio = 3;        // ... and by this many times the slope on either side
+  double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front
+  double max_hole_mm = 6;             // holes up to this wide are closed; 0 leaves all open
+  int outline_passes = 2;             // how often single teeth are trimmed off the boundary; 0 to 16
+  int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
+  double min_area_mm2 = 2500;         // less surface than this is no face
+
+  Result<void> check() const;
+};
+
+class GridMesher final : public Mesher {
+ public:
+  explicit GridMesher(const GridMesherOptions& options) : options_(options) {}
+  std::string_view name() const override { return "grid"; }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
+
+ private:
+  GridMesherOptions options_;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kLargestPixel = 100'000;  // beyond this a pixel is a mistake, not a picture
+
+bool usable(const CloudPoint& p) {
+  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && p.at_mm.z > 0 &&
+         std::isfinite(p.at_mm.z) && std::isfinite(p.sigma_mm) && p.sigma_mm >= 0 &&
+         std::abs(p.left_px.x) < kLargestPixel && std::abs(p.left_px.y) < kLargestPixel;
+}
+
+struct Box { float left = kLargestPixel, top = kLargestPixel, right = -kLargestPixel, bottom = -kLargestPixel; };
+
+Box bounds(const PointCloud& cloud) {
+  Box box;
+  for (const CloudPoint& p : cloud.points) {
+    if (!usable(p)) continue;
+    box.left = std::min(box.left, p.left_px.x);
+    box.right = std::max(box.right, p.left_px.x);
+    box.top = std::min(box.top, p.left_px.y);
+    box.bottom = std::max(box.bottom, p.left_px.y);
+  }
+  return box;
+}
+
+}  // namespace
+
+Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
+                     std::pmr::memory_resource* memory) {
+  Lattice lattice(memory);
+  if (cloud.lattice_step_px <= 0) return lattice;
+  const Box box = bounds(cloud);
+  if (box.right < box.left) return lattice;
+
+  const float step = static_cast<float>(cloud.lattice_step_px);
+  const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
+  lattice.columns = steps(box.left, box.right) / stride_x + 1;
+  lattice.rows = steps(box.top, box.bottom) / stride_y + 1;
+  const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
+  lattice.node.assign(nodes, Node::Empty);
+  lattice.at_mm.assign(nodes, Vec3f{});
+  lattice.sigma_mm.assign(nodes, 0.0F);
+  lattice.source.assign(nodes, 0U);
+
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const CloudPoint& p = cloud.points[i];
+    if (!usable(p)) continue;
+    const int x = steps(box.left, p.left_px.x);
+    const int y = steps(box.top, p.left_px.y);
+    if (x % stride_x != 0 || y % stride_y != 0) continue;
+    const std::size_t k = lattice.index(x / stride_x, y / stride_y);
+    if (lattice.node[k] != Node::Empty && lattice.sigma_mm[k] <= p.sigma_mm) continue;
+    lattice.node[k] = Node::Measured;
+    lattice.at_mm[k] = p.at_mm;
+    lattice.sigma_mm[k] = p.sigma_mm;
+    lattice.source[k] = static_cast<std::uint32_t>(i);
+  }
+  return lattice;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lattice: measured points laid back on the pixel lattice of the left rectified view, so that
+// neighbours are found by counting. Columns run right, rows down. Frame: left camera, millimetres.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/model/point_cloud.h"
+
+namespace relievo::pipeline {
+
+enum class Node : std::uint8_t { Empty, Measured, Filled };
+
+struct Lattice {
+  explicit Lattice(std::pmr::memory_resource* memory)
+      : at_mm(memory), sigma_mm(memory), source(memory), node(memory) {}
+  int columns = 0;
+  int rows = 0;
+  // columns * rows values each, row by row.
+  std::pmr::vector<Vec3f> at_mm;
+  std::pmr::vector<float> sigma_mm;         // along the line of sight
+  std::pmr::vector<std::uint32_t> source;   // index into the cloud's points
+  std::pmr::vector<Node> node;
+
+  std::size_t size() const { return node.size(); }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  bool inside(int column, int row) const {
+    return column >= 0 && row >= 0 && column < columns && row < rows;
+  }
+};
+
+// Takes every `stride_x`-th column and `stride_y`-th row. Points that are not finite are left out;
+// where two fall on one node the more certain one stays. An empty lattice where no point is usable.
+// Throws std::bad_alloc when `memory` is used up.
+Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
+                     std::pmr::memory_resource* memory);
+
+}  // namespace relievo::pipeline
