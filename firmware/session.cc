@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/session.h"
+
+#include <memory>
+
+#include <string.h>
+
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+
+Result<void> EnrolmentSession::open(std::string_view subject) {
+  if (is_open()) return Error{Errc::InvalidState, "a session is open already: close it first"};
+  if (subject.size() > budget::kSubjectNameBytes) {
+    return Error{Errc::InvalidInput, "the name is longer than 128 bytes: choose a shorter one"};
+  }
+  RELIEVO_ASSERT(output_.used() == 0 && scratch_.used() == 0);
+  subject.copy(subject_.data(), subject.size());
+  make_products();
+  return {};
+}
+
+void EnrolmentSession::make_products() {
+  products_ = std::construct_at(static_cast<Products*>(output_.allocate(sizeof(Products), alignof(Products))));
+}
+
+Products& EnrolmentSession::products() const {
+  RELIEVO_ASSERT(is_open());
+  return *products_;
+}
+
+void EnrolmentSession::retake() {
+  RELIEVO_ASSERT(is_open());
+  wipe();
+  make_products();
+}
+
+void EnrolmentSession::close() {
+  if (!is_open()) return;
+  wipe();
+  explicit_bzero(subject_.data(), subject_.size());
+}
+
+void EnrolmentSession::wipe() {
+  std::destroy_at(products_);
+  products_ = nullptr;
+  slot_.wipe();
+  output_.wipe();
+  scratch_.wipe();
+}
+
+}  // namespace relievo::firmware

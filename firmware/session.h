@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// EnrolmentSession: everything the appliance knows about the person in front of it, and nothing
+// afterwards. It owns the arenas; what the stages make lives in them, the products themselves too.
+//
+//   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
+//                             |   ^
+//                             +---+ retake(): pictures and products go, the subject stays
+//
+// Thread: main opens and closes, and only while no job runs; a running job has the products.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "firmware/boot_memory.h"
+#include "firmware/capture/stereo_slot.h"
+#include "hal/base/arena.h"
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/stereo_frame.h"
+
+namespace relievo::firmware {
+
+// What each stage leaves for the next.
+struct Products {
+  std::optional<pipeline::StereoFrame> frame;
+  std::optional<pipeline::RectifiedPair> pair;
+  std::optional<pipeline::MatchSet> matches;
+  std::optional<pipeline::PointCloud> cloud;
+  std::optional<pipeline::FaceMesh> mesh;
+  std::optional<pipeline::FaceModel> model;
+};
+
+class EnrolmentSession {
+ public:
+  explicit EnrolmentSession(const BootMemory& memory)
+      : slot_(memory.frames()), output_(memory.output()), scratch_(memory.scratch()) {}
+  ~EnrolmentSession() { close(); }
+  EnrolmentSession(const EnrolmentSession&) = delete;
+  EnrolmentSession& operator=(const EnrolmentSession&) = delete;
+
+  // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
+  Result<void> open(std::string_view subject);
+  void retake();
+  void close();
+  bool is_open() const { return products_ != nullptr; }
+
+  std::string_view subject() const { return {subject_.data()}; }
+  Products& products() const;
+  StereoSlot& slot() { return slot_; }
+  Arena& output() { return output_; }
+  Arena& scratch() { return scratch_; }
+
+ private:
+  void make_products();
+  void wipe();
+
+  StereoSlot slot_;
+  Arena output_;
+  Arena scratch_;
+  Products* products_ = nullptr;  // at the front of output_
+  std::array<char, budget::kSubjectNameBytes + 1> subject_{};
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::size_t kFrames = 2 * 64 * 64 * 3;
+constexpr std::size_t kArena = 1 << 20;
+
+class SessionTest : public testing::Test {
+ protected:
+  SessionTest() { clear(); }
+  void clear() {
+    auto all = memory.all();
+    std::memset(const_cast<std::byte*>(all.data()), 0, all.size());
+  }
+  bool all_zero() const {
+    return std::all_of(memory.all().begin(), memory.all().end(), [](std::byte b) { return b == std::byte{0}; });
+  }
+  // Fills everything a person's enrolment touches.
+  void live() {
+    std::vector<std::byte> pixels(64 * 64 * 3, std::byte{0xAB});
+    const ImageView picture{pixels.data(), 64, 64, 64 * 3, PixelFormat::Rgb8};
+    Products& products = session.products();
+    products.frame.emplace();
+    products.frame->left = *session.slot().keep_left(picture);
+    products.frame->right = *session.slot().keep_right(picture);
+    products.pair.emplace(&session.output());
+    products.pair->left.rgb.assign(64 * 64 * 3, 0xCD);
+    products.model.emplace(&session.output());
+    products.model->mesh.vertices_mm.assign(500, {1, 2, 3});
+    products.model->quality.nose_relief_mm = 21;
+    std::pmr::vector<float> working(&session.scratch());
+    working.assign(1000, 0.5F);
+    session.scratch().reset();  // as after a stage: given back, not yet wiped
+  }
+
+  BootMemory memory{kFrames, kArena, kArena};
+  EnrolmentSession session{memory};
+};
+
+TEST_F(SessionTest, ClosesWithoutAByteOfTheVisitor) {
+  ASSERT_TRUE(session.open("Ada Lovelace"));
+  live();
+  EXPECT_FALSE(all_zero());
+  session.close();
+  EXPECT_TRUE(all_zero());
+  EXPECT_EQ(session.subject(), "");
+  const auto* raw = reinterpret_cast<const char*>(&session);
+  const std::string object(raw, sizeof(session));
+  EXPECT_EQ(object.find("Ada"), std::string::npos);
+  EXPECT_EQ(object.find("Lovelace"), std::string::npos);
+}
+
+TEST_F(SessionTest, OpensEmptyAfterAnother) {
+  ASSERT_TRUE(session.open("first"));
+  live();
+  session.close();
+  ASSERT_TRUE(session.open("second"));
+  EXPECT_EQ(session.subject(), "second");
+  EXPECT_FALSE(session.products().frame);
+  EXPECT_FALSE(session.products().model);
+}
+
+TEST_F(SessionTest, RetakeKeepsTheSubjectAndNothingElse) {
+  ASSERT_TRUE(session.open("Ada"));
+  live();
+  session.retake();
+  EXPECT_EQ(session.subject(), "Ada");
+  EXPECT_FALSE(session.products().frame);
+  EXPECT_FALSE(session.products().pair);
+  EXPECT_EQ(session.output().used(), sizeof(Products));
+  session.close();
+  EXPECT_TRUE(all_zero());
+}
+
+TEST_F(SessionTest, DestructionWipesToo) {
+  {
+    EnrolmentSession other(memory);
+    ASSERT_TRUE(other.open("Ada"));
+    std::memset(other.output().allocate(100), 0x77, 100);
+  }
+  EXPECT_TRUE(all_zero());
+}
+
+TEST_F(SessionTest, RefusesASecondPersonAndAnEndlessName) {
+  ASSERT_TRUE(session.open("Ada"));
+  EXPECT_EQ(session.open("Grace").error().code, Errc::InvalidState);
+  session.close();
+  EXPECT_EQ(session.open(std::string(129, 'x')).error().code, Errc::InvalidInput);
+  EXPECT_FALSE(session.is_open());
+  EXPECT_TRUE(session.open(std::string(128, 'x')));
+}
+
+}  // namespace
+}  // namespace relievo::firmware
