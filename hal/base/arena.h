@@ -29,6 +29,18 @@ class Arena final : public std::pmr::memory_resource {
   std::size_t high_water() const { return high_water_; }
 
   void reset() { used_ = 0; }
+  // Gives back, when it dies, everything taken since it was made: for loops inside a stage.
+  class Mark {
+   public:
+    explicit Mark(Arena& arena) : arena_(arena), used_(arena.used_) {}
+    ~Mark() { arena_.used_ = used_; }
+    Mark(const Mark&) = delete;
+    Mark& operator=(const Mark&) = delete;
+
+   private:
+    Arena& arena_;
+    std::size_t used_;
+  };
   void wipe() {
     explicit_bzero(block_.data(), high_water_);  // not optimised away
     reset();

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/bending_system.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "hal/base/simd.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 8;  // fixed, so that sums do not depend on the number of threads
+
+RELIEVO_SIMD void bend_rows(const float* above, const float* here, const float* below, const float* wxx,
+                            const float* wyy, const float* wxy, int w, float* qxx, float* qyy, float* qxy) {
+  for (int x = 1; x < w - 1; ++x) {
+    qxx[x] = wxx[x] * (here[x - 1] - 2 * here[x] + here[x + 1]);
+    qyy[x] = wyy[x] * (above[x] - 2 * here[x] + below[x]);
+    qxy[x] = wxy[x] * (here[x] - here[x + 1] - below[x] + below[x + 1]);
+  }
+  qxx[0] = qxx[w - 1] = qyy[0] = qyy[w - 1] = qxy[w - 1] = 0;
+  qxy[0] = wxy[0] * (here[0] - here[1] - below[0] + below[1]);
+}
+
+RELIEVO_SIMD void gather_rows(const float* a, const float* x_row, const float* qxx, const float* qyy_above,
+                              const float* qyy, const float* qyy_below, const float* qxy_above,
+                              const float* qxy, int w, float* out) {
+  for (int x = 1; x < w - 1; ++x)
+    out[x] = a[x] * x_row[x] + qxx[x - 1] - 2 * qxx[x] + qxx[x + 1] + qyy_above[x] - 2 * qyy[x] + qyy_below[x] +
+             qxy[x] - qxy[x - 1] - qxy_above[x] + qxy_above[x - 1];
+  out[0] = out[w - 1] = 0;
+}
+
+RELIEVO_SIMD double dot_row(const float* a, const float* b, int w) {
+  // Eight running sums: the order is fixed, and the compiler may still use wide registers.
+  float sums[8] = {};
+  int x = 0;
+  for (; x + 8 <= w; x += 8)
+    for (int k = 0; k < 8; ++k) sums[k] += a[x + k] * b[x + k];
+  double sum = 0;
+  for (; x < w; ++x) sum += static_cast<double>(a[x]) * b[x];
+  for (const float s : sums) sum += s;
+  return sum;
+}
+
+RELIEVO_SIMD void follow_row(const float* z, float beta, float* p, int w) {
+  for (int x = 0; x < w; ++x) p[x] = z[x] + beta * p[x];
+}
+
+RELIEVO_SIMD void step_row(const float* p, const float* ap, const float* inverse_diagonal, float alpha, int w,
+                           float* x, float* r, float* z) {
+  for (int i = 0; i < w; ++i) {
+    x[i] += alpha * p[i];
+    r[i] -= alpha * ap[i];
+    z[i] = r[i] * inverse_diagonal[i];
+  }
+}
+
+void invert_diagonal(const BendingSystem& s, Plane<float>& out) {
+  for (int y = 1; y < s.height() - 1; ++y)
+    for (int x = 1; x < s.width() - 1; ++x) {
+      const float* xx = s.bend_xx.row(y) + x;
+      const float d = s.data.row(y)[x] + xx[-1] + 4 * xx[0] + xx[1] + s.bend_yy.row(y - 1)[x] +
+                      4 * s.bend_yy.row(y)[x] + s.bend_yy.row(y + 1)[x] + s.bend_xy.row(y)[x] +
+                      s.bend_xy.row(y)[x - 1] + s.bend_xy.row(y - 1)[x] + s.bend_xy.row(y - 1)[x - 1];
+      out.row(y)[x] = d > 0 ? 1 / d : 0.0F;
+    }
+}
+
+double total(const std::array<double, kBands>& parts) {
+  double sum = 0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace
+
+void apply_system(const BendingSystem& s, const Plane<float>& x, bool with_data, Plane<float>& out, int begin,
+                  int end, float* rolling) {
+  const int w = s.width();
+  const int h = s.height();
+  const auto count = static_cast<std::size_t>(w);
+  // Three rows of weighted second differences roll along with the row being written.
+  float* zero = rolling + 9 * count;
+  std::fill(zero, zero + count, 0.0F);
+  const auto slot = [&](int y, int kind) { return rolling + (static_cast<std::size_t>((y + 3) % 3) * 3 + static_cast<std::size_t>(kind)) * count; };
+  const auto bend = [&](int y) {
+    float* q[3] = {slot(y, 0), slot(y, 1), slot(y, 2)};
+    if (y < 1 || y >= h - 1) {
+      for (float* row : q) std::fill(row, row + count, 0.0F);
+      if (y != 0) return;  // the cells of the first row still count
+      for (int i = 0; i + 1 < w; ++i)
+        q[2][i] = s.bend_xy.row(0)[i] * (x.row(0)[i] - x.row(0)[i + 1] - x.row(1)[i] + x.row(1)[i + 1]);
+      return;
+    }
+    bend_rows(x.row(y - 1), x.row(y), x.row(y + 1), s.bend_xx.row(y), s.bend_yy.row(y), s.bend_xy.row(y), w, q[0],
+              q[1], q[2]);
+  };
+  const int first = begin < 1 ? 1 : begin;
+  const int last = end > h - 1 ? h - 1 : end;
+  bend(first - 1);
+  bend(first);
+  for (int y = first; y < last; ++y) {
+    bend(y + 1);
+    gather_rows(with_data ? s.data.row(y) : zero, x.row(y), slot(y, 0), slot(y - 1, 1), slot(y, 1), slot(y + 1, 1),
+                slot(y - 1, 2), slot(y, 2), w, out.row(y));
+  }
+}
+
+void solve(const BendingSystem& s, int steps, ThreadPool& pool, std::pmr::memory_resource& scratch,
+           Plane<float>& x) {
+  const int w = s.width();
+  const int h = s.height();
+  Plane<float> inverse_diagonal(&scratch, w, h);
+  Plane<float> r(&scratch, w, h);
+  Plane<float> z(&scratch, w, h);
+  Plane<float> p(&scratch, w, h);
+  Plane<float> ap(&scratch, w, h);
+  Plane<float> rolling(&scratch, rolling_floats(w), kBands);
+  invert_diagonal(s, inverse_diagonal);
+  std::fill(x.values.begin(), x.values.end(), 0.0F);
+  r.values = s.rhs.values;
+  std::array<double, kBands> parts{};
+  const auto band_of = [h](int begin) { return static_cast<int>((static_cast<long>(begin) * kBands + h - 1) / h); };
+  const auto each = [&](auto&& row_work) {
+    parts.fill(0);
+    pool.for_each_band(h, kBands, [&](int begin, int end, int band) {
+      parts[static_cast<std::size_t>(band)] = row_work(begin, end);
+    });
+    return total(parts);
+  };
+  double rz = each([&](int begin, int end) {
+    double sum = 0;
+    for (int y = begin; y < end; ++y) {
+      step_row(p.row(y), ap.row(y), inverse_diagonal.row(y), 0, w, x.row(y), r.row(y), z.row(y));
+      sum += dot_row(r.row(y), z.row(y), w);
+    }
+    return sum;
+  });
+  const double start = rz;
+  double beta = 0;
+  for (int k = 0; k < steps && rz > 1e-7 * start; ++k) {
+    each([&](int begin, int end) {
+      for (int y = begin; y < end; ++y) follow_row(z.row(y), static_cast<float>(beta), p.row(y), w);
+      return 0.0;
+    });
+    const double pap = each([&](int begin, int end) {
+      apply_system(s, p, true, ap, begin, end, rolling.row(band_of(begin)));
+      double sum = 0;
+      for (int y = begin; y < end; ++y) sum += dot_row(p.row(y), ap.row(y), w);
+      return sum;
+    });
+    if (!(pap > 0)) break;
+    const auto alpha = static_cast<float>(rz / pap);
+    const double next = each([&](int begin, int end) {
+      double sum = 0;
+      for (int y = begin; y < end; ++y) {
+        step_row(p.row(y), ap.row(y), inverse_diagonal.row(y), alpha, w, x.row(y), r.row(y), z.row(y));
+        sum += dot_row(r.row(y), z.row(y), w);
+      }
+      return sum;
+    });
+    beta = next / rz;
+    rz = next;
+  }
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/coarse_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace relievo::pipeline {
+namespace {
+
+// Both views matched against each other in one band of candidates.
+struct TwoWay {
+  TwoWay(std::pmr::memory_resource* memory, int w, int h)
+      : left(memory, w, h, kNoDisparity), right(memory, w, h, kNoDisparity), first_left(memory, w, h),
+        first_right(memory, w, h) {}
+  Plane<float> left, right;
+  Plane<std::int16_t> first_left, first_right;
+};
+
+void match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates, const SemiGlobalCosts& costs,
+                StageContext& context, TwoWay& both) {
+  const int w = left.grey.width;
+  const int h = left.grey.height;
+  Plane<std::uint64_t> census_left(&context.scratch, w, h);
+  Plane<std::uint64_t> census_right(&context.scratch, w, h);
+  context.pool.for_each_band(h, 8, [&](int begin, int end, int) {
+    census_rows(left.grey, census_left, begin, end);
+    census_rows(right.grey, census_right, begin, end);
+  });
+  // One arena for two threads: each gets a block of its own, taken here.
+  const auto cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
+  const std::size_t share = 3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 4) + 65536;
+  std::pmr::vector<std::byte> blocks(2 * share, &context.scratch);
+  context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
+    for (int side = begin; side < end; ++side) {
+      Arena own{std::span<std::byte>(blocks).subspan(static_cast<std::size_t>(side) * share, share)};
+      if (side == 0)
+        semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates, costs, own, both.left);
+      else
+        semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates, costs, own, both.right);
+    }
+  });
+}
+
+// Predictions for the finer level: every fine pixel takes its coarse parent's disparity; where that
+// is unknown, the last one known on the row stands in.
+void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last, Plane<std::int16_t>& first) {
+  for (int y = 0; y < first.height; ++y) {
+    const float* from = coarse.row(std::min(y / 2, coarse.height - 1));
+    float last = kNoDisparity;
+    for (int x = 0; x < coarse.width && last == kNoDisparity; ++x) last = from[x];
+    if (last == kNoDisparity) last = 0.25F * static_cast<float>(whole_first + whole_last);
+    for (int x = 0; x < first.width; ++x) {
+      const float d = from[std::min(x / 2, coarse.width - 1)];
+      if (d != kNoDisparity) last = d;
+      const int start = static_cast<int>(std::lround(2 * last)) - band / 2;
+      first.row(y)[x] = static_cast<std::int16_t>(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
+    }
+  }
+}
+
+// A 5 x 5 median-like clean-up of the coarse field would be more than it needs: a 3 x 3 median.
+void median3(Plane<float>& field, std::pmr::memory_resource& scratch) {
+  Plane<float> copy(&scratch, field.width, field.height);
+  copy.values = field.values;
+  for (int y = 1; y < field.height - 1; ++y)
+    for (int x = 1; x < field.width - 1; ++x) {
+      float near[9];
+      int n = 0;
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+          if (copy.row(y + j)[x + i] != kNoDisparity) near[n++] = copy.row(y + j)[x + i];
+      if (n == 0 || (copy.row(y)[x] == kNoDisparity && n < 5)) continue;
+      std::nth_element(near, near + n / 2, near + n);
+      field.row(y)[x] = near[n / 2];
+    }
+}
+
+// Labels surfaces whose neighbouring disparities differ by less than `step`; returns the largest.
+struct Largest { int label = 0; int size = 0; };
+
+Largest label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step, Plane<int>& label,
+                       std::pmr::memory_resource& scratch) {
+  Largest best;
+  int next = 0;
+  std::pmr::vector<int> open(&scratch);
+  open.reserve(d.values.size());
+  for (std::size_t seed = 0; seed < d.values.size(); ++seed) {
+    if (label.values[seed] != 0 || allowed.values[seed] == 0 || d.values[seed] == kNoDisparity) continue;
+    ++next;
+    int size = 0;
+    open.clear();
+    open.push_back(static_cast<int>(seed));
+    label.values[seed] = next;
+    while (!open.empty()) {
+      const int k = open.back();
+      open.pop_back();
+      ++size;
+      const int x = k % d.width;
+      const int y = k / d.width;
+      const int neighbours[4] = {x > 0 ? k - 1 : -1, x + 1 < d.width ? k + 1 : -1, y > 0 ? k - d.width : -1,
+                                 y + 1 < d.height ? k + d.width : -1};
+      for (const int n : neighbours) {
+        if (n < 0) continue;
+        const auto at = static_cast<std::size_t>(n);
+        if (label.values[at] != 0 || allowed.values[at] == 0 || d.values[at] == kNoDisparity) continue;
+        if (std::abs(d.values[at] - d.values[static_cast<std::size_t>(k)]) > step) continue;
+        label.values[at] = next;
+        open.push_back(n);
+      }
+    }
+    if (size > best.size) best = {next, size};
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
+                                 const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field) {
+  const PyramidLevel& left3 = pyramids.left[kCoarseLevel];
+  const PyramidLevel& right3 = pyramids.right[kCoarseLevel];
+  const double nearest = pair.disparity_px(pair.near_mm);
+  const double farthest = pair.disparity_px(pair.far_mm);
+  const int first3 = static_cast<int>(std::floor(farthest / 8)) - 1;
+  const int count3 = static_cast<int>(std::ceil(nearest / 8)) + 1 - first3;
+  TwoWay coarse(&context.scratch, left3.grey.width, left3.grey.height);
+  std::fill(coarse.first_left.values.begin(), coarse.first_left.values.end(), static_cast<std::int16_t>(first3));
+  std::fill(coarse.first_right.values.begin(), coarse.first_right.values.end(), static_cast<std::int16_t>(first3));
+  {
+    Arena::Mark mark(context.scratch);
+    match_both(left3, right3, count3, options.costs, context, coarse);
+    cross_check(coarse.left, coarse.right, 1.5F);
+    median3(coarse.left, context.scratch);
+    median3(coarse.right, context.scratch);
+  }
+  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching coarsely"};
+  const PyramidLevel& left2 = pyramids.left[kFineLevel];
+  const PyramidLevel& right2 = pyramids.right[kFineLevel];
+  const int w = left2.grey.width;
+  const int h = left2.grey.height;
+  TwoWay fine(&context.scratch, w, h);
+  predict(coarse.left, options.band, 2 * first3, 2 * (first3 + count3), fine.first_left);
+  predict(coarse.right, options.band, 2 * first3, 2 * (first3 + count3), fine.first_right);
+  {
+    Arena::Mark mark(context.scratch);
+    match_both(left2, right2, options.band, options.costs, context, fine);
+  }
+  cross_check(fine.left, fine.right, options.cross_check_px);
+  median3(fine.left, context.scratch);
+
+  Plane<std::uint8_t> allowed(&context.scratch, w, h, 1);
+  if (!pair.region.empty())
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x)
+        allowed.row(y)[x] = pair.region[static_cast<std::size_t>(std::min(4 * y, pair.height_px - 1)) * static_cast<std::size_t>(pair.width_px) +
+                                        static_cast<std::size_t>(std::min(4 * x, pair.width_px - 1))];
+  Plane<int> label(&context.scratch, w, h);
+  const Largest face = label_surfaces(fine.left, allowed, options.step_limit_px, label, context.scratch);
+  if (face.size < 400)
+    return Error{Errc::TooFewMatches, "no surface of a face's size between the near and far limits: is the face in both views and the calibration this rig's?"};
+  for (std::size_t k = 0; k < label.values.size(); ++k) {
+    field.domain.values[k] = label.values[k] == face.label ? 1 : 0;
+    field.disparity_px.values[k] = field.domain.values[k] != 0 ? 4 * fine.left.values[k] : 0.0F;
+  }
+  return {};
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The rough field from which refinement starts: semi-global matching over the whole volume on
+// pictures an eighth of the size, then in a narrow band at a quarter, cross-checked between the
+// views, and the one connected surface that is the face.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/match/image_pyramid.h"
+#include "pipeline/match/semi_global.h"
+#include "pipeline/match/surface_refiner.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::pipeline {
+
+struct CoarseSurfaceOptions {
+  SemiGlobalCosts costs;
+  int band = 12;                  // candidates around the prediction at the finer level
+  float cross_check_px = 1.5F;    // in pixels of the finer level
+  float step_limit_px = 1.5F;     // neighbours further apart belong to different surfaces
+};
+
+inline constexpr int kCoarseLevel = 3;
+inline constexpr int kFineLevel = 2;
+
+struct Pyramids {
+  std::pmr::vector<PyramidLevel> left;   // [level]; level 0 full size
+  std::pmr::vector<PyramidLevel> right;
+};
+
+// `field` is a lattice over level 2's pixels (step 4); its domain is empty where nothing was found.
+// Errors: TooFewMatches, Cancelled.
+Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
+                                 const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field);
+
+}  // namespace relievo::pipeline

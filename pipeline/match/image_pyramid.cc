@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/image_pyramid.h"
+
+#include <algorithm>
+
+namespace relievo::pipeline {
+namespace {
+
+float across(const float* row, int x, int width) {
+  const auto at = [&](int k) { return row[std::clamp(k, 0, width - 1)]; };
+  return at(x - 2) + 4 * at(x - 1) + 6 * at(x) + 4 * at(x + 1) + at(x + 2);
+}
+
+}  // namespace
+
+void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height,
+                PyramidLevel& half, int begin, int end) {
+  constexpr float kWeight[5] = {1, 4, 6, 4, 1};
+  for (int j = begin; j < end; ++j) {
+    float* to = half.grey.row(j);
+    std::fill(to, to + half.grey.width, 0.0F);
+    for (int k = -2; k <= 2; ++k) {
+      const int y = std::clamp(2 * j + k, 0, height - 1);
+      const float* from = grey + static_cast<std::ptrdiff_t>(y) * width;
+      const float w = kWeight[k + 2] * (1.0F / 256);
+      const int inner_end = std::min(half.grey.width, (width - 2) / 2);
+      for (int i = 0; i < std::min(1, half.grey.width); ++i) to[i] += w * across(from, 2 * i, width);
+      for (int i = 1; i < inner_end; ++i) {
+        const float* p = from + 2 * i;
+        to[i] += w * (p[-2] + 4 * p[-1] + 6 * p[0] + 4 * p[1] + p[2]);
+      }
+      for (int i = std::max(1, inner_end); i < half.grey.width; ++i) to[i] += w * across(from, 2 * i, width);
+    }
+    const std::uint8_t* from = valid + static_cast<std::ptrdiff_t>(std::min(2 * j, height - 1)) * width;
+    std::uint8_t* flag = half.valid.row(j);
+    for (int i = 0; i < half.grey.width; ++i) flag[i] = from[std::min(2 * i, width - 1)];
+  }
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pyramid step: half the size, pixel (i, j) of the smaller picture centred on pixel (2i, 2j) of the
+// larger, after a 5-tap binomial low-pass (Burt and Adelson 1983). Border pixels are repeated.
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/match/plane.h"
+
+namespace relievo::pipeline {
+
+struct PyramidLevel {
+  PyramidLevel(std::pmr::memory_resource* memory, int width, int height)
+      : grey(memory, width, height), valid(memory, width, height) {}
+  Plane<float> grey;
+  Plane<std::uint8_t> valid;
+};
+
+// `rows` of scratch: a band of the smaller picture, [begin, end).
+void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height,
+                PyramidLevel& half, int begin, int end);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Plane<T>: a picture or a field of numbers on an arena, row by row, no padding.
+#pragma once
+
+#include <cstddef>
+#include <memory_resource>
+#include <vector>
+
+namespace relievo::pipeline {
+
+template <typename T>
+struct Plane {
+  Plane(std::pmr::memory_resource* memory, int width_px, int height_px, T value = T{})
+      : width(width_px), height(height_px),
+        values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), value, memory) {}
+
+  int width;
+  int height;
+  std::pmr::vector<T> values;
+
+  T* row(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  const T* row(int y) const { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
+};
+
+}  // namespace relievo::pipeline

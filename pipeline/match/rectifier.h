@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Rectifier: resamples both pictures so that corresponding points share a row.
+//
+// The common x axis is the baseline; the common z axis lies between the two optical axes. Scale is
+// the cameras' own: the windows are laid over the pictures, one each, so that a toed-in pair is
+// neither zoomed nor cut (cf. Fusiello, Trucco, Verri 2000 for the rotation). Luminance is resampled
+// by cubic convolution (Keys 1981, a = -1/2), colour linearly.
+// Memory: the pair in `output`; scratch holds one grey source plane.
+// Errors: InvalidInput (empty picture, size other than calibrated, impossible geometry), OutOfMemory,
+// Cancelled. Thread: any; holds no state between calls.
+#pragma once
+
+#include "pipeline/model/calibration.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/stereo_frame.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+struct RectifierOptions {
+  double near_mm = 400;  // the volume in which a surface is looked for, along the rectified z axis
+  double far_mm = 750;
+  int longest_side_px = 4096;  // refuse geometry that needs a larger window: the rig cannot see the volume
+  Result<void> check() const;
+};
+
+class Rectifier {
+ public:
+  explicit Rectifier(const RectifierOptions& options) : options_(options) {}
+  Result<RectifiedPair> rectify(const StereoFrame& frame, const StereoCalibration& calibration,
+                                StageContext& context) const;
+
+ private:
+  RectifierOptions options_;
+};
+
+}  // namespace relievo::pipeline

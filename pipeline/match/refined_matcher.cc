@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/refined_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kLevels = 4;
+constexpr int kNodeStepPx = 2;  // the final lattice
+
+Pyramids build_pyramids(const RectifiedPair& pair, StageContext& context) {
+  Pyramids pyramids{std::pmr::vector<PyramidLevel>(&context.scratch), std::pmr::vector<PyramidLevel>(&context.scratch)};
+  for (int side = 0; side < 2; ++side) {
+    auto& levels = side == 0 ? pyramids.left : pyramids.right;
+    const RectifiedView& view = side == 0 ? pair.left : pair.right;
+    levels.reserve(kLevels);
+    levels.emplace_back(&context.scratch, pair.width_px, pair.height_px);
+    std::copy(view.grey.begin(), view.grey.end(), levels[0].grey.values.begin());
+    std::copy(view.valid.begin(), view.valid.end(), levels[0].valid.values.begin());
+    for (int level = 1; level < kLevels; ++level) {
+      const int w = levels.back().grey.width;
+      const int h = levels.back().grey.height;
+      levels.emplace_back(&context.scratch, (w + 1) / 2, (h + 1) / 2);
+      const PyramidLevel& from = levels[levels.size() - 2];
+      PyramidLevel& to = levels.back();
+      context.pool.for_each_band(to.grey.height, 8, [&](int begin, int end, int) {
+        halve_rows(from.grey.values.data(), from.valid.values.data(), w, h, to, begin, end);
+      });
+    }
+  }
+  return pyramids;
+}
+
+// The field on a lattice twice as dense: bilinear inside, nearest at the edge.
+void densify(const SurfaceField& from, SurfaceField& to) {
+  for (int y = 0; y < to.domain.height; ++y)
+    for (int x = 0; x < to.domain.width; ++x) {
+      const int i = std::min(x / 2, from.domain.width - 1);
+      const int j = std::min(y / 2, from.domain.height - 1);
+      to.domain.row(y)[x] = from.domain.row(j)[i];
+      if (to.domain.row(y)[x] == 0) continue;
+      const int right = std::min(i + (x & 1), from.domain.width - 1);
+      const int below = std::min(j + (y & 1), from.domain.height - 1);
+      const bool whole = (from.domain.row(j)[right] & from.domain.row(below)[i] & from.domain.row(below)[right]) != 0;
+      const float here = from.disparity_px.row(j)[i];
+      to.disparity_px.row(y)[x] = !whole ? here
+          : 0.25F * (here + from.disparity_px.row(j)[right] + from.disparity_px.row(below)[i] + from.disparity_px.row(below)[right]);
+    }
+}
+
+double bending_weight(const RectifiedPair& pair, float bending) {
+  // Curvature k (1/mm) bends the disparity by k * baseline / focal a square pixel; a pixel covers
+  // (z / focal)^2 square millimetres. Middle of the volume: the weight must not follow the noise.
+  const double z = 2 / (1 / pair.near_mm + 1 / pair.far_mm);
+  const double per_px = bending * pair.baseline_mm / pair.focal_px;
+  return (z / pair.focal_px) * (z / pair.focal_px) / (per_px * per_px);
+}
+
+// The nearest node, or bilinear between four of the domain.
+bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
+  const float fx = at.x / static_cast<float>(field.step_px);
+  const float fy = at.y / static_cast<float>(field.step_px);
+  const int x = static_cast<int>(fx);
+  const int y = static_cast<int>(fy);
+  if (fx < 0 || fy < 0 || x >= field.domain.width || y >= field.domain.height) return false;
+  if (field.domain.row(y)[x] == 0) return false;
+  match.disparity_px = field.disparity_px.row(y)[x];
+  match.sigma_px = field.sigma_px.row(y)[x];
+  match.cost = field.cost.row(y)[x];
+  const float tx = fx - static_cast<float>(x);
+  const float ty = fy - static_cast<float>(y);
+  if (tx == 0 && ty == 0) return true;
+  if (x + 1 >= field.domain.width || y + 1 >= field.domain.height) return false;
+  const float* upper = field.disparity_px.row(y) + x;
+  const float* lower = field.disparity_px.row(y + 1) + x;
+  if ((field.domain.row(y)[x + 1] & field.domain.row(y + 1)[x] & field.domain.row(y + 1)[x + 1]) == 0) return false;
+  const float top = upper[0] + tx * (upper[1] - upper[0]);
+  match.disparity_px = top + ty * (lower[0] + tx * (lower[1] - lower[0]) - top);
+  return true;
+}
+
+}  // namespace
+
+Result<void> RefinedMatcherOptions::check() const {
+  RELIEVO_TRY(refiner.check());
+  if (coarse.band < 4 || !(sigma_limit_px > 0))
+    return Error{Errc::InvalidInput, "refined: band must be at least 4 and sigma_limit_px positive"};
+  return {};
+}
+
+Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                       StageContext& context) const {
+  if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
+    return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
+  MatchSet set(&context.output);
+  set.lattice_step_px = keypoints.lattice_step_px;
+  set.matches.reserve(keypoints.points.size());
+  const Pyramids pyramids = build_pyramids(pair, context);
+  const auto& fine = pyramids.left[kFineLevel].grey;
+  SurfaceField field4(&context.scratch, fine.width, fine.height, 4);
+  {
+    Arena::Mark mark(context.scratch);
+    RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));
+  }
+  context.progress.done.store(0.4F, std::memory_order_relaxed);
+  const double lambda = bending_weight(pair, options_.refiner.bending);
+  const auto refine = [&](int level, SurfaceField& field) {
+    const RefinerScene scene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
+                             pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
+    return refine_surface(scene, options_.refiner, context, field);
+  };
+  RELIEVO_TRY(refine(2, field4));
+  const auto& half = pyramids.left[1].grey;
+  SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
+  densify(field4, field2);
+  RELIEVO_TRY(refine(1, field2));
+  context.progress.done.store(0.6F, std::memory_order_relaxed);
+  RELIEVO_TRY(refine(0, field2));
+  for (const Keypoint& keypoint : keypoints.points) {
+    Match match{.left_px = keypoint.at_px};
+    if (read_field(field2, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px)
+      set.matches.push_back(match);
+  }
+  if (set.matches.size() < 100)
+    return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
+  return set;
+}
+
+}  // namespace relievo::pipeline

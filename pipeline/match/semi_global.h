@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Semi-global matching (Hirschmueller 2008) on the census transform (Zabih and Woodfill 1994: blind
+// to gain and offset), in a band of candidates around a disparity already known for every pixel
+// (after Rothermel et al. 2012): memory is width * height * candidates, whatever the range.
+//
+// Candidate k of pixel (x, y) is the disparity first(x, y) + k. Eight paths.
+// Errors: std::bad_alloc when the arena is too small (run_stage makes it OutOfMemory).
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/match/plane.h"
+
+namespace relievo::pipeline {
+
+struct SemiGlobalCosts {
+  int step_penalty = 3;    // P1, in census bits: neighbours one disparity apart
+  int jump_penalty = 24;   // P2: anything further
+};
+
+inline constexpr float kNoDisparity = -1.0e6F;
+
+// Census of a picture: one bit a neighbour (9 x 7 without the centre) that is darker than the centre.
+// Two pixels of border stay 0.
+void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& census, int begin, int end);
+
+struct CensusPair {
+  const Plane<std::uint64_t>& from;              // the view the disparity field belongs to
+  const Plane<std::uint64_t>& to;
+  const Plane<std::uint8_t>& from_valid;
+  const Plane<std::uint8_t>& to_valid;
+  int sign;                                      // +1: x_to = x - d (left to right); -1: x_to = x + d
+};
+
+// Fills `disparity` (same size; kNoDisparity where nothing can be known) with sub-pixel minima.
+void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
+                 const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch,
+                 Plane<float>& disparity);
+
+// Marks as kNoDisparity what the other view does not confirm within `limit_px`.
+void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/surface_refiner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/match/bending_system.h"
+#include "pipeline/match/box_filter.h"
+#include "pipeline/match/warp_terms.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 16;
+
+// The node window that holds the domain with a margin, and the pixel window below it.
+struct Extent {
+  Window nodes;
+  Window pixels;
+};
+
+Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
+  int x0 = field.domain.width, y0 = field.domain.height, x1 = -1, y1 = -1;
+  for (int y = 0; y < field.domain.height; ++y)
+    for (int x = 0; x < field.domain.width; ++x) {
+      if (field.domain.row(y)[x] == 0) continue;
+      x0 = std::min(x0, x);
+      x1 = std::max(x1, x);
+      y0 = std::min(y0, y);
+      y1 = std::max(y1, y);
+    }
+  if (x1 < 0) return {};
+  x0 = std::max(0, x0 - 2);
+  y0 = std::max(0, y0 - 2);
+  x1 = std::min(field.domain.width - 1, x1 + 2);
+  y1 = std::min(field.domain.height - 1, y1 + 2);
+  const int step = field.step_px >> scene.level;
+  Extent extent;
+  extent.nodes = {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
+  extent.pixels = {x0 * step, y0 * step, std::min(extent.nodes.width * step, scene.left.width - x0 * step),
+                   std::min(extent.nodes.height * step, scene.left.height - y0 * step)};
+  return extent;
+}
+
+// Adds every pixel's weight * gradient^2 and weight * gradient * residual to the nodes around it.
+void gather_data(const WarpTerms& terms, int step, BendingSystem& system, Plane<float>& pull, ThreadPool& pool) {
+  constexpr float kTent[3] = {0.5F, 1, 0.5F};
+  pool.for_each_band(system.height(), kBands, [&](int begin, int end, int) {
+    for (int j = begin; j < end; ++j)
+      for (int i = 0; i < system.width(); ++i) {
+        float a = 0;
+        float b = 0;
+        for (int dy = 1 - step; dy < step; ++dy)
+          for (int dx = 1 - step; dx < step; ++dx) {
+            const int x = i * step + dx;
+            const int y = j * step + dy;
+            if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
+            const float tent = step == 1 ? 1.0F : kTent[dx + 1] * kTent[dy + 1];
+            const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
+            a += wg * terms.gradient.row(y)[x];
+            b += wg * terms.residual.row(y)[x];
+          }
+        system.data.row(j)[i] = a;
+        pull.row(j)[i] = b;
+      }
+  });
+}
+
+// Weights of the second differences: expected roughness where the surface is smooth, less where it
+// bends beyond what is expected (a Cauchy prior by reweighting).
+void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain, double lambda, double expected,
+                   BendingSystem& s, ThreadPool& pool) {
+  const int w = s.width();
+  const int h = s.height();
+  const auto weight = static_cast<float>(lambda);
+  const auto crease2 = static_cast<float>(1 / (expected * expected));
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < w; ++x) {
+        float& xx = s.bend_xx.row(y)[x];
+        float& yy = s.bend_yy.row(y)[x];
+        float& xy = s.bend_xy.row(y)[x];
+        xx = yy = xy = 0;
+        if (domain.row(y)[x] == 0 || x == 0 || y == 0 || x == w - 1 || y == h - 1) continue;
+        const float here = d.row(y)[x];
+        const auto in = [&](int i, int j) { return domain.row(y + j)[x + i] != 0; };
+        const auto at = [&](int i, int j) { return d.row(y + j)[x + i]; };
+        const bool row = in(-1, 0) && in(1, 0);
+        const bool column = in(0, -1) && in(0, 1);
+        const bool cell = in(1, 0) && in(0, 1) && in(1, 1) && x + 1 < w - 1 && y + 1 < h - 1;
+        const float dxx = row ? at(-1, 0) - 2 * here + at(1, 0) : 0;
+        const float dyy = column ? at(0, -1) - 2 * here + at(0, 1) : 0;
+        const float dxy = cell ? here - at(1, 0) - at(0, 1) + at(1, 1) : 0;
+        const float bend = dxx * dxx + dyy * dyy + 2 * dxy * dxy;
+        const float omega = weight / (1 + bend * crease2);
+        if (row) xx = omega;
+        if (column) yy = omega;
+        if (cell) xy = 2 * omega;
+      }
+  });
+}
+
+struct Work {
+  Work(std::pmr::memory_resource* memory, int w, int h)
+      : system(memory, w, h), pull(memory, w, h), d(memory, w, h), delta(memory, w, h), domain(memory, w, h) {}
+  BendingSystem system;
+  Plane<float> pull, d, delta;
+  Plane<std::uint8_t> domain;
+};
+
+void load(const SurfaceField& field, const Window& nodes, Work& work) {
+  for (int y = 0; y < nodes.height; ++y)
+    for (int x = 0; x < nodes.width; ++x) {
+      const bool border = x == 0 || y == 0 || x == nodes.width - 1 || y == nodes.height - 1;
+      work.d.row(y)[x] = field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x];
+      work.domain.row(y)[x] = border ? std::uint8_t{0} : field.domain.row(nodes.y0 + y)[nodes.x0 + x];
+    }
+}
+
+// sigma and cost of every node; `area` is the number of full-size pixels a node stands for.
+void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes, const Work& work,
+           std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
+  Plane<float> mean(&scratch, nodes.width, nodes.height);
+  Plane<float> across(&scratch, nodes.width, nodes.height);
+  constexpr int kRadius = 4;  // about the reach of one pixel's influence on skin
+  box_sum(work.system.data, kRadius, pool, across, mean);
+  for (int y = 1; y < nodes.height - 1; ++y)
+    for (int x = 1; x < nodes.width - 1; ++x) {
+      if (work.domain.row(y)[x] == 0) continue;
+      constexpr float kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
+      const double a = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
+      const float xx = work.system.bend_xx.row(y)[x];
+      const double bend = xx > 0 ? xx : lambda * 0.1;
+      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = static_cast<float>(std::sqrt(1 / (8 * std::sqrt(a * bend))));
+      const int px = std::min(x * step, terms.cost.width - 1);
+      const int py = std::min(y * step, terms.cost.height - 1);
+      field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
+    }
+}
+
+}  // namespace
+
+Result<void> SurfaceRefinerOptions::check() const {
+  if (!(bending > 0 && crease > 0 && local_window_px >= 5 && steps >= 1 && solver_steps >= 1))
+    return Error{Errc::InvalidInput, "refined: bending, crease, steps and solver_steps must be positive, local_window_px at least 5"};
+  return {};
+}
+
+Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options, StageContext& context,
+                            SurfaceField& field) {
+  const Extent extent = extent_of(field, scene);
+  if (extent.nodes.width < 5 || extent.nodes.height < 5) return {};
+  const Window& nodes = extent.nodes;
+  const int step = field.step_px >> scene.level;
+  const double spacing = field.step_px;
+  // Squared second differences over nodes `spacing` apart, one node a spacing^2 of full-size pixels.
+  const double lambda = scene.lambda_px / (spacing * spacing);
+  const double expected = options.crease / std::sqrt(lambda);
+  // A level's pixel stands for 4^level full-size ones whose noise its own low-pass has averaged.
+  for (int k = 0; k < options.steps; ++k) {
+    if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
+    Arena::Mark mark(context.scratch);
+    Work work(&context.scratch, nodes.width, nodes.height);
+    load(field, nodes, work);
+    WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
+    form_terms(scene, options, field, extent.pixels, context, terms);
+    gather_data(terms, step, work.system, work.pull, context.pool);
+    weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
+    for (std::size_t n = 0; n < work.domain.values.size(); ++n)
+      if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = 0;
+    Plane<float> rolling(&context.scratch, rolling_floats(nodes.width), 1);
+    apply_system(work.system, work.d, false, work.system.rhs, 0, nodes.height, rolling.row(0));
+    for (std::size_t n = 0; n < work.pull.values.size(); ++n)
+      work.system.rhs.values[n] = work.domain.values[n] != 0 ? -work.pull.values[n] - work.system.rhs.values[n] : 0.0F;
+    solve(work.system, options.solver_steps, context.pool, context.scratch, work.delta);
+    const float limit = 1.0F * static_cast<float>(1 << scene.level);  // the linear model holds for about a pixel
+    for (int y = 1; y < nodes.height - 1; ++y)
+      for (int x = 1; x < nodes.width - 1; ++x)
+        if (work.domain.row(y)[x] != 0)
+          field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] += std::clamp(work.delta.row(y)[x], -limit, limit);
+    if (k == options.steps - 1) judge(terms, step, lambda, nodes, work, context.scratch, context.pool, field);
+  }
+  return {};
+}
+
+}  // namespace relievo::pipeline

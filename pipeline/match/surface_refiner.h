@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SurfaceRefiner: turns a rough disparity field into one at the accuracy the image noise allows.
+//
+// One image is warped by the current field, every pixel's residual and gradient are formed
+// symmetrically in both views (Nehab et al. 2005; the one-sided bias cancels), local offset and gain
+// are taken out, and one linear system for the whole face is solved by conjugate gradients:
+//
+//   E(d) = sum w (residual + gradient * delta)^2 + lambda * sum omega |second differences of d|^2
+//
+// so the effective window grows where the skin is plain and shrinks where it is rich, and a curved
+// surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
+// sharply (iteratively reweighted), so that eyelids and nostrils keep their creases.
+// sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed form of
+// the integral of 1 / (A + lambda k^4) over the plane.
+// Memory: scratch only. Results do not depend on the number of threads.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/base/thread_pool.h"
+#include "pipeline/match/image_pyramid.h"
+#include "pipeline/match/plane.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+// A field over the nodes of a lattice; node (i, j) stands on full-size pixel (step_px * i, step_px * j).
+struct SurfaceField {
+  SurfaceField(std::pmr::memory_resource* memory, int width, int height, int step)
+      : step_px(step), disparity_px(memory, width, height), domain(memory, width, height),
+        sigma_px(memory, width, height), cost(memory, width, height) {}
+  int step_px;
+  Plane<float> disparity_px;        // full-size pixels
+  Plane<std::uint8_t> domain;       // 1 where the surface is solved for
+  Plane<float> sigma_px;            // of disparity_px
+  Plane<float> cost;                // 1 - local zero-mean correlation
+};
+
+struct SurfaceRefinerOptions {
+  float bending = 0.02F;            // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
+  float crease = 3.0F;              // second differences beyond this many expected ones count as creases
+  int local_window_px = 21;         // offset and gain are constant over this window
+  int steps = 4;                    // warps a level
+  int solver_steps = 40;            // conjugate-gradient steps a warp
+  Result<void> check() const;
+};
+
+struct RefinerScene {
+  const Plane<float>& left;
+  const Plane<float>& right;
+  const Plane<std::uint8_t>& right_valid;
+  int level;                        // the pictures are 2^level smaller than full size
+  double lambda_px;                 // weight of squared second derivatives per full-size pixel
+};
+
+Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
+                            StageContext& context, SurfaceField& field);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/warp_terms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal/base/simd.h"
+#include "pipeline/match/box_filter.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 16;
+constexpr int kNoiseRadius = 3;
+
+struct Sampled { float value, slope; };
+
+// Cubic convolution (Keys 1981, a = -1/2) and its derivative, between row[1] and row[2].
+inline Sampled cubic(const float* p, float t) {
+  const float a = 0.5F * (p[2] - p[0]);
+  const float b = p[0] - 2.5F * p[1] + 2 * p[2] - 0.5F * p[3];
+  const float c = 0.5F * (p[3] - p[0]) + 1.5F * (p[1] - p[2]);
+  return {p[1] + t * (a + t * (b + t * c)), a + t * (2 * b + t * 3 * c)};
+}
+
+// Disparity at a level pixel, in level pixels: bilinear between nodes of the domain.
+struct FieldRow {
+  const float *upper, *lower;
+  const std::uint8_t *upper_in, *lower_in;
+  float ty;
+};
+
+float node_disparity(const FieldRow& rows, int i, float tx) {
+  if (rows.upper_in[i] & rows.upper_in[i + 1] & rows.lower_in[i] & rows.lower_in[i + 1]) {
+    const float top = rows.upper[i] + tx * (rows.upper[i + 1] - rows.upper[i]);
+    const float low = rows.lower[i] + tx * (rows.lower[i + 1] - rows.lower[i]);
+    return top + rows.ty * (low - top);
+  }
+  return rows.upper[i];  // at the edge of the domain the nearest node to the upper left stands for the cell
+}
+
+struct Warped {
+  Plane<float>& left;
+  Plane<float>& right;
+  Plane<float>& left_slope;
+  Plane<float>& right_slope;
+  Plane<float>& mask;
+};
+
+void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window& window, int y, Warped& out) {
+  const int nodes_per_pixel_shift = field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
+  const float to_level = 1.0F / static_cast<float>(1 << scene.level);
+  const int py = window.y0 + y;
+  const int j = py / nodes_per_pixel_shift;
+  const int below = std::min(j + 1, field.domain.height - 1);
+  const FieldRow rows{field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j),
+                      field.domain.row(below),
+                      static_cast<float>(py % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift)};
+  const float* left = scene.left.row(py);
+  const float* right = scene.right.row(py);
+  const std::uint8_t* right_valid = scene.right_valid.row(py);
+  for (int x = 0; x < window.width; ++x) {
+    const int px = window.x0 + x;
+    const int i = px / nodes_per_pixel_shift;
+    out.mask.row(y)[x] = 0;
+    out.left.row(y)[x] = out.right.row(y)[x] = out.left_slope.row(y)[x] = out.right_slope.row(y)[x] = 0;
+    if (rows.upper_in[i] == 0 || px < 1 || px + 2 > scene.left.width) continue;
+    const float tx = static_cast<float>(px % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift);
+    const float d = node_disparity(rows, std::min(i, field.domain.width - 2), tx) * to_level;
+    const float at = static_cast<float>(px) - d;
+    if (!(at >= 1 && at < static_cast<float>(scene.right.width - 2))) continue;
+    const int k = static_cast<int>(at);
+    if ((right_valid[k - 1] & right_valid[k + 2]) == 0) continue;
+    const Sampled sample = cubic(right + k - 1, at - static_cast<float>(k));
+    out.mask.row(y)[x] = 1;
+    out.left.row(y)[x] = left[px];
+    out.left_slope.row(y)[x] = 0.5F * (left[px + 1] - left[px - 1]);
+    out.right.row(y)[x] = sample.value;
+    out.right_slope.row(y)[x] = sample.slope;
+  }
+}
+
+RELIEVO_SIMD void multiply_row(const float* a, const float* b, int w, float* out) {
+  for (int x = 0; x < w; ++x) out[x] = a[x] * b[x];
+}
+
+struct Moments {
+  const float *count, *left, *right, *left_left, *right_right, *left_right;
+};
+
+struct RowTerms {
+  float *residual, *gradient, *cost;
+};
+
+// Offset and gain taken out symmetrically: each view is divided by the root of the local gain. The
+// gain is drawn towards the whole face's where there is little texture to tell it from.
+RELIEVO_SIMD void residual_row(const Moments& m, const Warped& s, int y, int w, float level_scale, float gain,
+                               float floor_variance, const RowTerms& out) {
+  const float* mask = s.mask.row(y);
+  const float* left = s.left.row(y);
+  const float* right = s.right.row(y);
+  const float* left_slope = s.left_slope.row(y);
+  const float* right_slope = s.right_slope.row(y);
+  for (int x = 0; x < w; ++x) {
+    const float n = 1.0F / std::max(m.count[x], 1.0F);
+    const float mean_left = m.left[x] * n;
+    const float mean_right = m.right[x] * n;
+    const float var_left = std::max(m.left_left[x] * n - mean_left * mean_left, 0.0F);
+    const float var_right = std::max(m.right_right[x] * n - mean_right * mean_right, 0.0F);
+    const float covariance = m.left_right[x] * n - mean_left * mean_right;
+    const float local = gain * std::sqrt((var_right / (gain * gain) + floor_variance) / (var_left + floor_variance));
+    const float root = std::sqrt(local);
+    const float inverse = 1.0F / root;
+    out.residual[x] = mask[x] * ((right[x] - mean_right) * inverse - (left[x] - mean_left) * root);
+    out.gradient[x] = mask[x] * -0.5F * level_scale * (right_slope[x] * inverse + left_slope[x] * root);
+    out.cost[x] = 1.0F - mask[x] * covariance / std::sqrt(var_left * var_right + 1e-3F);
+  }
+}
+
+// A robust standard deviation of the residuals: their median absolute value, from a histogram.
+float noise_variance(const WarpTerms& terms) {
+  constexpr int kBins = 512;
+  constexpr float kPerGrey = 16;
+  long histogram[kBins] = {};
+  long all = 0;
+  for (std::size_t k = 0; k < terms.residual.values.size(); ++k) {
+    if (terms.mask.values[k] == 0) continue;
+    const int bin = std::min(kBins - 1, static_cast<int>(std::abs(terms.residual.values[k]) * kPerGrey));
+    ++histogram[bin];
+    ++all;
+  }
+  long seen = 0;
+  int bin = 0;
+  while (bin < kBins - 1 && 2 * (seen + histogram[bin]) < all) seen += histogram[bin++];
+  const float median = (static_cast<float>(bin) + 0.5F) / kPerGrey;
+  const float sigma = 1.4826F * median;
+  return std::max(sigma * sigma, 0.05F);
+}
+
+}  // namespace
+
+void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
+                const Window& window, StageContext& context, WarpTerms& terms) {
+  const int w = window.width;
+  const int h = window.height;
+  ThreadPool& pool = context.pool;
+  std::pmr::memory_resource* memory = &context.scratch;
+  Plane<float> left(memory, w, h), right(memory, w, h), left_slope(memory, w, h), right_slope(memory, w, h);
+  Plane<float> count(memory, w, h), sum_left(memory, w, h), sum_right(memory, w, h), sum_ll(memory, w, h);
+  Plane<float> sum_rr(memory, w, h), sum_lr(memory, w, h), across(memory, w, h);
+  Warped warped{left, right, left_slope, right_slope, terms.mask};
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y) {
+      warp_row(scene, field, window, y, warped);
+      multiply_row(left.row(y), left.row(y), w, sum_ll.row(y));
+      multiply_row(right.row(y), right.row(y), w, sum_rr.row(y));
+      multiply_row(left.row(y), right.row(y), w, sum_lr.row(y));
+    }
+  });
+  const int radius = options.local_window_px / 2;
+  box_sum(terms.mask, radius, pool, across, count);
+  box_sum(left, radius, pool, across, sum_left);
+  box_sum(right, radius, pool, across, sum_right);
+  box_sum(sum_ll, radius, pool, across, sum_ll);
+  box_sum(sum_rr, radius, pool, across, sum_rr);
+  box_sum(sum_lr, radius, pool, across, sum_lr);
+
+  double all_left = 0;
+  double all_right = 0;
+  for (std::size_t k = 0; k < count.values.size(); k += 7) {
+    const float n = count.values[k];
+    if (n < 30 || terms.mask.values[k] == 0) continue;
+    all_left += sum_ll.values[k] / n - (sum_left.values[k] / n) * (sum_left.values[k] / n);
+    all_right += sum_rr.values[k] / n - (sum_right.values[k] / n) * (sum_right.values[k] / n);
+  }
+  const auto gain = static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
+  const float level_scale = 1.0F / static_cast<float>(1 << scene.level);
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y) {
+      const Moments m{count.row(y), sum_left.row(y), sum_right.row(y), sum_ll.row(y), sum_rr.row(y), sum_lr.row(y)};
+      residual_row(m, warped, y, w, level_scale, gain, 16.0F,
+                   {terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y)});
+    }
+  });
+  // The offset soaks up what a slope of shading says: so must the gradient's own mean.
+  box_sum(terms.gradient, radius, pool, across, sum_left);
+  const float noise = noise_variance(terms);
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < w; ++x)
+        terms.gradient.row(y)[x] -= terms.mask.row(y)[x] * sum_left.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+      multiply_row(terms.residual.row(y), terms.residual.row(y), w, sum_rr.row(y));
+    }
+  });
+  box_sum(sum_rr, kNoiseRadius, pool, across, sum_rr);
+  box_sum(terms.mask, kNoiseRadius, pool, across, sum_ll);
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < w; ++x) {
+        const float local = sum_rr.row(y)[x] / std::max(sum_ll.row(y)[x], 1.0F);
+        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, noise);
+      }
+  });
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The data terms of SurfaceRefiner: the right view warped onto the left by a disparity field, and
+// what every pixel then says about the field.
+#pragma once
+
+#include "pipeline/match/surface_refiner.h"
+
+namespace relievo::pipeline {
+
+// A rectangle of level pixels that surrounds the surface.
+struct Window {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+// Per pixel of the window, 0 where the pixel says nothing.
+struct WarpTerms {
+  WarpTerms(std::pmr::memory_resource* memory, int width, int height)
+      : residual(memory, width, height), gradient(memory, width, height), weight(memory, width, height),
+        mask(memory, width, height), cost(memory, width, height) {}
+  Plane<float> residual;   // grey levels, offset and gain removed
+  Plane<float> gradient;   // its derivative by the disparity, grey levels per full-size pixel
+  Plane<float> weight;     // 1 / variance of the residual
+  Plane<float> mask;       // 1 where both views show the surface
+  Plane<float> cost;       // 1 - local zero-mean normalised correlation
+};
+
+void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
+                const Window& window, StageContext& context, WarpTerms& terms);
+
+}  // namespace relievo::pipeline
