@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/surface_cleaner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus, mesh::unit;
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+double triangle_area(std::span<const Vec3f> v, const Triangle& t) {
+  return 0.5 * static_cast<double>(length(cross(minus(v[t[1]], v[t[0]]), minus(v[t[2]], v[t[0]]))));
+}
+
+// Triangles with their neighbours; triangles die, they are never moved.
+class Soup {
+ public:
+  Soup(std::span<const Vec3f> vertices, std::span<const Triangle> triangles, std::pmr::memory_resource* memory)
+      : vertices_(vertices), triangles_(triangles), first_(vertices.size() + 1, 0U, memory),
+        around_(3 * triangles.size(), 0U, memory), across_(3 * triangles.size(), kNone, memory),
+        alive_(triangles.size(), 1, memory), mark_(triangles.size(), kNone, memory), stack_(memory),
+        corners_(vertices.size(), 0, memory), inner_(vertices.size(), 0, memory) {
+    stack_.reserve(triangles.size());
+    index_corners();
+    find_neighbours();
+  }
+
+  bool alive(std::size_t t) const { return alive_[t] != 0; }
+
+  // Each pass takes only what the boundary was when it began, so that it cannot eat its way inwards.
+  std::size_t drop_ears() {
+    stack_.clear();
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      if (alive_[t] && neighbours(t) <= 1) stack_.push_back(t);
+    for (const std::uint32_t t : stack_) alive_[t] = 0;
+    return stack_.size();
+  }
+
+  std::size_t keep_largest_component() {
+    std::fill(mark_.begin(), mark_.end(), kNone);
+    std::uint32_t best = kNone;
+    double best_area = -1;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      if (!alive_[t] || mark_[t] != kNone) continue;
+      const double area = flood(t);
+      if (area > best_area) {
+        best_area = area;
+        best = t;
+      }
+    }
+    std::size_t dropped = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!alive_[t] || mark_[t] == best) continue;
+      alive_[t] = 0;
+      ++dropped;
+    }
+    return dropped;
+  }
+
+  // At a vertex of one open fan, triangles exceed shared edges by one; at a closed fan they are equal.
+  std::size_t split_bow_ties() {
+    std::fill(corners_.begin(), corners_.end(), std::uint16_t{0});
+    std::fill(inner_.begin(), inner_.end(), std::uint16_t{0});
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      if (!alive_[t]) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        ++corners_[triangles_[t][k]];
+        if (!joined(t, k)) continue;
+        ++inner_[triangles_[t][k]];
+        ++inner_[triangles_[t][(k + 1) % 3]];
+      }
+    }
+    std::size_t dropped = 0;
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+      if (2 * corners_[v] >= inner_[v] + 4) dropped += keep_largest_fan(v);
+    return dropped;
+  }
+
+ private:
+  void index_corners() {
+    for (const Triangle& t : triangles_)
+      for (const std::uint32_t v : t) ++first_[v + 1];
+    for (std::size_t v = 0; v < vertices_.size(); ++v) first_[v + 1] += first_[v];
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (const std::uint32_t v : triangles_[t]) around_[first_[v]++] = t;
+    // Filling moved each start to its end, which is the next one's start.
+    std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
+    first_[0] = 0;
+  }
+
+  void find_neighbours() {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (across_[3 * t + k] != kNone) continue;
+        const std::uint32_t from = triangles_[t][k];
+        const std::uint32_t to = triangles_[t][(k + 1) % 3];
+        for (std::uint32_t i = first_[from]; i < first_[from + 1]; ++i) {
+          const Triangle& other = triangles_[around_[i]];
+          const std::size_t j = other[0] == to ? 0 : other[1] == to ? 1 : 2;
+          if (other[j] != to || other[(j + 1) % 3] != from) continue;
+          across_[3 * t + k] = around_[i];
+          across_[3 * around_[i] + j] = t;
+          break;
+        }
+      }
+  }
+
+  bool joined(std::uint32_t t, std::size_t k) const {
+    const std::uint32_t other = across_[3 * std::size_t{t} + k];
+    return other != kNone && alive_[other];
+  }
+  int neighbours(std::uint32_t t) const { return joined(t, 0) + joined(t, 1) + joined(t, 2); }
+
+  double flood(std::uint32_t seed) {
+    double area = 0;
+    stack_.assign(1, seed);
+    mark_[seed] = seed;
+    while (!stack_.empty()) {
+      const std::uint32_t t = stack_.back();
+      stack_.pop_back();
+      area += triangle_area(vertices_, triangles_[t]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t other = across_[3 * std::size_t{t} + k];
+        if (other == kNone || !alive_[other] || mark_[other] != kNone) continue;
+        mark_[other] = seed;
+        stack_.push_back(other);
+      }
+    }
+    return area;
+  }
+
+  // Turns from `start` over the edges at `v` in one sense; the fan's length, its triangles in stack_.
+  void collect_fan(std::uint32_t v, std::uint32_t start) {
+    stack_.assign(1, start);
+    for (std::size_t next = 0; next < stack_.size(); ++next) {
+      const std::uint32_t t = stack_[next];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (triangles_[t][k] != v && triangles_[t][(k + 1) % 3] != v) continue;
+        const std::uint32_t other = across_[3 * std::size_t{t} + k];
+        if (other == kNone || !alive_[other]) continue;
+        if (std::find(stack_.begin(), stack_.end(), other) == stack_.end()) stack_.push_back(other);
+      }
+    }
+  }
+
+  std::size_t keep_largest_fan(std::uint32_t v) {
+    std::uint32_t keep = kNone;
+    std::size_t longest = 0;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      if (!alive_[around_[i]]) continue;
+      collect_fan(v, around_[i]);
+      if (stack_.size() > longest) {
+        longest = stack_.size();
+        keep = around_[i];
+      }
+    }
+    if (keep == kNone) return 0;
+    collect_fan(v, keep);
+    std::size_t dropped = 0;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      const std::uint32_t t = around_[i];
+      if (!alive_[t] || std::find(stack_.begin(), stack_.end(), t) != stack_.end()) continue;
+      alive_[t] = 0;
+      ++dropped;
+    }
+    return dropped;
+  }
+
+  std::span<const Vec3f> vertices_;
+  std::span<const Triangle> triangles_;
+  std::pmr::vector<std::uint32_t> first_, around_;  // triangles around vertex v: around_[first_[v] .. first_[v + 1])
+  std::pmr::vector<std::uint32_t> across_;          // the triangle behind each edge
+  std::pmr::vector<std::uint8_t> alive_;
+  std::pmr::vector<std::uint32_t> mark_, stack_;
+  std::pmr::vector<std::uint16_t> corners_, inner_;
+};
+
+}  // namespace
+
+double area_mm2(std::span<const Vec3f> vertices, std::span<const Triangle> triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) sum += triangle_area(vertices, t);
+  return sum;
+}
+
+void keep_one_surface(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles,
+                      const CleanerOptions& options, std::pmr::memory_resource* scratch) {
+  if (triangles.empty()) return;
+  Soup soup(vertices, triangles, scratch);
+  soup.keep_largest_component();
+  for (int pass = 0; pass < options.ear_passes; ++pass)
+    if (soup.drop_ears() == 0) break;
+  // Every turn takes at least one triangle, so it ends.
+  while (soup.split_bow_ties() + soup.keep_largest_component() > 0) {}
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (soup.alive(t)) triangles[kept++] = triangles[t];
+  triangles.resize(kept);
+}
+
+void compute_normals(FaceMesh& face, int passes, std::pmr::memory_resource* scratch) {
+  face.normals.assign(face.vertices_mm.size(), Vec3f{});
+  for (const Triangle& t : face.triangles) {
+    const Vec3f& a = face.vertices_mm[t[0]];
+    const Vec3f n = cross(minus(face.vertices_mm[t[1]], a), minus(face.vertices_mm[t[2]], a));
+    for (const std::uint32_t v : t) face.normals[v] = plus(face.normals[v], n);
+  }
+  for (Vec3f& n : face.normals) n = unit(n);
+  if (passes <= 0) return;
+  std::pmr::vector<Vec3f> next(face.normals.size(), Vec3f{}, scratch);
+  for (int pass = 0; pass < passes; ++pass) {
+    std::fill(next.begin(), next.end(), Vec3f{});
+    for (const Triangle& t : face.triangles) {
+      const Vec3f sum = plus(plus(face.normals[t[0]], face.normals[t[1]]), face.normals[t[2]]);
+      for (const std::uint32_t v : t) next[v] = plus(next[v], sum);
+    }
+    for (std::size_t v = 0; v < next.size(); ++v) face.normals[v] = unit(next[v]);
+  }
+}
+
+void turn_sigma_perpendicular(FaceMesh& face) {
+  for (std::size_t v = 0; v < face.vertices_mm.size(); ++v)
+    face.sigma_mm[v] *= std::abs(dot(face.normals[v], unit(face.vertices_mm[v])));
+}
+
+}  // namespace relievo::pipeline
