@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ExportMesh: a face model as the writers want it: checked, in the frame asked for, millimetres.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "pipeline/model/face_model.h"
+
+namespace relievo::storage {
+
+// Head: origin at the tip of the nose, x to the person's left, y up, z out of the face.
+// Camera: the left camera before rectification, x right, y down, z forward.
+enum class ExportFrame : std::uint8_t { Head, Camera };
+
+struct ExportMesh {
+  const pipeline::FaceModel& model;  // for what no frame changes: triangles, uv, texture, sigma
+  ExportFrame frame;
+  std::vector<pipeline::Vec3f> vertices_mm;
+  std::vector<pipeline::Vec3f> normals;              // unit length, always
+  std::vector<std::array<std::uint8_t, 3>> colours;  // one a vertex; white where the model has none
+
+  bool textured() const { return !model.texture.uv.empty(); }
+};
+
+// InvalidInput: lengths that do not fit together, indices out of range, numbers that are not finite.
+// May throw std::bad_alloc. `model` must outlive the result.
+Result<ExportMesh> make_export_mesh(const pipeline::FaceModel& model, ExportFrame frame);
+
+}  // namespace relievo::storage

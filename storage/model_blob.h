@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The stored form of a face model: mesh, texture, head frame and quality in one piece of bytes.
+//
+// Little-endian, whatever the machine:
+//   "RFACE\0" u16 version | 5 x u32 vertices triangles width_px height_px flags | 12 f64 head_from_camera
+//   | 7 f64 quality | vertices 3 f32 | normals 3 f32 | sigma f32 | measured u8 | triangles 3 u32
+//   | texture rgb | uv 2 f32 a corner | vertex rgb | SHA-256 of all before it
+// Every number comes back bit for bit. The length follows from the header alone, so a cut piece, a
+// longer piece and hostile sizes are refused before anything is allocated.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "pipeline/model/face_model.h"
+
+namespace relievo::storage {
+
+inline constexpr std::uint32_t kMaxModelVertices = 4'000'000;
+inline constexpr std::uint32_t kMaxModelTriangles = 8'000'000;
+inline constexpr std::uint32_t kMaxTextureSidePx = 8192;
+
+// InvalidInput: arrays whose lengths do not fit together, an index out of range, more than the
+// limits above. Normals, sigma, measured and vertex colours may be absent as a whole.
+// May throw std::bad_alloc, as may decode_model().
+Result<std::vector<std::byte>> encode_model(const pipeline::FaceModel& model);
+
+// StoreCorrupt: not such a piece, cut, changed; StoreNewer: a version of the form not known here.
+Result<pipeline::FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memory_resource* memory);
+
+}  // namespace relievo::storage

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The records of the store: plain data, no SQL, no files.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "pipeline/model/calibration.h"
+#include "pipeline/model/face_model.h"
+
+namespace relievo::storage {
+
+using WallTime = std::chrono::sys_time<std::chrono::milliseconds>;
+
+// Types of their own: a subject's number cannot be passed where an enrolment's is asked for.
+// Numbers are never given twice, not even after an erasure.
+enum class SubjectId : std::int64_t {};
+enum class EnrolmentId : std::int64_t {};
+
+struct NewSubject {
+  std::string name;  // UTF-8, 1 to kMaxNameBytes bytes; two people may have the same
+};
+
+// The person an enrolment belongs to: known already, or made in the same transaction.
+using SubjectChoice = std::variant<SubjectId, NewSubject>;
+
+struct Subject {
+  SubjectId id{};
+  std::string name;
+  WallTime created_at;
+  int enrolments = 0;
+};
+
+struct SubjectFilter {
+  std::string name;                 // empty: everyone
+  bool whole_name = false;          // false: `name` anywhere in the name, ASCII letters in either case
+  std::int64_t skip = 0;            // for paging; the newest come first
+  std::int64_t limit = 1000;
+};
+
+// What a person agreed to, when, and to which wording.
+struct Consent {
+  std::string wording;              // version of the text that was shown, as "2026-03"
+  std::string language;             // as "en"
+  WallTime given_at;
+};
+
+// Borrowed for the call. The strings are stored as they are.
+struct NewEnrolment {
+  const pipeline::FaceModel& model;
+  Consent consent;
+  std::uint32_t calibration_revision = 0;  // 0: made with a calibration that is not in the store
+  std::string_view algorithms;             // the set of algorithms, TOML
+  std::string_view report_json;
+};
+
+struct Enrolment {
+  EnrolmentId id{};
+  SubjectId subject{};
+  WallTime created_at;
+  Consent consent;
+  std::uint32_t calibration_revision = 0;
+  std::string algorithms;
+  std::string report_json;
+  std::int64_t model_bytes = 0;
+};
+
+struct CalibrationInfo {
+  std::uint32_t revision = 0;
+  WallTime created_at;
+  std::string note;                 // where it came from, as a person would say it
+  double rms_px = 0;
+  int width_px = 0;
+  int height_px = 0;
+  bool active = false;
+};
+
+// Nobody's name goes into the audit log: `subject` is a number that means nothing after an erasure.
+struct AuditEvent {
+  std::string what;                 // as "subject.erased"
+  SubjectId subject{};              // 0: nobody's
+  std::string detail;
+};
+
+struct AuditRecord {
+  std::int64_t number = 0;          // 1, 2, 3 ... without a gap
+  WallTime at;
+  AuditEvent event;
+};
+
+inline constexpr std::size_t kMaxNameBytes = 200;
+inline constexpr std::size_t kMaxTextBytes = 1'000'000;  // algorithms, report, setting, note, detail
+
+}  // namespace relievo::storage

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Store: everything that survives a power cut. Subjects, enrolments with their models, calibrations,
+// settings and the audit log.
+//
+// Every verb that changes something is one transaction: all of it is on the disk when the call
+// returns without an error, none of it otherwise. Each writes its own line of the audit log in the
+// same transaction.
+//
+// Errors of every verb: OutOfMemory; StoreCorrupt (stop, restore a copy); MediaFull; IoFailed;
+// Timeout (another program holds the store); InvalidState (a change asked of a store opened to read).
+// Further ones are named at the verb.
+// Thread: one at a time (the keeper).
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "storage/record.h"
+
+namespace relievo::storage {
+
+class Store {
+ public:
+  virtual ~Store() = default;
+
+  // Reads every page, every model, every calibration and the whole audit chain. StoreCorrupt says
+  // what is wrong with what. Takes seconds to minutes on a full store.
+  virtual Result<void> check() = 0;
+
+  // InvalidInput: the name is empty, too long or not UTF-8.
+  virtual Result<SubjectId> add_subject(const NewSubject& subject) = 0;
+  virtual Result<std::vector<Subject>> subjects(const SubjectFilter& filter) = 0;
+  virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
+  // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound.
+  virtual Result<void> erase_subject(SubjectId id) = 0;
+
+  // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.
+  virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject,
+                                            const NewEnrolment& enrolment) = 0;
+  virtual Result<std::vector<Enrolment>> enrolments(SubjectId subject) = 0;  // oldest first
+  virtual Result<Enrolment> enrolment(EnrolmentId id) = 0;                   // NotFound
+  // The model, bit for bit as it was stored, in `memory`. NotFound.
+  virtual Result<pipeline::FaceModel> load_model(EnrolmentId id,
+                                                 std::pmr::memory_resource* memory) = 0;
+
+  // Stores a calibration under the next revision, which it returns, and makes it the active one.
+  // InvalidInput: not finite, or without a focal length or a size.
+  virtual Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
+                                                 std::string_view note) = 0;
+  virtual Result<std::vector<CalibrationInfo>> calibrations() = 0;                     // newest first
+  virtual Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) = 0; // NotFound
+  virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                // NotCalibrated
+  virtual Result<void> activate_calibration(std::uint32_t revision) = 0;               // NotFound
+
+  virtual Result<std::string> setting(std::string_view key) = 0;                       // NotFound
+  virtual Result<void> set_setting(std::string_view key, std::string_view value) = 0;
+
+  virtual Result<void> append_audit(const AuditEvent& event) = 0;
+  virtual Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) = 0;
+};
+
+}  // namespace relievo::storage
