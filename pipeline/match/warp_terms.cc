@@ -158,7 +158,7 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
       multiply_row(left.row(y), right.row(y), w, sum_lr.row(y));
     }
   });
-  const int radius = options.local_window_px / 2;
+  const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
   box_sum(terms.mask, radius, pool, across, count);
   box_sum(left, radius, pool, across, sum_left);
   box_sum(right, radius, pool, across, sum_right);
