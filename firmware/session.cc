@@ -15,7 +15,7 @@ Result<void> EnrolmentSession::open(std::string_view subject) {
   if (subject.size() > budget::kSubjectNameBytes) {
     return Error{Errc::InvalidInput, "the name is longer than 128 bytes: choose a shorter one"};
   }
-  RELIEVO_ASSERT(output_.used() == 0 && scratch_.used() == 0);
+  RELIEVO_ASSERT(output_.used() == 0 && scratch_touched_ == 0);
   subject.copy(subject_.data(), subject.size());
   make_products();
   return {};
@@ -47,7 +47,8 @@ void EnrolmentSession::wipe() {
   products_ = nullptr;
   slot_.wipe();
   output_.wipe();
-  scratch_.wipe();
+  explicit_bzero(scratch_block_.data(), scratch_touched_);
+  scratch_touched_ = 0;
 }
 
 }  // namespace relievo::firmware

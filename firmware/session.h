@@ -11,6 +11,7 @@
 // Thread: main opens and closes, and only while no job runs; a running job has the products.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -39,7 +40,7 @@ struct Products {
 class EnrolmentSession {
  public:
   explicit EnrolmentSession(const BootMemory& memory)
-      : slot_(memory.frames()), output_(memory.output()), scratch_(memory.scratch()) {}
+      : slot_(memory.frames()), output_(memory.output()), scratch_block_(memory.scratch()) {}
   ~EnrolmentSession() { close(); }
   EnrolmentSession(const EnrolmentSession&) = delete;
   EnrolmentSession& operator=(const EnrolmentSession&) = delete;
@@ -54,7 +55,19 @@ class EnrolmentSession {
   Products& products() const;
   StereoSlot& slot() { return slot_; }
   Arena& output() { return output_; }
-  Arena& scratch() { return scratch_; }
+  // A scratch arena of one stage's own, so that its peak can be told; what it touched the session wipes.
+  class Scratch {
+   public:
+    explicit Scratch(EnrolmentSession& session) : session_(session), arena_(session.scratch_block_) {}
+    ~Scratch() { session_.scratch_touched_ = std::max(session_.scratch_touched_, arena_.high_water()); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    Arena& arena() { return arena_; }
+
+   private:
+    EnrolmentSession& session_;
+    Arena arena_;
+  };
 
  private:
   void make_products();
@@ -62,7 +75,8 @@ class EnrolmentSession {
 
   StereoSlot slot_;
   Arena output_;
-  Arena scratch_;
+  std::span<std::byte> scratch_block_;
+  std::size_t scratch_touched_ = 0;
   Products* products_ = nullptr;  // at the front of output_
   std::array<char, budget::kSubjectNameBytes + 1> subject_{};
 };

@@ -20,6 +20,7 @@ enum class Screen : std::uint8_t {
   SelfTest, Idle, Calibrate, Capture, Match, Reconstruct, Mesh, Texture, Review, Store, Export,
   Technician, Fault
 };
+std::string_view name_of(Screen screen);
 
 struct ViewState {
   Screen screen = Screen::SelfTest;

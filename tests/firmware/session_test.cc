@@ -38,9 +38,9 @@ class SessionTest : public testing::Test {
     products.model.emplace(&session.output());
     products.model->mesh.vertices_mm.assign(500, {1, 2, 3});
     products.model->quality.nose_relief_mm = 21;
-    std::pmr::vector<float> working(&session.scratch());
+    EnrolmentSession::Scratch scratch(session);  // as a stage does: given back, not yet wiped
+    std::pmr::vector<float> working(&scratch.arena());
     working.assign(1000, 0.5F);
-    session.scratch().reset();  // as after a stage: given back, not yet wiped
   }
 
   BootMemory memory{kFrames, kArena, kArena};

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/appliance.h"
+
+#include <utility>
+
+#include "firmware/budget.h"
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Is the machine broken, or was it only this picture?
+bool is_fault(Errc code) {
+  switch (code) {
+    case Errc::Disconnected:
+    case Errc::NotCalibrated:
+    case Errc::InvalidState:
+    case Errc::StoreCorrupt:
+    case Errc::StoreNewer: return true;
+    case Errc::InvalidInput:
+    case Errc::NotFound:
+    case Errc::Timeout:
+    case Errc::NoFace:
+    case Errc::TooFewMatches:
+    case Errc::PoorGeometry:
+    case Errc::LibraryFailed:
+    case Errc::OutOfMemory:
+    case Errc::MediaMissing:
+    case Errc::MediaFull:
+    case Errc::IoFailed:
+    case Errc::Cancelled:
+    case Errc::Unsupported: break;
+  }
+  return false;
+}
+
+Event event_of(ui::Intent intent) {
+  switch (intent) {
+    case ui::Intent::Begin: return Event::Begin;
+    case ui::Intent::Accept: return Event::Accept;
+    case ui::Intent::Retake: return Event::Retake;
+    case ui::Intent::Cancel: return Event::Cancel;
+    case ui::Intent::OpenTechnician: return Event::TechnicianIn;
+    case ui::Intent::LeaveTechnician: return Event::TechnicianOut;
+    case ui::Intent::Calibrate: return Event::CalibrateAsked;
+    case ui::Intent::Export: return Event::ExportAsked;
+  }
+  return Event::Count;
+}
+
+}  // namespace
+
+Appliance::Appliance(Parts parts)
+    : board_(parts.board), machine_(parts.board.clock().now()), session_(parts.memory),
+      grabber_(parts.board.left(), parts.board.right(), parts.board.trigger(), parts.board.clock()),
+      open_cameras_(grabber_, parts.board.preferred_mode()),
+      grab_(grabber_, session_, parts.board.preferred_mode()),
+      stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
+      capture_(reports_), worker_(reports_), keeper_(reports_) {
+  records_.reserve(4 * budget::kCaptureAttempts);
+  start(capture_, open_cameras_);
+}
+
+Appliance::~Appliance() { stop_job(); }
+
+float Appliance::progress() const { return running_ != nullptr ? running_->progress() : 0; }
+
+void Appliance::ask(ui::Intent intent) { handle(event_of(intent)); }
+
+void Appliance::step(std::chrono::milliseconds wait) {
+  if (const auto report = reports_.take_for(wait)) heard(*report);
+  if (const auto change = machine_.tick(board_.clock().now())) {
+    if (change->to == State::Idle || change->to == State::Fault) {
+      note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
+    }
+    entered(*change);
+  }
+  board_.watchdog().kick();
+}
+
+void Appliance::handle(Event event) {
+  if (const auto change = machine_.handle(event, board_.clock().now())) entered(*change);
+}
+
+void Appliance::note(const Error& error) { problem_ = error; }
+
+void Appliance::heard(const JobReport& report) {
+  if (report.job != job_) return;  // of a state that was left
+  running_ = nullptr;
+  job_ = 0;
+  const State state = machine_.state();
+  if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
+  if (report.error) {
+    note(*report.error);
+    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : Event::StageFailed);
+  } else {
+    handle(state == State::SelfTest ? Event::Passed : state == State::Capture ? Event::Triggered : Event::StageDone);
+  }
+}
+
+void Appliance::start(JobThread& thread, Job& job) {
+  const Result<JobId> id = thread.start(job);
+  RELIEVO_ASSERT(id.has_value());  // entered() has stopped the job before
+  running_ = &thread;
+  job_ = *id;
+}
+
+void Appliance::stop_job() {
+  if (running_ == nullptr) return;
+  running_->cancel();
+  running_->wait_until_idle();
+  running_ = nullptr;
+  job_ = 0;
+}
+
+// False when there is no capture to begin; the machine has then moved on.
+bool Appliance::enter_capture(const Change& change) {
+  if (change.from == State::Idle) {
+    attempt_ = 0;
+    problem_.reset();
+    records_.clear();
+    if (const Result<void> opened = session_.open(next_subject_); !opened) {
+      note(opened.error());
+      handle(Event::Cancel);
+      return false;
+    }
+  } else {
+    session_.retake();
+  }
+  if (change.event == Event::Retake) attempt_ = 0;
+  if (++attempt_ > budget::kCaptureAttempts) {
+    handle(Event::Cancel);
+    return false;
+  }
+  start(capture_, grab_);
+  return true;
+}
+
+void Appliance::entered(const Change& change) {
+  stop_job();
+  switch (change.to) {
+    case State::SelfTest: start(capture_, open_cameras_); break;
+    case State::Capture:
+      if (!enter_capture(change)) return;
+      break;
+    case State::Match:
+    case State::Reconstruct:
+    case State::Mesh:
+    case State::Texture:
+      stage_.choose(change.to);
+      start(worker_, stage_);
+      break;
+    case State::Store: start(keeper_, keep_); break;
+    case State::Idle:
+    case State::Fault: session_.close(); break;
+    case State::Calibrate:
+    case State::Export:
+      note(Error{Errc::Unsupported, "is not done at the screen yet: use the command of that name"}.at(name_of(change.to)));
+      return handle(Event::StageFailed);
+    case State::Review:
+    case State::Technician:
+    case State::Count: break;
+  }
+  if (listener_) listener_(change);
+}
+
+}  // namespace relievo::firmware

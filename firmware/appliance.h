@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Appliance: the state machine with everything it sets in motion. It owns the machine, the session
+// and the three threads; board, stages and store are handed in. One step() is one turn of the main
+// loop: it hears one report, looks at the clock, kicks the watchdog.
+//
+//   ask(Intent), reports of the threads, time --> Machine --> what entering the new state starts
+//
+// A state is left only when its job has stopped; a session is closed on the way to Idle and Fault.
+// Thread: main. Errors: none are returned; problem() holds the last one, for screen and command.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/machine/machine.h"
+#include "firmware/session.h"
+#include "firmware/work/jobs.h"
+#include "hal/board.h"
+#include "ui/intent.h"
+
+namespace relievo::firmware {
+
+class Appliance {
+ public:
+  struct Parts {
+    hal::Board& board;
+    StageRunner& stages;
+    const BootMemory& memory;
+    ThreadPool& pool;
+    Keep keep;
+  };
+  explicit Appliance(Parts parts);
+  ~Appliance();
+  Appliance(const Appliance&) = delete;
+  Appliance& operator=(const Appliance&) = delete;
+
+  // Whom the next Begin enrols.
+  void set_subject(std::string_view name) { next_subject_ = name; }
+  void ask(ui::Intent intent);
+  // Waits at most `wait` for something to happen, and deals with it.
+  void step(std::chrono::milliseconds wait);
+
+  State state() const { return machine_.state(); }
+  float progress() const;
+  int attempt() const { return attempt_; }
+  const std::optional<Error>& problem() const { return problem_; }
+  const EnrolmentSession& session() const { return session_; }
+  // Of the present or last session; kept until the next begins.
+  const std::vector<StageRecord>& records() const { return records_; }
+  // Called after every change of state, when what it starts has started.
+  void on_change(std::function<void(const Change&)> listener) { listener_ = std::move(listener); }
+
+ private:
+  void handle(Event event);
+  void entered(const Change& change);
+  bool enter_capture(const Change& change);
+  void start(JobThread& thread, Job& job);
+  void stop_job();
+  void heard(const JobReport& report);
+  void note(const Error& error);
+
+  hal::Board& board_;
+  Machine machine_;
+  EnrolmentSession session_;
+  StereoGrabber grabber_;
+  OpenCamerasJob open_cameras_;
+  GrabJob grab_;
+  StageJob stage_;
+  KeepJob keep_;
+  std::string next_subject_;
+  int attempt_ = 0;
+  std::optional<Error> problem_;
+  std::vector<StageRecord> records_;
+  std::function<void(const Change&)> listener_;
+  JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
+  JobId job_ = 0;
+  JobReports reports_;
+  JobThread capture_;
+  JobThread worker_;
+  JobThread keeper_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "firmware/command/command_line.h"
+
+namespace relievo::firmware {
+namespace {
+
+void add_store(CLI::App& command, Path& store) {
+  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+}
+
+void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
+  command.add_option("--algorithms", args.file, "choice and settings of the algorithms")->type_name("FILE.toml");
+  command.add_option("--set", args.settings, "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15")
+      ->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
+  command.add_option_function<std::string>(
+      "--region", [&args](const std::string& word) { args.whole_view = word == "all"; }, "what to reconstruct")
+      ->check(CLI::IsMember({"face", "all"}));
+}
+
+void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
+  CLI::App* command = app.add_subcommand("calibrate", "calibrate the rig from pictures of a chessboard");
+  command->add_option("pictures", args.pictures, "folder with left* and right* pictures")->required()->type_name("DIR");
+  command->add_option_function<std::string>(
+      "--corners",
+      [&args](const std::string& text) {
+        char end = 0;
+        if (std::sscanf(text.c_str(), "%3dx%3d%c", &args.corners_across, &args.corners_down, &end) != 2 ||
+            args.corners_across < 3 || args.corners_down < 3) {
+          throw CLI::ValidationError("--corners", "wants inner corners across and down, such as 10x7");
+        }
+      },
+      "inner corners, across x down")->required()->type_name("10x7");
+  command->add_option("--square-mm", args.square_mm, "side of a square")->required()->check(CLI::Range(0.1, 1000.0));
+  command->add_option("-o,--output", args.output, "the calibration")->required()->type_name("rig.yml");
+  command->add_option("--report", args.report, "what each pair contributed")->type_name("DIR");
+  add_store(*command, args.store);
+  command->callback([&] { chosen = args; });
+}
+
+void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) {
+  CLI::App* command = app.add_subcommand("calibration", "the calibrations in the store");
+  command->require_subcommand(1);
+  using Verb = CalibrationArgs::Verb;
+  const auto verb = [&](const char* name, const char* help, Verb which) {
+    CLI::App* sub = command->add_subcommand(name, help);
+    add_store(*sub, args.store);
+    sub->callback([&args, &chosen, which] {
+      args.verb = which;
+      chosen = args;
+    });
+    return sub;
+  };
+  verb("list", "every calibration, the newest last", Verb::List);
+  verb("show", "the numbers of one", Verb::Show)
+      ->add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
+  verb("import", "take one from a file", Verb::Import)->add_option("file", args.file)->required()->type_name("rig.yml");
+  CLI::App* out = verb("export", "write one to a file", Verb::Export);
+  out->add_option("-o,--output", args.file)->required()->type_name("rig.yml");
+  out->add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
+}
+
+void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
+  CLI::App* command = app.add_subcommand("reconstruct", "a pair of pictures to a textured model");
+  command->add_option("left", args.left)->required()->type_name("LEFT");
+  command->add_option("right", args.right)->required()->type_name("RIGHT");
+  command->add_option("--calibration", args.calibration)->required()->type_name("rig.yml");
+  command->add_option("-o,--output", args.output, "folder for the model and the report")->required()->type_name("DIR");
+  command->add_option_function<std::string>(
+      "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; }, "axes of the model")
+      ->check(CLI::IsMember({"head", "camera"}));
+  add_algorithms(*command, args.algorithms);
+  command->callback([&] { chosen = args; });
+}
+
+void add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
+  CLI::App* command = app.add_subcommand("compare", "measure a reconstruction against what is true");
+  command->add_option("left", args.left)->required()->type_name("LEFT");
+  command->add_option("right", args.right)->required()->type_name("RIGHT");
+  command->add_option("--calibration", args.calibration)->required()->type_name("rig.yml");
+  command->add_option("--truth", args.truth, "folder that 'relievo simulate face --truth' wrote")
+      ->required()->type_name("DIR");
+  command->add_option("-o,--output", args.output)->required()->type_name("DIR");
+  add_algorithms(*command, args.algorithms);
+  command->callback([&] { chosen = args; });
+}
+
+void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
+  CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
+  command->add_option("--board", args.board, "sim, or folder:DIR with recorded pairs")->required()->type_name("BOARD");
+  command->add_option("--subject", args.subject, "who it is")->required()->type_name("NAME");
+  command->add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
+  add_store(*command, args.store);
+  add_algorithms(*command, args.algorithms);
+  command->callback([&] { chosen = args; });
+}
+
+void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
+  CLI::App* command = app.add_subcommand("subjects", "the people in the store");
+  command->require_subcommand(1);
+  using Verb = SubjectsArgs::Verb;
+  const auto verb = [&](const char* name, const char* help, Verb which) {
+    CLI::App* sub = command->add_subcommand(name, help);
+    add_store(*sub, args.store);
+    if (which != Verb::List) sub->add_option("subject", args.subject)->required()->type_name("NAME");
+    sub->callback([&args, &chosen, which] {
+      args.verb = which;
+      chosen = args;
+    });
+    return sub;
+  };
+  verb("list", "everyone, one a line", Verb::List);
+  verb("show", "the enrolments of one", Verb::Show);
+  verb("export", "the newest model of one as files", Verb::Export)
+      ->add_option("-o,--output", args.output)->required()->type_name("DIR");
+  verb("erase", "one and everything known about them", Verb::Erase);
+}
+
+void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
+  CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
+  command->require_subcommand(1);
+  for (const bool board : {true, false}) {
+    CLI::App* sub = board ? command->add_subcommand("board", "a chessboard in many poses (10x7 inner corners, 20 mm)")
+                          : command->add_subcommand("face", "a face made of a seed");
+    sub->add_option("-o,--output", args.output, "folder for left_NNNNNN.png and right_NNNNNN.png")
+        ->required()->type_name("DIR");
+    sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
+    sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
+    sub->add_option("--scale", args.scale, "size of the pictures")->check(CLI::Range(0.1, 1.0))->capture_default_str();
+    if (!board) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
+    sub->callback([&args, &chosen, board] {
+      args.board = board;
+      chosen = args;
+    });
+  }
+}
+
+struct AllArgs {
+  CalibrateArgs calibrate;
+  CalibrationArgs calibration;
+  ReconstructArgs reconstruct;
+  CompareArgs compare;
+  EnrolArgs enrol;
+  SubjectsArgs subjects;
+  SimulateArgs simulate;
+  SelfTestArgs selftest;
+};
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("Relievo: two cameras, one face, a textured 3D model.", "relievo");
+  app.require_subcommand(1);
+  CommandLine line;
+  AllArgs args;
+  add_calibrate(app, line.command, args.calibrate);
+  add_calibration(app, line.command, args.calibration);
+  add_reconstruct(app, line.command, args.reconstruct);
+  add_compare(app, line.command, args.compare);
+  add_enrol(app, line.command, args.enrol);
+  add_subjects(app, line.command, args.subjects);
+  add_simulate(app, line.command, args.simulate);
+  CLI::App* selftest = app.add_subcommand("selftest", "is everything in place?");
+  add_store(*selftest, args.selftest.store);
+  selftest->callback([&] { line.command = args.selftest; });
+  app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });
+  app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    for (const CLI::App* at = &app; at != nullptr;) {  // help of the innermost command that was named
+      const auto deeper = at->get_subcommands();
+      if (deeper.empty()) std::printf("%s", at->help().c_str());
+      at = deeper.empty() ? nullptr : deeper.front();
+    }
+    line.command = NothingArgs{};
+  } catch (const CLI::ParseError& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    std::fprintf(stderr, "relievo: %s (relievo --help lists the words)\n", what.c_str());
+    line.command = NothingArgs{};
+    line.exit_code = 2;
+  }
+  return line;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CommandLine: what was asked for, as plain data. parse_command_line() checks words and numbers,
+// never files: a file that is missing is the command's error (exit 1), a wrong word the caller's
+// (exit 2). Thread: main.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace relievo::firmware {
+
+using Path = std::filesystem::path;
+
+struct CalibrateArgs {
+  Path pictures;
+  int corners_across = 0;
+  int corners_down = 0;
+  double square_mm = 0;
+  Path output;
+  Path report;  // empty: none
+  Path store;   // empty: not stored
+};
+
+struct CalibrationArgs {
+  enum class Verb { List, Show, Import, Export } verb = Verb::List;
+  Path file;    // import, export
+  int revision = 0;  // 0: the one in use
+  Path store;
+};
+
+// How to reconstruct; shared by every command that does.
+struct AlgorithmArgs {
+  Path file;                      // TOML; empty: the default set
+  std::vector<std::string> settings;  // "matcher=zmncc", "zmncc.window_px=15"
+  bool whole_view = false;        // --region all
+};
+
+struct ReconstructArgs {
+  Path left, right;
+  Path calibration;
+  Path output;
+  bool camera_frame = false;      // --frame camera
+  AlgorithmArgs algorithms;
+};
+
+struct CompareArgs {
+  Path left, right;
+  Path calibration;
+  Path truth;
+  Path output;
+  AlgorithmArgs algorithms;
+};
+
+struct EnrolArgs {
+  std::string board;
+  std::string subject;
+  Path calibration;               // empty: the one in the store
+  Path store;
+  AlgorithmArgs algorithms;
+};
+
+struct SubjectsArgs {
+  enum class Verb { List, Show, Export, Erase } verb = Verb::List;
+  std::string subject;
+  Path output;                    // export
+  Path store;
+};
+
+struct SimulateArgs {
+  bool board = false;             // the chessboard; else a face
+  Path output;
+  unsigned seed = 1;
+  int pairs = 0;                  // 0: the rig's own choice
+  double scale = 1;               // of the picture's width and height
+  bool truth = false;             // write down what is true, beside the pictures
+};
+
+struct SelfTestArgs { Path store; };
+struct MemoryArgs {};
+struct VersionArgs {};
+struct NothingArgs {};            // help was asked for and printed, or the words were wrong
+
+using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
+                                 SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs>;
+
+struct CommandLine {
+  CommandArgs command;
+  int exit_code = 0;              // with NothingArgs: 0 help was printed, 2 the words were wrong
+};
+
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Report: what a reconstruction cost and how good it is; report.json. The keys are part of the
+// product: scripts and benchmarks read them. Bytes, millimetres.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmware/work/stage_record.h"
+#include "pipeline/model/face_model.h"
+
+namespace relievo::firmware {
+
+struct Report {
+  std::string calibration;               // the file, or the store's revision
+  std::vector<std::string> algorithms;   // "matcher=refined", …
+  std::vector<StageRecord> stages;
+  std::chrono::nanoseconds total{0};     // pictures in memory to textured model in memory
+  std::uint64_t peak_rss_bytes = 0;
+  pipeline::ModelQuality quality;
+};
+
+std::string report_json(const Report& report);
+std::uint64_t peak_rss_bytes();          // of this process, up to now
+
+}  // namespace relievo::firmware

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A set of algorithms in TOML, as the words that --set takes: one table a stage or algorithm.
+//   [matcher] name = "zmncc"        ->  matcher=zmncc
+//   [zmncc]   window_px = 15        ->  zmncc.window_px=15
+// Errors: NotFound, IoFailed, InvalidInput with file and line (not TOML, deeper than one table).
+// Thread: any.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/base/result.h"
+
+namespace relievo::firmware {
+
+Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file);
+Result<std::vector<std::string>> parse_settings(std::string_view text, std::string_view file_name);
+
+}  // namespace relievo::firmware

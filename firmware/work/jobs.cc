@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/work/jobs.h"
+
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+
+Result<void> GrabJob::run(JobControl& control) {
+  RELIEVO_TRY(grabber_.start(mode_));  // nothing where the streams run already
+  RELIEVO_TRY_ASSIGN(session_.products().frame, grabber_.grab(session_.slot(), control.cancelled));
+  return {};
+}
+
+Result<void> StageJob::run(JobControl& control) {
+  record_ = {};
+  record_.name = name_of(stage_);
+  Arena& output = session_.output();
+  EnrolmentSession::Scratch scratch(session_);
+  pipeline::StageContext context{output, scratch.arena(), pool_, control.progress, control.cancelled};
+  const hal::Instant begin = clock_.now();
+  const Result<void> result = runner_.run(stage_, session_.products(), context, record_);
+  record_.took = clock_.now() - begin;
+  record_.arena_peak_bytes = output.used() + scratch.arena().high_water();
+  return result;
+}
+
+Result<void> KeepJob::run(JobControl& control) {
+  // Asked before the transaction begins: once it runs, it ends, whole or not at all.
+  if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
+  RELIEVO_ASSERT(session_.products().model.has_value());
+  return keep_(session_.subject(), *session_.products().model);
+}
+
+}  // namespace relievo::firmware

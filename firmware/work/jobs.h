@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The jobs of the three threads. Each is made once, with the appliance, and started many times.
+//   capture: OpenCamerasJob, GrabJob    worker: StageJob    keeper: KeepJob
+#pragma once
+
+#include <functional>
+
+#include "firmware/capture/stereo_grabber.h"
+#include "firmware/session.h"
+#include "firmware/work/job_thread.h"
+#include "firmware/work/stage_runner.h"
+#include "hal/base/thread_pool.h"
+#include "hal/clock.h"
+
+namespace relievo::firmware {
+
+class OpenCamerasJob final : public Job {
+ public:
+  OpenCamerasJob(StereoGrabber& grabber, const hal::CaptureMode& mode) : grabber_(grabber), mode_(mode) {}
+  Result<void> run(JobControl&) override { return grabber_.start(mode_); }
+
+ private:
+  StereoGrabber& grabber_;
+  hal::CaptureMode mode_;
+};
+
+class GrabJob final : public Job {
+ public:
+  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode)
+      : grabber_(grabber), session_(session), mode_(mode) {}
+  Result<void> run(JobControl& control) override;
+
+ private:
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::CaptureMode mode_;
+};
+
+class StageJob final : public Job {
+ public:
+  StageJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : runner_(runner), session_(session), pool_(pool), clock_(clock) {}
+  void choose(State stage) { stage_ = stage; }
+  const StageRecord& record() const { return record_; }  // of the last run
+  Result<void> run(JobControl& control) override;
+
+ private:
+  StageRunner& runner_;
+  EnrolmentSession& session_;
+  ThreadPool& pool_;
+  const hal::Clock& clock_;
+  State stage_ = State::Match;
+  StageRecord record_;
+};
+
+// Puts a finished model away; how, the appliance's maker says (a store, or a test's memory).
+using Keep = std::function<Result<void>(std::string_view subject, const pipeline::FaceModel& model)>;
+
+class KeepJob final : public Job {
+ public:
+  KeepJob(Keep keep, EnrolmentSession& session) : keep_(std::move(keep)), session_(session) {}
+  Result<void> run(JobControl& control) override;
+
+ private:
+  Keep keep_;
+  EnrolmentSession& session_;
+};
+
+}  // namespace relievo::firmware
