@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Finds the face in a picture (Haar cascades: Viola and Jones 2001; Lienhart 2002) and marks where in
+// the left rectified view its head may be, so that nothing else is matched.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "hal/base/image_view.h"
+#include "hal/base/result.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+struct FaceBox {
+  Vec2d centre_px;        // between the eyes and the mouth, in the picture given
+  double width_px = 0;    // about 150 mm on a grown-up, whatever the cascade that saw it
+  double angle_deg = 0;   // how far the head was tilted in the try that saw it; clockwise in the picture
+  int votes = 0;          // overlapping hits: 5 doubtful, 50 certain
+};
+
+struct FaceFinderOptions {
+  std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
+  int search_height_px = 400;      // the picture is reduced to this height before the search
+  double smallest_face = 0.15;     // width of the smallest face, share of the picture's height
+  int certain_votes = 8;           // a hit with this many votes ends the search
+  int least_votes = 4;             // fewer are no face
+  double tilt_deg = 15;            // how far the picture is turned for tilted heads
+
+  Result<void> check() const;
+};
+
+// Loads the cascades once, at boot; every file's SHA-256 is checked before it is parsed.
+// Thread: one caller at a time. Memory: OpenCV's own, bounded by the size of the reduced picture.
+class FaceFinder {
+ public:
+  // Errors: InvalidInput (options), NotFound (no such file), StoreCorrupt (not the file we know),
+  // LibraryFailed.
+  static Result<FaceFinder> open(const FaceFinderOptions& options);
+  FaceFinder(FaceFinder&&) noexcept;
+  FaceFinder& operator=(FaceFinder&&) noexcept;
+  ~FaceFinder();
+
+  // The most certain face; takes longest (0.4 s) where there is none, and looks at `cancelled`, when
+  // given, every 30 ms. Errors: InvalidInput (an empty picture), NoFace, LibraryFailed, Cancelled.
+  Result<FaceBox> find(const ImageView& picture, const std::atomic<bool>* cancelled = nullptr);
+
+ private:
+  struct Cascades;
+  explicit FaceFinder(std::unique_ptr<Cascades> cascades);
+  std::unique_ptr<Cascades> cascades_;
+};
+
+// Finds the face in the pair's left view. Errors: as find().
+Result<FaceBox> find_face(FaceFinder& finder, const RectifiedPair& pair, StageContext& context);
+
+// Fills pair.region with an ellipse that holds everything within about 115 mm of the tip of the nose
+// at the face's depth. Memory: the region's own, one exact reserve.
+// Errors: InvalidInput (no pixels, or a box of no size); throws std::bad_alloc as every stage does.
+Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageContext& context);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/objdetect.hpp>
+
+#include "pipeline/match/checksum.h"
+#include "pipeline/match/face_region.h"
+
+namespace relievo::pipeline {
+namespace {
+
+struct CascadeFile { std::string_view name, sha256; };
+
+// opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
+constexpr std::array<CascadeFile, 4> kFiles = {{
+    {"haarcascade_frontalface_alt2.xml", "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4"},
+    {"haarcascade_frontalface_default.xml", "0f7d4527844eb514d4a4948e822da90fbb16a34a0bbbbc6adc6498747a5aafb0"},
+    {"haarcascade_frontalface_alt.xml", "6281df13459cc218ff047d02b2ae3859b12ff14a93ffe8952f7b33fad7b9697b"},
+    {"haarcascade_profileface.xml", "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d"},
+}};
+constexpr std::size_t kProfile = 3;
+constexpr std::uintmax_t kLargestFile = 4 << 20;
+
+Result<std::string> read_checked(const std::filesystem::path& path, std::string_view expected) {
+  std::error_code problem;
+  const std::uintmax_t size = std::filesystem::file_size(path, problem);
+  if (problem) return Error{Errc::NotFound, "no such face cascade: install the package opencv-data"}.at(path.string());
+  const Error strange{Errc::StoreCorrupt, "not the face cascade of opencv-data 4.6.0: reinstall the package"};
+  if (size > kLargestFile) return strange.at(path.string());
+  std::string text(static_cast<std::size_t>(size), '\0');
+  std::ifstream in(path, std::ios::binary);
+  if (!in.read(text.data(), static_cast<std::streamsize>(size))) return strange.at(path.string());
+  if (!reads_as(sha256(std::as_bytes(std::span(text.data(), text.size()))), expected)) return strange.at(path.string());
+  return text;
+}
+
+// One look at the picture. Cheap and likely ones first.
+struct Try {
+  std::size_t cascade;
+  bool local_contrast;  // CLAHE: faces in poor or one-sided light
+  int tilt;             // times tilt_deg
+  bool mirrored;        // the profile cascade knows one side only
+};
+constexpr std::array<Try, 16> kTries = {{
+    {0, false, 0, false}, {1, false, 0, false}, {2, false, 0, false}, {0, true, 0, false},
+    {1, true, 0, false}, {2, true, 0, false}, {0, false, 1, false}, {0, false, -1, false},
+    {1, false, 1, false}, {1, false, -1, false}, {0, true, 1, false}, {0, true, -1, false},
+    {kProfile, false, 0, false}, {kProfile, false, 0, true}, {kProfile, true, 0, false}, {kProfile, true, 0, true},
+}};
+
+cv::Mat reduced_grey(const ImageView& view, int height_px) {
+  const int type = view.format == PixelFormat::Rgb8 ? CV_8UC3 : view.format == PixelFormat::Grey16 ? CV_16UC1 : CV_8UC1;
+  // OpenCV wants a pointer it could write through; nothing here writes.
+  const cv::Mat picture(view.height_px, view.width_px, type, const_cast<std::byte*>(view.bytes),
+                        static_cast<std::size_t>(view.stride_bytes));
+  const double scale = std::min(1.0, static_cast<double>(height_px) / view.height_px);
+  cv::Mat small;
+  const cv::Size size(std::max(1, static_cast<int>(std::lround(view.width_px * scale))),
+                      std::max(1, static_cast<int>(std::lround(view.height_px * scale))));
+  cv::resize(picture, small, size, 0, 0, cv::INTER_AREA);
+  if (type == CV_8UC3) cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
+  if (type == CV_16UC1) small.convertTo(small, CV_8U, 1.0 / 257);
+  return small;
+}
+
+cv::Matx23d turn_about_centre(const cv::Size& size, double angle_deg) {
+  const double a = angle_deg * std::numbers::pi / 180;
+  const double cx = (size.width - 1) / 2.0;
+  const double cy = (size.height - 1) / 2.0;
+  const double c = std::cos(a);
+  const double s = std::sin(a);
+  return {c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy};
+}
+
+struct Hit { cv::Point2d centre; double width; int votes; };
+
+// Overlapping cascades and tries speak for the same face; the largest sum of votes wins, and among
+// equals the wider face, which is nearer.
+Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
+  Hit best{{0, 0}, 0, 0};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double worth = static_cast<double>(votes[i]) * boxes[i].width;
+    if (worth <= best.votes * best.width) continue;
+    best = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
+            static_cast<double>(boxes[i].width), votes[i]};
+  }
+  return best;
+}
+
+}  // namespace
+
+struct FaceFinder::Cascades {
+  FaceFinderOptions options;
+  std::array<cv::CascadeClassifier, kFiles.size()> files;
+
+  Hit look(const cv::Mat& grey, const cv::Mat& even, const Try& look_at) {
+    cv::Mat picture = look_at.local_contrast ? even : grey;
+    const cv::Matx23d turn = turn_about_centre(grey.size(), look_at.tilt * options.tilt_deg);
+    if (look_at.tilt != 0) {
+      cv::Mat turned;
+      cv::warpAffine(picture, turned, turn, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      picture = turned;
+    }
+    if (look_at.mirrored) {
+      cv::Mat other;
+      cv::flip(picture, other, 1);
+      picture = other;
+    }
+    const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
+    std::vector<cv::Rect> boxes;
+    std::vector<int> votes;
+    files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, options.least_votes - 1, 0, {least, least});
+    Hit hit = best_of(boxes, votes);
+    if (look_at.mirrored) hit.centre.x = grey.cols - 1 - hit.centre.x;
+    if (look_at.tilt != 0) {
+      cv::Matx23d back;
+      cv::invertAffineTransform(turn, back);
+      hit.centre = {back(0, 0) * hit.centre.x + back(0, 1) * hit.centre.y + back(0, 2),
+                    back(1, 0) * hit.centre.x + back(1, 1) * hit.centre.y + back(1, 2)};
+    }
+    return hit;
+  }
+};
+
+Result<void> FaceFinderOptions::check() const {
+  if (search_height_px < 120 || search_height_px > 2000)
+    return Error{Errc::InvalidInput, "search_height_px must lie in 120 .. 2000"}.at("face-region");
+  if (!(smallest_face > 0.02 && smallest_face < 1))
+    return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-region");
+  if (least_votes < 1 || certain_votes < least_votes || certain_votes > 1000)
+    return Error{Errc::InvalidInput, "votes: 1 <= least_votes <= certain_votes <= 1000"}.at("face-region");
+  if (!(tilt_deg >= 0 && tilt_deg <= 45))
+    return Error{Errc::InvalidInput, "tilt_deg must lie in 0 .. 45"}.at("face-region");
+  return {};
+}
+
+FaceFinder::FaceFinder(std::unique_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
+FaceFinder::FaceFinder(FaceFinder&&) noexcept = default;
+FaceFinder& FaceFinder::operator=(FaceFinder&&) noexcept = default;
+FaceFinder::~FaceFinder() = default;
+
+Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
+  RELIEVO_TRY(options.check());
+  const Error unreadable{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"};
+  try {
+    auto cascades = std::make_unique<Cascades>();
+    cascades->options = options;
+    for (std::size_t i = 0; i < kFiles.size(); ++i) {
+      const std::filesystem::path path = std::filesystem::path(options.cascade_dir) / kFiles[i].name;
+      RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, kFiles[i].sha256));
+      const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
+      if (!cascades->files[i].read(file.getFirstTopLevelNode())) return unreadable.at(path.string());
+    }
+    return FaceFinder(std::move(cascades));
+  } catch (const cv::Exception&) {
+    return unreadable;
+  }
+}
+
+Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) {
+  if (picture.empty()) return Error{Errc::InvalidInput, "a picture without pixels has no face"};
+  try {
+    const cv::Mat grey = reduced_grey(picture, cascades_->options.search_height_px);
+    cv::Mat even;
+    cv::createCLAHE(3, {8, 8})->apply(grey, even);
+    const double scale = static_cast<double>(picture.height_px) / grey.rows;
+    FaceBox best;
+    for (const Try& look_at : kTries) {
+      if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed))
+        return Error{Errc::Cancelled, "the search for a face was stopped"};
+      const Hit hit = cascades_->look(grey, even, look_at);
+      if (hit.votes < cascades_->options.least_votes || hit.votes <= best.votes) continue;
+      best = {{(hit.centre.x + 0.5) * scale - 0.5, (hit.centre.y + 0.5) * scale - 0.5}, hit.width * scale,
+              -look_at.tilt * cascades_->options.tilt_deg, hit.votes};
+      if (best.votes >= cascades_->options.certain_votes) break;
+    }
+    if (best.votes == 0)
+      return Error{Errc::NoFace, "no face in the left picture: look straight into the cameras from about half a metre, with light on the face"};
+    return best;
+  } catch (const cv::Exception&) {
+    return Error{Errc::LibraryFailed, "OpenCV gave up looking for a face in this picture"};
+  }
+}
+
+}  // namespace relievo::pipeline
