@@ -151,7 +151,10 @@ void Appliance::entered(const Change& change) {
       stage_.choose(change.to);
       start(worker_, stage_);
       break;
-    case State::Store: start(keeper_, keep_); break;
+    case State::Store:
+      problem_.reset();
+      start(keeper_, keep_);
+      break;
     case State::Idle:
     case State::Fault: session_.close(); break;
     case State::Calibrate:
@@ -159,6 +162,8 @@ void Appliance::entered(const Change& change) {
       note(Error{Errc::Unsupported, "is not done at the screen yet: use the command of that name"}.at(name_of(change.to)));
       return handle(Event::StageFailed);
     case State::Review:
+      if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
+      break;
     case State::Technician:
     case State::Count: break;
   }

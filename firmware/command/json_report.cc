@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
+#include <sstream>
 
 #include "firmware/command/report.h"
 #include "firmware/version.h"
@@ -22,9 +22,10 @@ std::string report_json(const Report& report) {
                       {"arena_peak_bytes", stage.arena_peak_bytes}});
   }
   Json algorithms = Json::object();
-  for (const std::string& setting : report.algorithms) {
-    const std::size_t equals = setting.find('=');
-    if (equals != std::string::npos) algorithms[setting.substr(0, equals)] = setting.substr(equals + 1);
+  std::istringstream lines(report.algorithms);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find(" = ");
+    if (equals != std::string::npos) algorithms[line.substr(0, equals)] = line.substr(equals + 3);
   }
   const pipeline::ModelQuality& q = report.quality;
   const Json json{{"version", kVersion},
@@ -43,12 +44,6 @@ std::string report_json(const Report& report) {
                     {"epipolar_residual_px", q.epipolar_residual_px}}}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace relievo::firmware

@@ -17,13 +17,14 @@ namespace relievo::firmware {
 
 struct Report {
   std::string calibration;               // the file, or the store's revision
-  std::vector<std::string> algorithms;   // "matcher=refined", …
+  std::string algorithms;                // "matcher = refined", one a line
   std::vector<StageRecord> stages;
   std::chrono::nanoseconds total{0};     // pictures in memory to textured model in memory
   std::uint64_t peak_rss_bytes = 0;
   pipeline::ModelQuality quality;
 };
 
+std::string line_of(const StageRecord& stage);   // for a terminal
 std::string report_json(const Report& report);
 std::uint64_t peak_rss_bytes();          // of this process, up to now
 

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The commands, each in a file of its own. An error of one is told in one line; nothing half-written
+// stays. Thread: main; the long ones use the worker and stop at Ctrl-C.
+#pragma once
+
+#include "firmware/command/services.h"
+
+namespace relievo::firmware {
+
+Result<void> run_calibration(const CalibrationArgs& args, Services& services);
+Result<void> run_reconstruct(const ReconstructArgs& args, Services& services);
+Result<void> run_compare(const CompareArgs& args, Services& services);
+Result<void> run_enrol(const EnrolArgs& args, Services& services);
+Result<void> run_subjects(const SubjectsArgs& args, Services& services);
+Result<void> run_simulate(const SimulateArgs& args, Services& services);
+Result<void> run_selftest(const SelfTestArgs& args, Services& services);
+Result<void> run_memory(const MemoryArgs& args, Services& services);
+Result<void> run_version(const VersionArgs& args, Services& services);
+
+// The folder named, or the default one.
+Path store_folder(const Path& named);
+
+}  // namespace relievo::firmware

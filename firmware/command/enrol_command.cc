@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "firmware/appliance.h"
+#include "firmware/command/algorithm_choice.h"
+#include "firmware/command/commands.h"
+#include "firmware/command/interrupt.h"
+#include "firmware/command/report.h"
+#include "firmware/command/subject_lookup.h"
+#include "firmware/work/pipeline_stages.h"
+#include "firmware/work/pool_size.h"
+#include "pipeline/calibrate/calibration_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Which wording a person has agreed to when an operator enrols them by command.
+constexpr const char* kConsentWording = "operator-1";
+
+struct Calibrated {
+  pipeline::StereoCalibration calibration;
+  std::string name;             // for the report
+  std::uint32_t revision = 0;   // 0: not from the store
+};
+
+Result<Calibrated> find_calibration(const EnrolArgs& args, storage::Store& store) {
+  Calibrated found;
+  if (!args.calibration.empty()) {
+    RELIEVO_TRY_ASSIGN(found.calibration, pipeline::read_calibration(args.calibration));
+    found.name = args.calibration.string();
+    return found;
+  }
+  RELIEVO_TRY_ASSIGN(found.calibration, store.active_calibration());
+  found.revision = found.calibration.revision;
+  found.name = "store revision " + std::to_string(found.revision);
+  return found;
+}
+
+// What a person decides at the screen is decided here: whoever gives the command has the consent,
+// and the first model is accepted.
+Result<void> drive(Appliance& appliance, Console& console) {
+  const std::atomic<bool>& stop = interrupted();
+  bool begun = false;
+  for (;;) {
+    appliance.step(budget::kTick);
+    if (stop.load()) appliance.ask(ui::Intent::Cancel);
+    switch (appliance.state()) {
+      case State::Idle:
+        if (stop.load()) return Error{Errc::Cancelled, "the enrolment was cancelled: nothing was stored"};
+        if (begun) return appliance.problem() ? Result<void>(*appliance.problem()) : Result<void>();
+        begun = true;
+        appliance.ask(ui::Intent::Begin);
+        break;
+      case State::Review:
+        if (appliance.problem()) return *appliance.problem();  // it could not be stored
+        appliance.ask(ui::Intent::Accept);
+        break;
+      case State::Fault: return *appliance.problem();
+      case State::SelfTest:
+      case State::Capture:
+      case State::Match:
+      case State::Reconstruct:
+      case State::Mesh:
+      case State::Texture:
+      case State::Store: console.progress(name_of(appliance.state()), appliance.progress()); break;
+      case State::Calibrate:
+      case State::Export:
+      case State::Technician:
+      case State::Count: break;
+    }
+  }
+}
+
+// One line for each thing that is done, so that a log shows the way too.
+void tell(const Change& change, const Appliance& appliance, Console& console) {
+  if (change.event == Event::Triggered) {
+    console.say("Capture      attempt " + std::to_string(appliance.attempt()));
+  } else if (change.event == Event::StageDone && change.from != State::Store) {
+    console.say(line_of(appliance.records().back()));
+  } else if (change.event == Event::StageFailed && change.to == State::Capture) {
+    console.say(std::string(name_of(change.from)) + ": " + std::string(appliance.problem()->what.view()) + "; once more");
+  }
+}
+
+std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
+                      const pipeline::FaceModel& model) {
+  Report report{calibrated.name, stages.pipeline().algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
+                model.quality};
+  for (const StageRecord& stage : report.stages) report.total += stage.took;
+  return report_json(report);
+}
+
+}  // namespace
+
+Result<void> run_enrol(const EnrolArgs& args, Services& services) {
+  RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, *store));
+  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
+
+  const BootMemory memory;
+  ThreadPool pool(pool_size());
+  PipelineStages stages(std::move(pipeline));
+  const Appliance* records = nullptr;
+  storage::EnrolmentId enrolment{};
+  // Runs on the keeper while this thread only waits for it.
+  const Keep keep = [&](std::string_view, const pipeline::FaceModel& model) -> Result<void> {
+    const auto now = std::chrono::floor<std::chrono::milliseconds>(board->clock().wall_now());
+    const std::string report = report_of(*records, stages, calibrated, model);
+    const std::string algorithms = stages.pipeline().algorithms().to_text();
+    RELIEVO_TRY_ASSIGN(enrolment, store->add_enrolment(subject, {model, {kConsentWording, "en", now}, calibrated.revision,
+                                                                 algorithms, report}));
+    return {};
+  };
+  Appliance appliance({*board, stages, memory, pool, keep});
+  records = &appliance;
+  appliance.set_subject(args.subject);
+  appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
+  if (const Result<void> done = drive(appliance, services.console); !done) {
+    return done.error().where().empty() ? done.error().at(args.board) : done.error();
+  }
+  services.console.say("stored: " + args.subject + ", enrolment " + std::to_string(static_cast<std::int64_t>(enrolment)));
+  return {};
+}
+
+}  // namespace relievo::firmware

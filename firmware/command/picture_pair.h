@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// PicturePair: the two pictures of one instant, read from files and checked against a calibration.
+// Errors: the reader's; InvalidInput where the sizes differ from each other or from the calibration.
+// Each names the file. Thread: any.
+#pragma once
+
+#include <filesystem>
+
+#include "hal/picture_file.h"
+#include "pipeline/model/calibration.h"
+#include "pipeline/model/stereo_frame.h"
+
+namespace relievo::firmware {
+
+struct PicturePair {
+  hal::Picture left, right;
+  pipeline::StereoFrame frame() const { return {left.view(), right.view(), 0, 0}; }
+};
+
+Result<PicturePair> read_pair(const std::filesystem::path& left, const std::filesystem::path& right,
+                              const pipeline::StereoCalibration& calibration);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <type_traits>
+
+#include "firmware/command/commands.h"
+#include "firmware/settings.h"
+
+namespace relievo::firmware {
+namespace {
+
+Result<void> run(const CalibrationArgs& args, Services& services) { return run_calibration(args, services); }
+Result<void> run(const ReconstructArgs& args, Services& services) { return run_reconstruct(args, services); }
+Result<void> run(const CompareArgs& args, Services& services) { return run_compare(args, services); }
+Result<void> run(const EnrolArgs& args, Services& services) { return run_enrol(args, services); }
+Result<void> run(const SubjectsArgs& args, Services& services) { return run_subjects(args, services); }
+Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
+Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
+Result<void> run(const MemoryArgs& args, Services& services) { return run_memory(args, services); }
+Result<void> run(const VersionArgs& args, Services& services) { return run_version(args, services); }
+
+}  // namespace
+
+Path store_folder(const Path& named) { return named.empty() ? default_store_folder() : named; }
+
+int run_command(const CommandLine& line, Services& services) {
+  return std::visit(
+      [&](const auto& args) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(args)>, NothingArgs>) {
+          return line.exit_code;
+        } else {
+          const Result<void> done = run(args, services);
+          if (!done) services.console.fail(done.error());
+          return done ? 0 : 1;
+        }
+      },
+      line.command);
+}
+
+}  // namespace relievo::firmware

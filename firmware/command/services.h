@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Services: what a command needs from the outside, as main.cc wired it: only main.cc names an
+// implementation. Tests put their own in.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "firmware/command/command_line.h"
+#include "firmware/command/console.h"
+#include "hal/board.h"
+#include "storage/store.h"
+
+namespace relievo::firmware {
+
+struct Services {
+  // "sim" or "folder:DIR". Errors: InvalidInput (no such board), the board's own.
+  std::function<Result<std::unique_ptr<hal::Board>>(std::string_view board)> open_board;
+  // Errors: the store's own. To write makes the folder; to read needs it.
+  std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store;
+  // Photographs with the simulated rig; tells how far it is, asks whether to stop.
+  using SimulateProgress = std::function<bool(float done)>;  // false: stop
+  std::function<Result<void>(const SimulateArgs& args, const Path& folder, const SimulateProgress& progress)> simulate;
+  Console& console;
+};
+
+// Does what was asked for. Returns the exit code; the error, if any, is told.
+int run_command(const CommandLine& line, Services& services);
+
+}  // namespace relievo::firmware

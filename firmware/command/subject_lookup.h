@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From what a person typed to somebody in the store: a name, or a number as "#3".
+// Errors: NotFound; InvalidInput where several have the name (the numbers tell them apart).
+// Thread: main.
+#pragma once
+
+#include <string_view>
+
+#include "storage/store.h"
+
+namespace relievo::firmware {
+
+Result<storage::Subject> find_subject(storage::Store& store, std::string_view name_or_number);
+// The one of that name, or somebody new.
+Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <string>
+
+#include "firmware/command/commands.h"
+#include "firmware/command/output_folder.h"
+#include "firmware/command/subject_lookup.h"
+#include "firmware/command/wall_time.h"
+#include "hal/whole_file.h"
+#include "storage/export/model_files.h"
+
+namespace relievo::firmware {
+namespace {
+
+std::string number_of(storage::SubjectId id) { return "#" + std::to_string(static_cast<std::int64_t>(id)); }
+
+void say_subject(const storage::Subject& subject, Console& console) {
+  console.say(number_of(subject.id) + "  " + text_of(subject.created_at) + "  " + std::to_string(subject.enrolments) +
+              (subject.enrolments == 1 ? " enrolment   " : " enrolments  ") + subject.name);
+}
+
+Result<void> list(storage::Store& store, Console& console) {
+  constexpr std::int64_t kPage = 1000;
+  for (std::int64_t skip = 0;; skip += kPage) {
+    RELIEVO_TRY_ASSIGN(const auto page, store.subjects({"", false, skip, kPage}));
+    for (const storage::Subject& subject : page) say_subject(subject, console);
+    if (static_cast<std::int64_t>(page.size()) < kPage) {
+      if (skip == 0 && page.empty()) console.say("nobody is in the store");
+      return {};
+    }
+  }
+}
+
+Result<void> show(storage::Store& store, const storage::Subject& subject, Console& console) {
+  say_subject(subject, console);
+  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
+  for (const storage::Enrolment& one : enrolments) {
+    console.say("  enrolment " + std::to_string(static_cast<std::int64_t>(one.id)) + "  " + text_of(one.created_at) +
+                "  model " + std::to_string(one.model_bytes / 1024) + " KiB  calibration " +
+                (one.calibration_revision == 0 ? std::string("from a file") : std::to_string(one.calibration_revision)) +
+                "  consent " + one.consent.wording + " (" + one.consent.language + ", " +
+                text_of(one.consent.given_at) + ")");
+  }
+  return {};
+}
+
+Result<void> export_newest(storage::Store& store, const storage::Subject& subject, const SubjectsArgs& args,
+                           Console& console) {
+  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
+  if (enrolments.empty()) return Error{Errc::NotFound, "has no enrolment: enrol first"}.at(args.subject);
+  const storage::Enrolment& newest = enrolments.back();
+  std::pmr::monotonic_buffer_resource memory;
+  RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  if (const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Head); !files) {
+    return files.error().at(args.output.string());
+  }
+  if (!newest.report_json.empty()) {
+    const auto bytes = std::as_bytes(std::span(newest.report_json));
+    if (const auto written = hal::write_whole_file(folder.path() / "report.json", bytes); !written) {
+      return written.error().at(args.output.string());
+    }
+  }
+  RELIEVO_TRY(folder.commit());
+  console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name + ": " +
+              args.output.string());
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_subjects(const SubjectsArgs& args, Services& services) {
+  using Verb = SubjectsArgs::Verb;
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), args.verb == Verb::Erase));
+  if (args.verb == Verb::List) return list(*store, services.console);
+  RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
+  switch (args.verb) {
+    case Verb::Show: return show(*store, subject, services.console);
+    case Verb::Export: return export_newest(*store, subject, args, services.console);
+    case Verb::Erase:
+      RELIEVO_TRY(store->erase_subject(subject.id));
+      services.console.say("erased: " + number_of(subject.id));
+      return {};
+    case Verb::List: break;
+  }
+  return {};
+}
+
+}  // namespace relievo::firmware

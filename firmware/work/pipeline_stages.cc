@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/work/pipeline_stages.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+std::uint64_t pixels(const ImageView& view) {
+  return static_cast<std::uint64_t>(view.width_px) * static_cast<std::uint64_t>(view.height_px);
+}
+
+std::uint64_t accepted(const pipeline::MatchSet& matches) {
+  return static_cast<std::uint64_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
+                                                  [](const pipeline::Match& m) { return m.rejected_by == 0; }));
+}
+
+}  // namespace
+
+Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
+                                 StageRecord& record) {
+  switch (stage) {
+    case State::Match: return match(products, context, record);
+    case State::Reconstruct: return reconstruct(products, context, record);
+    case State::Mesh: return mesh(products, context, record);
+    case State::Texture: return texture(products, context, record);
+    case State::SelfTest:
+    case State::Idle:
+    case State::Calibrate:
+    case State::Capture:
+    case State::Review:
+    case State::Store:
+    case State::Export:
+    case State::Technician:
+    case State::Fault:
+    case State::Count: break;
+  }
+  return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
+}
+
+Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+  RELIEVO_ASSERT(products.frame.has_value());
+  record.in = pixels(products.frame->left) + pixels(products.frame->right);
+  RELIEVO_TRY_ASSIGN(products.pair, pipeline_.rectify(*products.frame, context));
+  RELIEVO_TRY_ASSIGN(products.matches, pipeline_.match(*products.pair, context));
+  record.out = accepted(*products.matches);
+  return {};
+}
+
+Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageContext& context,
+                                         StageRecord& record) const {
+  RELIEVO_ASSERT(products.pair.has_value() && products.matches.has_value());
+  record.in = accepted(*products.matches);
+  RELIEVO_TRY_ASSIGN(products.cloud, pipeline_.reconstruct(*products.pair, *products.matches, context));
+  record.out = products.cloud->points.size();
+  return {};
+}
+
+Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+  RELIEVO_ASSERT(products.cloud.has_value());
+  record.in = products.cloud->points.size();
+  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_.mesh(*products.cloud, context));
+  record.out = products.mesh->triangles.size();
+  return {};
+}
+
+Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value());
+  record.in = products.mesh->triangles.size();
+  RELIEVO_TRY_ASSIGN(products.model, pipeline_.texture(std::move(*products.mesh), *products.pair, context));
+  products.mesh.reset();  // it lives on in the model
+  record.out = products.model->texture.rgb.size() / 3;
+  return {};
+}
+
+}  // namespace relievo::firmware

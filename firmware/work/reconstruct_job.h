@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ReconstructJob: the four stages in a row, on a frame that lies in the session already. What the
+// machine does state by state, as one job for commands that have no machine.
+// Errors: those of the stage that failed. Thread: worker; stage() and records() any, records() once done.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "firmware/work/jobs.h"
+
+namespace relievo::firmware {
+
+class ReconstructJob final : public Job {
+ public:
+  ReconstructJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : stage_(runner, session, pool, clock), clock_(clock) {}
+
+  State stage() const { return now_.load(std::memory_order_relaxed); }  // the one that runs, or ran last
+  const std::vector<StageRecord>& records() const { return records_; }
+  std::chrono::nanoseconds took() const { return took_; }
+  Result<void> run(JobControl& control) override;
+
+ private:
+  StageJob stage_;
+  const hal::Clock& clock_;
+  std::atomic<State> now_{State::Match};
+  std::vector<StageRecord> records_;
+  std::chrono::nanoseconds took_{0};
+};
+
+}  // namespace relievo::firmware
