@@ -55,9 +55,10 @@ Result<void> write_device(const std::filesystem::path& file, std::span<const std
 
 std::filesystem::path temporary_beside(const std::filesystem::path& file) {
   static std::atomic<unsigned> counter{0};
-  std::string name = ".";
-  name += file.filename().native();
-  name += "." + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1)) + ".part";
+  // Piece by piece: g++ 12 warns wrongly about a literal + string.
+  std::string name(1, '.');
+  name.append(file.filename().native()).append(1, '.').append(std::to_string(::getpid()));
+  name.append(1, '-').append(std::to_string(counter.fetch_add(1))).append(".part");
   return file.parent_path() / name;
 }
 
