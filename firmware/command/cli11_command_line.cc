@@ -5,11 +5,24 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "firmware/command/command_line.h"
 
 namespace relievo::firmware {
 namespace {
+
+// CLI::Range lets "nan" through.
+CLI::Validator within(double least, double most) {
+  std::ostringstream words;
+  words << least << " to " << most;
+  return CLI::Validator(
+      [least, most, text = words.str()](std::string& word) {
+        const double number = std::strtod(word.c_str(), nullptr);
+        return number >= least && number <= most ? std::string() : "wants a number from " + text + ", not " + word;
+      },
+      words.str());
+}
 
 void add_store(CLI::App& command, Path& store) {
   command.add_option("--store", store, "folder of the store")->type_name("DIR");
@@ -37,7 +50,7 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
         }
       },
       "inner corners, across x down")->required()->type_name("10x7");
-  command->add_option("--square-mm", args.square_mm, "side of a square")->required()->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--square-mm", args.square_mm, "side of a square")->required()->check(within(0.1, 1000));
   command->add_option("-o,--output", args.output, "the calibration")->required()->type_name("rig.yml");
   command->add_option("--report", args.report, "what each pair contributed")->type_name("DIR");
   add_store(*command, args.store);
@@ -132,7 +145,7 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
         ->required()->type_name("DIR");
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
     sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
-    sub->add_option("--scale", args.scale, "size of the pictures")->check(CLI::Range(0.1, 1.0))->capture_default_str();
+    sub->add_option("--scale", args.scale, "size of the pictures")->check(within(0.1, 1))->capture_default_str();
     if (!board) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
     sub->callback([&args, &chosen, board] {
       args.board = board;

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/command_line.h"
+
+#include <gtest/gtest.h>
+
+namespace relievo::firmware {
+namespace {
+
+CommandLine parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "relievo");
+  return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
+TEST(CommandLine, Reconstruct) {
+  const auto line = parse({"reconstruct", "l.png", "--set", "matcher=zmncc", "r.png", "--set", "zmncc.window_px=15",
+                           "--calibration", "rig.yml", "-o", "out", "--frame", "camera", "--region", "all"});
+  const auto& args = std::get<ReconstructArgs>(line.command);
+  EXPECT_EQ(args.left, "l.png");
+  EXPECT_EQ(args.right, "r.png");
+  EXPECT_EQ(args.output, "out");
+  EXPECT_TRUE(args.camera_frame);
+  EXPECT_TRUE(args.algorithms.whole_view);
+  EXPECT_EQ(args.algorithms.settings, (std::vector<std::string>{"matcher=zmncc", "zmncc.window_px=15"}));
+}
+
+TEST(CommandLine, Calibrate) {
+  const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"});
+  const auto& args = std::get<CalibrateArgs>(line.command);
+  EXPECT_EQ(args.corners_across, 10);
+  EXPECT_EQ(args.corners_down, 7);
+  EXPECT_EQ(args.square_mm, 20);
+}
+
+TEST(CommandLine, VerbsOfSubjects) {
+  EXPECT_EQ(std::get<SubjectsArgs>(parse({"subjects", "list"}).command).verb, SubjectsArgs::Verb::List);
+  const auto line = parse({"subjects", "export", "Ada", "-o", "out", "--store", "s"});
+  const auto& args = std::get<SubjectsArgs>(line.command);
+  EXPECT_EQ(args.verb, SubjectsArgs::Verb::Export);
+  EXPECT_EQ(args.subject, "Ada");
+  EXPECT_EQ(args.store, "s");
+}
+
+TEST(CommandLine, HelpIsNoError) {
+  testing::internal::CaptureStdout();
+  const auto line = parse({"reconstruct", "--help"});
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("--calibration"), std::string::npos);
+  EXPECT_TRUE(std::holds_alternative<NothingArgs>(line.command));
+  EXPECT_EQ(line.exit_code, 0);
+}
+
+TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
+  const std::vector<std::vector<const char*>> wrong{
+      {},
+      {"bogus"},
+      {"reconstruct"},
+      {"reconstruct", "l.png", "r.png", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "x.png", "--calibration", "rig.yml", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--frame", "sideways"},
+      {"calibrate", "dir", "--corners", "10", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "nan", "-o", "rig.yml"},
+      {"subjects"},
+      {"subjects", "show"},
+      {"enrol", "--board", "sim"},
+      {"simulate", "face", "-o", "out", "--pairs", "0"},
+      {"version", "more"}};
+  for (const auto& words : wrong) {
+    testing::internal::CaptureStderr();
+    const auto line = parse(words);
+    const std::string said = testing::internal::GetCapturedStderr();
+    const std::string first = words.empty() ? "" : words.front();
+    EXPECT_EQ(line.exit_code, 2) << first;
+    EXPECT_TRUE(std::holds_alternative<NothingArgs>(line.command)) << first;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
+}
+
+}  // namespace
+}  // namespace relievo::firmware

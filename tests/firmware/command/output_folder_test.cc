@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/output_folder.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+using test::listing;
+using test::write_text;
+
+TEST(OutputFolder, AppearsWholeAtCommit) {
+  const test::TemporaryFolder here;
+  {
+    auto folder = OutputFolder::begin(here / "out");
+    ASSERT_TRUE(folder);
+    write_text(folder->path() / "a.txt", "a");
+    EXPECT_FALSE(std::filesystem::exists(here / "out"));
+    ASSERT_TRUE(folder->commit());
+  }
+  EXPECT_EQ(listing(here.path()), "out\nout/a.txt\n");
+}
+
+TEST(OutputFolder, LeavesNothingWithoutCommit) {
+  const test::TemporaryFolder here;
+  {
+    auto folder = OutputFolder::begin(here / "deep/er/out/");
+    ASSERT_TRUE(folder);
+    write_text(folder->path() / "a.txt", "a");
+  }
+  EXPECT_EQ(listing(here.path()), "");
+}
+
+TEST(OutputFolder, ReplacesFilesOfItsOwnNamesAndTouchesNoOther) {
+  const test::TemporaryFolder here;
+  std::filesystem::create_directory(here / "out");
+  write_text(here / "out/a.txt", "old");
+  write_text(here / "out/mine.txt", "mine");
+  auto folder = OutputFolder::begin(here / "out");
+  ASSERT_TRUE(folder);
+  write_text(folder->path() / "a.txt", "new");
+  EXPECT_EQ(test::read_text(here / "out/a.txt"), "old");
+  ASSERT_TRUE(folder->commit());
+  EXPECT_EQ(test::read_text(here / "out/a.txt"), "new");
+  EXPECT_EQ(test::read_text(here / "out/mine.txt"), "mine");
+}
+
+TEST(OutputFolder, RefusesAFileAndAPlaceThatCannotBe) {
+  const test::TemporaryFolder here;
+  write_text(here / "file", "x");
+  EXPECT_EQ(OutputFolder::begin(here / "file").error().code, Errc::InvalidInput);
+  EXPECT_FALSE(OutputFolder::begin(here / "file/below"));
+  EXPECT_FALSE(OutputFolder::begin("/proc/nowhere/out"));
+  EXPECT_EQ(listing(here.path()), "file\n");
+}
+
+}  // namespace
+}  // namespace relievo::firmware

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A rectified pair whose every disparity is known in closed form: a smooth bump over a tilted plane,
+// painted with band-limited texture. It shares no code with the pipeline.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+
+#include "pipeline/model/keypoint.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::test {
+
+struct BumpScene {
+  int width_px = 320;
+  int height_px = 256;
+  double base_px = 20;        // disparity of the plane in the middle
+  double tilt = 0.02;         // disparity per pixel of x
+  double bump_px = 8;
+  double bump_radius_px = 60;
+  double contrast = 20;       // grey levels, standard deviation
+  double noise = 1.0;         // grey levels, standard deviation, each view its own
+  double right_gain = 1.0;    // the right camera sees gain * grey + offset
+  double right_offset = 0.0;
+  std::uint32_t seed = 1;
+
+  double disparity(double x, double y) const;
+  pipeline::RectifiedPair render(std::pmr::memory_resource* memory) const;
+  // Inside the picture, away from its edges and from what the other view does not see.
+  bool judged(double x, double y) const;
+};
+
+pipeline::Keypoints lattice(const pipeline::RectifiedPair& pair, int step_px, std::pmr::memory_resource* memory);
+
+}  // namespace relievo::test
