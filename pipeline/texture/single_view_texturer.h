@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does.
+// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
+// Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
+// Thread: any; keeps no state.
+#pragma once
+
+#include "pipeline/texture/texturer.h"
+
+namespace relievo::pipeline {
+
+struct SingleViewTexturerOptions {
+  int max_atlas_px = 2048;  // widest and highest atlas
+  int margin_px = 8;        // texels left free around the face
+
+  Result<void> check() const;
+};
+
+class SingleViewTexturer final : public Texturer {
+ public:
+  explicit SingleViewTexturer(const SingleViewTexturerOptions& options) : options_(options) {}
+  std::string_view name() const override { return "single-view"; }
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair,
+                               StageContext& context) const override;
+
+ private:
+  SingleViewTexturerOptions options_;
+};
+
+// Shared by the texturers: what neither can work with.
+Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TwoViewTexturer (`two-view`, the default): both photographs, each where it sees the surface and the
+// more the straighter it looks at it. The right one is first brought to the left one's exposure and
+// white balance (a gain per channel, measured on skin that both see); where one of them is much
+// brighter it holds a highlight and the darker one counts.
+// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
+// Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
+// Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
+#pragma once
+
+#include "pipeline/texture/texturer.h"
+
+namespace relievo::pipeline {
+
+struct TwoViewTexturerOptions {
+  int max_atlas_px = 2048;           // widest and highest atlas
+  int margin_px = 8;                 // texels left free around the face
+  double angle_power = 4;            // weight of a view: cosine of its angle of incidence to this power
+  double occlusion_px = 1.5;         // disparity by which something in front hides a point from the right view
+  int feather_passes = 6;            // how far, in mesh edges, one view fades into the other; 0 to 32
+  double highlight_level = 24;       // grey levels by which the brighter view loses its say; 0 keeps both
+
+  Result<void> check() const;
+};
+
+class TwoViewTexturer final : public Texturer {
+ public:
+  explicit TwoViewTexturer(const TwoViewTexturerOptions& options) : options_(options) {}
+  std::string_view name() const override { return "two-view"; }
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair,
+                               StageContext& context) const override;
+
+ private:
+  TwoViewTexturerOptions options_;
+};
+
+}  // namespace relievo::pipeline
