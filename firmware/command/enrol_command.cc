@@ -27,14 +27,16 @@ struct Calibrated {
   std::uint32_t revision = 0;   // 0: not from the store
 };
 
-Result<Calibrated> find_calibration(const EnrolArgs& args, storage::Store& store) {
+// Looked for before anything is made: without one no store appears.
+Result<Calibrated> find_calibration(const EnrolArgs& args, Services& services) {
   Calibrated found;
   if (!args.calibration.empty()) {
     RELIEVO_TRY_ASSIGN(found.calibration, pipeline::read_calibration(args.calibration));
     found.name = args.calibration.string();
     return found;
   }
-  RELIEVO_TRY_ASSIGN(found.calibration, store.active_calibration());
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
+  RELIEVO_TRY_ASSIGN(found.calibration, store->active_calibration());
   found.revision = found.calibration.revision;
   found.name = "store revision " + std::to_string(found.revision);
   return found;
@@ -98,10 +100,10 @@ std::string report_of(const Appliance& appliance, const PipelineStages& stages, 
 
 Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, services));
+  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
   RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
-  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, *store));
-  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
 
   const BootMemory memory;
   ThreadPool pool(pool_size());

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What people and scripts get wrong: each is refused in one line that says where and what, with exit
+// code 1, and nothing is written.
+#include <cstdint>
+#include <cstring>
+
+#include "hal/picture_file.h"
+#include "pipeline/calibrate/calibration_file.h"
+#include "tests/system/relievo_process.h"
+
+namespace relievo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadInput : public RelievoProcess {
+ protected:
+  void SetUp() override {
+    write_noise("left.png", 320, 240, 1);
+    write_noise("right.png", 320, 240, 2);
+    ASSERT_TRUE(pipeline::write_calibration(here / "rig.yml", rig(320, 240)));
+  }
+  static pipeline::StereoCalibration rig(int width_px, int height_px) {
+    pipeline::StereoCalibration rig;
+    for (pipeline::CameraIntrinsics* camera : {&rig.left, &rig.right}) {
+      camera->focal_px = {1.5 * width_px, 1.5 * width_px};
+      camera->centre_px = {0.5 * width_px, 0.5 * height_px};
+      camera->width_px = width_px;
+      camera->height_px = height_px;
+    }
+    rig.right_from_left.translation_mm = {-100, 0, 0};
+    return rig;
+  }
+  void write_noise(const std::string& name, int width_px, int height_px, std::uint32_t seed) {
+    std::vector<std::byte> pixels(static_cast<std::size_t>(width_px * height_px));
+    for (std::byte& pixel : pixels) {
+      seed = seed * 1664525U + 1013904223U;
+      pixel = static_cast<std::byte>(seed >> 24);
+    }
+    ASSERT_TRUE(hal::write_picture(here / name, {pixels.data(), width_px, height_px, width_px, PixelFormat::Grey8}));
+  }
+  void reconstruct_refused(const std::string& left, const std::string& right, const std::string& place,
+                           const std::string& trouble = "", const std::string& calibration = "rig.yml") {
+    refused({"reconstruct", left, right, "--calibration", calibration, "-o", "out"}, place, trouble);
+  }
+  void edit_rig(const std::string& from, const std::string& to) {
+    std::string text = read_text(here / "rig.yml");
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from << " is not in\n" << text;
+    write_text(here / "bad.yml", text.replace(at, from.size(), to));
+  }
+};
+
+TEST_F(BadInput, PicturesThatAreNone) {
+  write_text(here / "empty.png", "");
+  write_text(here / "text.png", "this is no picture\n");
+  const std::string whole = read_text(here / "left.png");
+  write_text(here / "cut.png", whole.substr(0, whole.size() / 2));
+  fs::create_directory(here / "folder.png");
+  for (const char* name : {"missing.png", "empty.png", "text.png", "cut.png", "folder.png"}) {
+    reconstruct_refused(name, "right.png", name);
+    reconstruct_refused("left.png", name, name);
+  }
+}
+
+TEST_F(BadInput, AHugePicture) {
+  // A PNG's own header claims 60000 x 60000; the size is refused before anything is decoded.
+  std::string bytes = read_text(here / "left.png");
+  const unsigned char side[4] = {0, 0, 0xEA, 0x60};
+  std::memcpy(bytes.data() + 16, side, 4);
+  std::memcpy(bytes.data() + 20, side, 4);
+  write_text(here / "huge.png", bytes);
+  reconstruct_refused("huge.png", "right.png", "huge.png");
+}
+
+TEST_F(BadInput, AnUnreadablePicture) {
+  fs::permissions(here / "left.png", fs::perms::none);
+  if (!read_text(here / "left.png").empty()) GTEST_SKIP() << "root reads everything";
+  reconstruct_refused("left.png", "right.png", "left.png");
+}
+
+TEST_F(BadInput, PicturesThatDoNotBelongTogether) {
+  write_noise("wide.png", 400, 240, 3);
+  reconstruct_refused("left.png", "wide.png", "wide.png", "differ in size");
+}
+
+TEST_F(BadInput, ACalibrationOfAnotherSize) {
+  ASSERT_TRUE(pipeline::write_calibration(here / "other.yml", rig(640, 480)));
+  reconstruct_refused("left.png", "right.png", "640x480", "size", "other.yml");
+}
+
+TEST_F(BadInput, ACalibrationThatIsNone) {
+  reconstruct_refused("left.png", "right.png", "missing.yml", "", "missing.yml");
+  write_text(here / "empty.yml", "");
+  reconstruct_refused("left.png", "right.png", "empty.yml", "", "empty.yml");
+  const std::string whole = read_text(here / "rig.yml");
+  for (std::size_t length = 1; length < whole.size() - 3; length += whole.size() / 12) {
+    write_text(here / "bad.yml", whole.substr(0, length));
+    reconstruct_refused("left.png", "right.png", "bad.yml", "", "bad.yml");
+  }
+}
+
+TEST_F(BadInput, ACalibrationWithImpossibleNumbers) {
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"480", "-480"}, {"480", ".Nan"}, {"480", "1e300"}, {"-100", "0"}, {"-100", "-1e9"},
+           {"image_width: 320", "image_width: 0"}, {"image_width: 320", "image_width: -320"}}) {
+    edit_rig(from, to);
+    reconstruct_refused("left.png", "right.png", "bad.yml", "", "bad.yml");
+  }
+}
+
+TEST_F(BadInput, NoFaceInView) { reconstruct_refused("left.png", "right.png", "left.png", "face"); }
+
+TEST_F(BadInput, SettingsThatDoNotExist) {
+  const std::vector<std::string> call{"reconstruct", "left.png", "right.png", "--calibration", "rig.yml", "-o", "out"};
+  for (const char* setting : {"matcher=psychic", "nobody=1", "refined.bending=much", "justaword", "="}) {
+    std::vector<std::string> words = call;
+    words.insert(words.end(), {"--set", setting});
+    refused(words, setting == std::string("=") ? "=" : std::string(setting).substr(0, 6));
+  }
+  write_text(here / "bad.toml", "[matcher\n");
+  std::vector<std::string> words = call;
+  words.insert(words.end(), {"--algorithms", "bad.toml"});
+  refused(words, "bad.toml:1");
+}
+
+TEST_F(BadInput, AnOutputThatIsAFile) {
+  write_text(here / "out", "mine");
+  reconstruct_refused("left.png", "right.png", "");
+  EXPECT_EQ(read_text(here / "out"), "mine");
+}
+
+TEST_F(BadInput, CalibratingFromWhatShowsNoBoard) {
+  const std::vector<std::string> rest{"--corners", "10x7", "--square-mm", "20", "-o", "new.yml"};
+  const auto calibrate_refused = [&](const std::string& folder, const std::string& place) {
+    std::vector<std::string> words{"calibrate", folder};
+    words.insert(words.end(), rest.begin(), rest.end());
+    refused(words, place);
+  };
+  calibrate_refused("missing", "missing");
+  fs::create_directory(here / "empty");
+  calibrate_refused("empty", "empty");
+  fs::create_directory(here / "noise");
+  for (const char* pair : {"0", "1", "2"}) {
+    write_noise("noise/left" + std::string(pair) + ".png", 320, 240, 5);
+    write_noise("noise/right" + std::string(pair) + ".png", 320, 240, 6);
+  }
+  calibrate_refused("noise", "noise");
+  fs::remove(here / "noise/right1.png");
+  calibrate_refused("noise", "left1.png");
+}
+
+TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
+  refused({"enrol", "--board", "toaster", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "toaster");
+  refused({"enrol", "--board", "folder:missing", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "missing");
+  fs::create_directory(here / "empty");
+  refused({"enrol", "--board", "folder:empty", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "empty");
+  fs::create_directory(here / "pair");
+  fs::copy(here / "left.png", here / "pair/left_000000.png");
+  fs::copy(here / "right.png", here / "pair/right_000000.png");
+  write_text(here / "file", "no store\n");
+  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"}, "file");
+  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"}, "no.yml");
+}
+
+TEST_F(BadInput, APersonWhoIsNotThere) {
+  refused({"subjects", "list", "--store", "nowhere"}, "nowhere");
+  refused({"subjects", "show", "Ada", "--store", "nowhere"}, "nowhere");
+  refused({"calibration", "import", "missing.yml", "--store", "nowhere"}, "missing.yml");
+}
+
+TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {
+  for (const auto& words : std::vector<std::vector<std::string>>{{}, {"bogus"}, {"reconstruct", "left.png"}}) {
+    const Said said = relievo(words);
+    EXPECT_EQ(said.exit_code, 2);
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  }
+}
+
+}  // namespace
+}  // namespace relievo::test

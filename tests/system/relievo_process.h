@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The built program in a folder of its own, for tests of what a person meets.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::test {
+
+class RelievoProcess : public testing::Test {
+ protected:
+  Said relievo(std::vector<std::string> words) {
+    words.insert(words.begin(), RELIEVO_BINARY);
+    return run_program(words, here.path());
+  }
+  // It must be done, and say nothing on standard error.
+  Said done(const std::vector<std::string>& words) {
+    Said said = relievo(words);
+    EXPECT_EQ(said.exit_code, 0) << said.err;
+    EXPECT_EQ(said.err, "");
+    return said;
+  }
+  // It must refuse: exit code 1, one line that names the place and the trouble, and nothing written.
+  void refused(const std::vector<std::string>& words, const std::string& place, const std::string& trouble = "") {
+    const std::string before = listing(here.path());
+    const Said said = relievo(words);
+    std::string call;
+    for (const std::string& word : words) call += word + " ";
+    EXPECT_EQ(said.exit_code, 1) << call << "\n" << said.out << said.err;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << call << "\n" << said.err;
+    EXPECT_EQ(said.err.rfind("relievo: ", 0), 0U) << call << "\n" << said.err;
+    EXPECT_NE(said.err.find(place), std::string::npos) << call << "\n" << said.err;
+    EXPECT_NE(said.err.find(trouble), std::string::npos) << call << "\n" << said.err;
+    EXPECT_EQ(listing(here.path()), before) << call;
+  }
+
+  TemporaryFolder here;
+};
+
+}  // namespace relievo::test
