@@ -10,6 +10,7 @@
 
 #include "pipeline/match/coarse_surface.h"
 #include "pipeline/match/matcher.h"
+#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 
@@ -19,6 +20,18 @@ struct RefinedMatcherOptions {
   float sigma_limit_px = 0.6F;   // a place less certain than this has no match
   Result<void> check() const;
 };
+
+template <typename Field>
+void describe(RefinedMatcherOptions& o, Field&& field) {
+  field("bending", o.refiner.bending, OptionRange{0.005, 5}, "how strongly a face is expected to bend; less is smoother");
+  field("crease", o.refiner.crease, OptionRange{0.05, 100}, "second differences beyond this many expected ones count as creases");
+  field("local_window_px", o.refiner.local_window_px, OptionRange{5, 127}, "window over which offset and gain between the views are constant");
+  field("steps", o.refiner.steps, OptionRange{1, 32}, "warps at each size of the pictures");
+  field("solver_steps", o.refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");
+  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
+  field("band", o.coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
+  field("cross_check_px", o.coarse.cross_check_px, OptionRange{0.25, 16}, "how far the two views may disagree, pixels at a quarter of the size");
+}
 
 class RefinedMatcher final : public Matcher {
  public:

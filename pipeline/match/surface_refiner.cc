@@ -43,14 +43,27 @@ Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
   return extent;
 }
 
-// Adds every pixel's weight * gradient^2 and weight * gradient * residual to the nodes around it.
-void gather_data(const WarpTerms& terms, int step, BendingSystem& system, Plane<float>& pull, ThreadPool& pool) {
+struct Work {
+  Work(std::pmr::memory_resource* memory, int w, int h)
+      : system(memory, w, h), pull(memory, w, h), sure(memory, w, h), d(memory, w, h), delta(memory, w, h),
+        domain(memory, w, h) {}
+  BendingSystem system;
+  Plane<float> pull;   // weight * gradient * residual, gathered
+  Plane<float> sure;   // weight, gathered
+  Plane<float> d, delta;
+  Plane<std::uint8_t> domain;
+};
+
+// Adds what every pixel says to the nodes around it.
+void gather_data(const WarpTerms& terms, int step, Work& work, ThreadPool& pool) {
+  BendingSystem& system = work.system;
   constexpr float kTent[3] = {0.5F, 1, 0.5F};
   pool.for_each_band(system.height(), kBands, [&](int begin, int end, int) {
     for (int j = begin; j < end; ++j)
       for (int i = 0; i < system.width(); ++i) {
         float a = 0;
         float b = 0;
+        float sure = 0;
         for (int dy = 1 - step; dy < step; ++dy)
           for (int dx = 1 - step; dx < step; ++dx) {
             const int x = i * step + dx;
@@ -60,9 +73,11 @@ void gather_data(const WarpTerms& terms, int step, BendingSystem& system, Plane<
             const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
             a += wg * terms.gradient.row(y)[x];
             b += wg * terms.residual.row(y)[x];
+            sure += tent * terms.weight.row(y)[x];
           }
         system.data.row(j)[i] = a;
-        pull.row(j)[i] = b;
+        work.pull.row(j)[i] = b;
+        work.sure.row(j)[i] = sure;
       }
   });
 }
@@ -101,14 +116,6 @@ void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain, dou
   });
 }
 
-struct Work {
-  Work(std::pmr::memory_resource* memory, int w, int h)
-      : system(memory, w, h), pull(memory, w, h), d(memory, w, h), delta(memory, w, h), domain(memory, w, h) {}
-  BendingSystem system;
-  Plane<float> pull, d, delta;
-  Plane<std::uint8_t> domain;
-};
-
 void load(const SurfaceField& field, const Window& nodes, Work& work) {
   for (int y = 0; y < nodes.height; ++y)
     for (int x = 0; x < nodes.width; ++x) {
@@ -118,21 +125,37 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
-// sigma and cost of every node; `area` is the number of full-size pixels a node stands for.
-void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes, const Work& work,
-           std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
+// sigma of a node: the square root of the integral over the plane of
+//   (A + lambda k^4) / (a + lambda k^4)^2
+// with A the information that the gradients seem to carry, noise in them included, and a what is left
+// without the noise: the fit answers to a, yet is shaken by A.
+float posterior_sigma(double seeming, double noise_share, double bend) {
+  const double real = std::max(seeming - noise_share, 0.1 * seeming);
+  const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
+  return static_cast<float>(std::sqrt(variance));
+}
+
+// sigma and cost of every node.
+void judge(const WarpTerms& terms, const RefinerScene& scene, int step, double lambda, const Window& nodes,
+           const Work& work, std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
   Plane<float> mean(&scratch, nodes.width, nodes.height);
+  Plane<float> mean_sure(&scratch, nodes.width, nodes.height);
   Plane<float> across(&scratch, nodes.width, nodes.height);
   constexpr int kRadius = 4;  // about the reach of one pixel's influence on skin
+  constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
+  // Central differences of white noise have half its variance, the mean of two views half of that, and
+  // the residual twice the noise's: an eighth; resampling smooths a little of it away.
+  constexpr double kSlopeNoise = 0.1;
   box_sum(work.system.data, kRadius, pool, across, mean);
+  box_sum(work.sure, kRadius, pool, across, mean_sure);
+  const double level_pixels = 1.0 / (1 << (2 * scene.level));
   for (int y = 1; y < nodes.height - 1; ++y)
     for (int x = 1; x < nodes.width - 1; ++x) {
       if (work.domain.row(y)[x] == 0) continue;
-      constexpr float kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
-      const double a = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
+      const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
+      const double noise = kSlopeNoise * level_pixels * static_cast<double>(terms.noise_variance * mean_sure.row(y)[x]) / kCells;
       const float xx = work.system.bend_xx.row(y)[x];
-      const double bend = xx > 0 ? xx : lambda * 0.1;
-      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = static_cast<float>(std::sqrt(1 / (8 * std::sqrt(a * bend))));
+      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = posterior_sigma(seeming, noise, xx > 0 ? static_cast<double>(xx) : lambda * 0.1);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
@@ -157,7 +180,6 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   // Squared second differences over nodes `spacing` apart, one node a spacing^2 of full-size pixels.
   const double lambda = scene.lambda_px / (spacing * spacing);
   const double expected = options.crease / std::sqrt(lambda);
-  // A level's pixel stands for 4^level full-size ones whose noise its own low-pass has averaged.
   for (int k = 0; k < options.steps; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
     Arena::Mark mark(context.scratch);
@@ -165,7 +187,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     load(field, nodes, work);
     WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
     form_terms(scene, options, field, extent.pixels, context, terms);
-    gather_data(terms, step, work.system, work.pull, context.pool);
+    gather_data(terms, step, work, context.pool);
     weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n)
       if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = 0;
@@ -179,7 +201,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)
           field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] += std::clamp(work.delta.row(y)[x], -limit, limit);
-    if (k == options.steps - 1) judge(terms, step, lambda, nodes, work, context.scratch, context.pool, field);
+    if (k == options.steps - 1) judge(terms, scene, step, lambda, nodes, work, context.scratch, context.pool, field);
   }
   return {};
 }

@@ -186,6 +186,7 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   // The offset soaks up what a slope of shading says: so must the gradient's own mean.
   box_sum(terms.gradient, radius, pool, across, sum_left);
   const float noise = noise_variance(terms);
+  terms.noise_variance = noise;
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < w; ++x)

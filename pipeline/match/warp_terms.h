@@ -24,6 +24,7 @@ struct WarpTerms {
   Plane<float> weight;     // 1 / variance of the residual
   Plane<float> mask;       // 1 where both views show the surface
   Plane<float> cost;       // 1 - local zero-mean normalised correlation
+  float noise_variance = 0;  // of the residual over the whole surface
 };
 
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,

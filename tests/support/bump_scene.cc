@@ -51,12 +51,17 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
   pipeline::RectifiedPair pair(memory);
   pair.width_px = width_px;
   pair.height_px = height_px;
-  pair.focal_px = 1000;
-  pair.baseline_mm = 20;
-  pair.left_centre_px = pair.right_centre_px = {width_px / 2.0, height_px / 2.0};
-  pair.near_mm = 1000 * 20 / (base_px + bump_px + 12.0);
-  pair.far_mm = 1000 * 20 / std::max(4.0, base_px - 12.0);
-  pair.right_from_left.translation_mm = {-20, 0, 0};
+  // A face-like rig: the plane stands at 560 mm, one pixel is 0.37 mm wide and 2.1 mm deep.
+  constexpr double kFocal = 1500;
+  constexpr double kBaseline = 100;
+  constexpr double kDistance = 560;
+  pair.focal_px = kFocal;
+  pair.baseline_mm = kBaseline;
+  pair.left_centre_px = {width_px / 2.0, height_px / 2.0};
+  pair.right_centre_px = {width_px / 2.0 - (base_px - kFocal * kBaseline / kDistance), height_px / 2.0};
+  pair.near_mm = 510;
+  pair.far_mm = 620;
+  pair.right_from_left.translation_mm = {-kBaseline, 0, 0};
   const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   const Texture texture(seed, contrast);
   std::mt19937 random(seed + 1000);

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/constraints/similarity_constraint.h"
+
+namespace relievo::pipeline {
+
+Result<void> SimilarityConstraintOptions::check() const {
+  if (!(max_cost >= 0)) return Error{Errc::InvalidInput, "similarity: max_cost must not be negative"};
+  return {};
+}
+
+void SimilarityConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
+                                 StageContext&) const {
+  for (Match& match : matches)
+    if (match.rejected_by == 0 && !(match.cost <= options_.max_cost)) match.rejected_by = bit;
+}
+
+}  // namespace relievo::pipeline

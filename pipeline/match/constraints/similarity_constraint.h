@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SimilarityConstraint ("similarity"): the two views must look alike around a match: its cost (one
+// minus zero-mean correlation) stays under a limit.
+#pragma once
+
+#include "pipeline/match/match_constraint.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct SimilarityConstraintOptions {
+  float max_cost = 0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(SimilarityConstraintOptions& o, Field&& field) {
+  field("max_cost", o.max_cost, OptionRange{0, 2}, "one minus correlation above which a match is rejected");
+}
+
+class SimilarityConstraint final : public MatchConstraint {
+ public:
+  explicit SimilarityConstraint(const SimilarityConstraintOptions& options) : options_(options) {}
+  std::string_view name() const override { return "similarity"; }
+  void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
+             StageContext& context) const override;
+
+ private:
+  SimilarityConstraintOptions options_;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// InverseDisparityTriangulator ("inverse-disparity", the default): on a rectified pair the two lines
+// of sight meet exactly, and depth is focal length times baseline over disparity. The standard
+// deviation along the line of sight follows: sigma_z = z^2 / (f B) * sigma_d.
+#pragma once
+
+#include "pipeline/reconstruct/triangulator.h"
+
+namespace relievo::pipeline {
+
+class InverseDisparityTriangulator final : public Triangulator {
+ public:
+  std::string_view name() const override { return "inverse-disparity"; }
+  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const override;
+};
+
+}  // namespace relievo::pipeline

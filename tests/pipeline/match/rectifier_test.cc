@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/rectifier.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "pipeline/match/rectified_geometry.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// A toed-in, slightly rolled and distorted rig.
+StereoCalibration toed_in(int width, int height) {
+  StereoCalibration c;
+  c.left = {{900, 905}, {width / 2.0 + 3, height / 2.0 - 2}, {-0.11, 0.12, 2e-4, -1e-4, 0.01}, width, height};
+  c.right = {{895, 899}, {width / 2.0 - 5, height / 2.0 + 4}, {-0.10, 0.09, -2e-4, 3e-4, 0.0}, width, height};
+  const double a = 0.24;  // toe-in, right camera turned towards the left one
+  const double r = 0.01;  // roll
+  // right_from_left = Rz(r) * Ry(a); the right camera stands 120 mm to the right.
+  const double ca = std::cos(a), sa = std::sin(a), cr = std::cos(r), sr = std::sin(r);
+  c.right_from_left.rotation = {{cr * ca, -sr, cr * sa, sr * ca, cr, sr * sa, -sa, 0, ca}};
+  const Vec3d centre{120, 1.5, 14};
+  const Vec3d t = apply(c.right_from_left.rotation, centre);
+  c.right_from_left.translation_mm = {-t.x, -t.y, -t.z};
+  return c;
+}
+
+// The test's own projection, written from the camera model's definition.
+Vec2d project(const CameraIntrinsics& camera, const Vec3d& p) {
+  const double x = p.x / p.z;
+  const double y = p.y / p.z;
+  const double r2 = x * x + y * y;
+  const double* k = camera.distortion;
+  const double s = 1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2;
+  return {camera.focal_px.x * (x * s + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + camera.centre_px.x,
+          camera.focal_px.y * (y * s + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + camera.centre_px.y};
+}
+
+TEST(RectifiedGeometry, APointLiesOnTheSameRowInBothViewsAtTheStatedDepth) {
+  const StereoCalibration c = toed_in(640, 480);
+  test::StageBench bench(1 << 20, 1 << 20);
+  RectifiedPair pair(&bench.output);
+  ASSERT_TRUE(lay_windows(c, {}, pair));
+  for (double z = 420; z < 700; z += 40)
+    for (double x = -60; x <= 100; x += 20)
+      for (double y = -80; y <= 80; y += 20) {
+        const Vec3d in_left{x, y, z};
+        const Vec3d p = apply(pair.rectified_from_left, in_left);
+        const double u = pair.focal_px * p.x / p.z + pair.left_centre_px.x;
+        const double v = pair.focal_px * p.y / p.z + pair.left_centre_px.y;
+        const double u_right = pair.focal_px * (p.x - pair.baseline_mm) / p.z + pair.right_centre_px.x;
+        EXPECT_NEAR(pair.depth_mm(u - u_right), p.z, 1e-6);
+        const Vec2d left = source_pixel(c.left, pair.rectified_from_left, pair.focal_px, pair.left_centre_px, {u, v});
+        const Vec2d right = source_pixel(c.right, pair.rectified_from_right, pair.focal_px, pair.right_centre_px, {u_right, v});
+        const Vec2d left_truth = project(c.left, in_left);
+        const Vec2d right_truth = project(c.right, apply(c.right_from_left, in_left));
+        EXPECT_NEAR(left.x, left_truth.x, 1e-6);
+        EXPECT_NEAR(left.y, left_truth.y, 1e-6);
+        EXPECT_NEAR(right.x, right_truth.x, 1e-6);
+        EXPECT_NEAR(right.y, right_truth.y, 1e-6);
+      }
+}
+
+TEST(RectifiedGeometry, TheWindowsHoldBothWholePictures) {
+  const StereoCalibration c = toed_in(640, 480);
+  test::StageBench bench(1 << 20, 1 << 20);
+  RectifiedPair pair(&bench.output);
+  ASSERT_TRUE(lay_windows(c, {}, pair));
+  // Neither zoomed (the scale is the cameras' own) nor cut: the centre of each picture is well inside.
+  EXPECT_NEAR(pair.focal_px, 900, 10);
+  EXPECT_LT(pair.width_px, 800);
+  EXPECT_GT(pair.width_px, 600);
+}
+
+TEST(RectifiedGeometry, SwappedCamerasAreNamed) {
+  StereoCalibration c = toed_in(640, 480);
+  c.right_from_left = inverse(c.right_from_left);
+  test::StageBench bench(1 << 20, 1 << 20);
+  RectifiedPair pair(&bench.output);
+  const auto laid = lay_windows(c, {}, pair);
+  ASSERT_FALSE(laid);
+  EXPECT_NE(laid.error().what.view().find("swapped"), std::string_view::npos);
+}
+
+TEST(Rectifier, ResamplesASmoothPictureToItsAnalyticValues) {
+  const int w = 320;
+  const int h = 240;
+  StereoCalibration c = toed_in(w, h);
+  c.left.focal_px = c.right.focal_px = {450, 450};
+  const auto shade = [](double x, double y) { return 128 + 60 * std::sin(0.05 * x) * std::cos(0.04 * y); };
+  std::vector<std::uint16_t> picture(static_cast<std::size_t>(w * h));
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) picture[static_cast<std::size_t>(y * w + x)] = static_cast<std::uint16_t>(std::lround(257 * shade(x, y)));
+  const ImageView view{reinterpret_cast<const std::byte*>(picture.data()), w, h, 2 * w, PixelFormat::Grey16};
+  test::StageBench bench;
+  const auto pair = run_stage(bench.context, [&](StageContext& ctx) { return Rectifier({}).rectify({view, view}, c, ctx); });
+  ASSERT_TRUE(pair);
+  std::size_t seen = 0;
+  for (int y = 0; y < pair->height_px; ++y)
+    for (int x = 0; x < pair->width_px; ++x) {
+      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair->width_px) + static_cast<std::size_t>(x);
+      if (pair->left.valid[k] == 0) continue;
+      ++seen;
+      const Vec2d from = source_pixel(c.left, pair->rectified_from_left, pair->focal_px, pair->left_centre_px,
+                                      {static_cast<double>(x), static_cast<double>(y)});
+      ASSERT_NEAR(pair->left.grey[k], shade(from.x, from.y), 0.1) << x << "," << y;
+    }
+  EXPECT_GT(seen, static_cast<std::size_t>(w * h) * 9 / 10);
+}
+
+TEST(Rectifier, RefusesWhatIsNotThisCalibrations) {
+  const StereoCalibration c = toed_in(160, 120);
+  std::vector<std::byte> bytes(160 * 120 * 3);
+  const ImageView right_size{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
+  const ImageView wrong_size{bytes.data(), 152, 120, 456, PixelFormat::Rgb8};
+  test::StageBench bench(1 << 22, 1 << 22);
+  for (const auto& [left, right] : {std::pair{wrong_size, right_size}, std::pair{right_size, wrong_size}, std::pair{ImageView{}, right_size}}) {
+    const auto pair = run_stage(bench.context, [&, l = left, r = right](StageContext& ctx) { return Rectifier({}).rectify({l, r}, c, ctx); });
+    ASSERT_FALSE(pair);
+    EXPECT_EQ(pair.error().code, Errc::InvalidInput);
+    EXPECT_FALSE(pair.error().where().empty());
+  }
+}
+
+TEST(Rectifier, EveryArenaTooSmallSaysSo) {
+  const StereoCalibration c = toed_in(160, 120);
+  std::vector<std::byte> bytes(160 * 120 * 3);
+  const ImageView view{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
+  bool succeeded = false;
+  for (std::size_t size = 512; size < (1U << 24) && !succeeded; size += size / 3) {
+    test::StageBench bench(size, size, 1);
+    const auto pair = run_stage(bench.context, [&](StageContext& ctx) { return Rectifier({}).rectify({view, view}, c, ctx); });
+    succeeded = pair.has_value();
+    if (!succeeded) { EXPECT_EQ(pair.error().code, Errc::OutOfMemory); }
+  }
+  EXPECT_TRUE(succeeded);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
