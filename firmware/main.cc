@@ -30,8 +30,8 @@ Result<void> simulate(const SimulateArgs&, const Path&, const Services::Simulate
 }  // namespace relievo::firmware
 
 int main(int argc, char** argv) {
-  using namespace relievo::firmware;
-  Console console;
-  Services services{open_board, open_store, simulate, console};
-  return run_command(parse_command_line(argc, argv), services);
+  namespace fw = relievo::firmware;
+  fw::Console console;
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, console};
+  return fw::run_command(fw::parse_command_line(argc, argv), services);
 }
