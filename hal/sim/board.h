@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The boards that need no hardware: a folder of recorded pictures, and a simulated rig. A frame is
+// made when the trigger line pulses; without a pulse next_frame() meets its deadline.
+// Thread: making: main; cameras: capture; the rest as hal/board.h says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "hal/base/result.h"
+#include "hal/board.h"
+#include "hal/sim/render.h"
+
+namespace relievo::hal {
+
+// DIR holds left_NNNNNN.png and right_NNNNNN.png with an optional capture.json, or plain left* and
+// right* pictures. The frames repeat for ever, in name order. Pictures are read when asked for.
+// Errors: NotFound (no folder, no picture), InvalidInput (a name without its partner, a bad
+// capture.json, pictures that differ in size).
+Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& folder);
+
+struct SimBoardOptions {
+  sim::SimulationOptions simulation;
+  // Where an inserted stick is shown as a folder; none: no stick.
+  std::optional<std::filesystem::path> media_folder;
+  int threads = 2;
+};
+
+// Renders at the first frame (seconds); later frames of the same scene only differ in noise.
+Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options);
+
+}  // namespace relievo::hal

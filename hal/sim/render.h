@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The simulated rig's pictures as files: what `relievo simulate` writes.
+// Thread: any; one at a time per pool.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "hal/sim/board_scene.h"
+#include "hal/sim/head_camera.h"
+#include "hal/sim/head_scene.h"
+#include "hal/sim/rig.h"
+
+namespace relievo::hal::sim {
+
+enum class SceneKind : std::uint8_t { Head, Board };
+
+struct SimulationOptions {
+  SceneKind scene = SceneKind::Head;
+  std::uint32_t seed = 1;         // the person, or the set of board poses
+  HeadPose pose;
+  BoardPattern board;
+  int board_poses = 14;
+  RigOptions rig;
+  SensorOptions sensor;
+  bool truth = false;             // head only: also truth.bin, head.ply
+  Result<void> check() const;     // InvalidInput
+};
+
+struct PicturePair {
+  Picture left, right;
+};
+
+PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor, std::uint64_t noise_seed, ThreadPool& pool);
+
+// Head: left.png right.png rig.yml; board: left_NN.png right_NN.png rig.yml. Makes the folder.
+// `threads` counts the caller. Errors: InvalidInput, PoorGeometry, IoFailed, MediaFull.
+Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder, int threads = 2);
+
+}  // namespace relievo::hal::sim
