@@ -14,9 +14,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "hal/base/result.h"
 #include "hal/clock.h"
+#include "storage/sqlite/sqlite_database.h"
 #include "storage/store.h"
 
 namespace relievo::storage {
@@ -27,6 +34,58 @@ struct SqliteStoreOptions {
   OpenMode mode = OpenMode::ReadWrite;
   std::chrono::milliseconds wait_for_lock{2000};
   std::int64_t max_bytes = 0;  // of the database file; 0: as much as the disk holds
+};
+
+class SqliteStore final : public Store {
+ public:
+  // Of a database that open_sqlite_store() has made ready; `lock_fd` keeps others out, -1: none.
+  SqliteStore(std::unique_ptr<Database> database, const hal::Clock& clock, OpenMode mode, int lock_fd)
+      : database_(std::move(database)), clock_(clock), mode_(mode), lock_fd_(lock_fd) {}
+  ~SqliteStore() override;
+  SqliteStore(const SqliteStore&) = delete;
+  SqliteStore& operator=(const SqliteStore&) = delete;
+
+  Result<void> check() override;
+  Result<SubjectId> add_subject(const NewSubject& subject) override;
+  Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
+  Result<Subject> subject(SubjectId id) override;
+  Result<void> erase_subject(SubjectId id) override;
+  Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) override;
+  Result<std::vector<Enrolment>> enrolments(SubjectId subject) override;
+  Result<Enrolment> enrolment(EnrolmentId id) override;
+  Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) override;
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
+                                         std::string_view note) override;
+  Result<std::vector<CalibrationInfo>> calibrations() override;
+  Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) override;
+  Result<pipeline::StereoCalibration> active_calibration() override;
+  Result<void> activate_calibration(std::uint32_t revision) override;
+  Result<std::string> setting(std::string_view key) override;
+  Result<void> set_setting(std::string_view key, std::string_view value) override;
+  Result<void> append_audit(const AuditEvent& event) override;
+  Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) override;
+
+ private:
+  // Runs `work` in one transaction, with its line of the audit log; memory that runs out is an error.
+  template <typename Work>
+  auto change(const Work& work) -> decltype(work(WallTime{}));
+  WallTime now() const;
+  Error not_found(Literal what, std::int64_t number) const;
+  Result<void> subject_must_exist(SubjectId id);
+  Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
+  Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
+  Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
+                                       std::span<const std::byte> blob, WallTime at);
+  Result<void> make_active(std::uint32_t revision);
+  Result<std::vector<std::byte>> model_bytes(EnrolmentId id);
+  Result<void> check_pages();
+  Result<void> check_models();
+  Result<void> check_calibrations();
+
+  std::unique_ptr<Database> database_;
+  const hal::Clock& clock_;
+  OpenMode mode_;
+  int lock_fd_;
 };
 
 // `clock` must outlive the store.

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A file that is whole or not there: written beside its place, made durable, then renamed into it.
+// Errors: MediaFull, IoFailed; each names the file and says what to do.
+// Thread: any, one at a time.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include "hal/base/result.h"
+
+namespace relievo::storage {
+
+class PendingFile {
+ public:
+  // Nothing that stands at `target` is touched before publish().
+  static Result<PendingFile> create(const std::filesystem::path& target);
+  ~PendingFile();  // an unpublished file is removed
+  PendingFile(PendingFile&& other) noexcept
+      : target_(std::move(other.target_)), temporary_(std::move(other.temporary_)), fd_(std::exchange(other.fd_, -1)) {
+    other.temporary_.clear();
+  }
+  PendingFile& operator=(PendingFile&&) = delete;
+
+  Result<void> write(std::span<const std::byte> bytes);
+  Result<void> finish();   // no more bytes: all of them reach the disk
+  Result<void> publish();  // after finish()
+
+  const std::filesystem::path& target() const { return target_; }
+
+ private:
+  PendingFile(std::filesystem::path target, std::filesystem::path temporary, int fd)
+      : target_(std::move(target)), temporary_(std::move(temporary)), fd_(fd) {}
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  int fd_ = -1;
+};
+
+// A rename is durable only when its directory is.
+Result<void> sync_directory(const std::filesystem::path& dir);
+
+// All of the above at once.
+Result<void> write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
+
+}  // namespace relievo::storage

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "storage/export/obj_writer.h"
+
+#include <charconv>
+
+#include "storage/export/seam_split.h"
+
+namespace relievo::storage {
+namespace {
+
+// Not printf: it writes a comma where the locale does.
+template <typename Number>
+void add(std::string& text, Number value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+template <typename... Numbers>
+void add_line(std::string& text, const char* word, Numbers... values) {
+  text += word;
+  ((text += ' ', add(text, values)), ...);
+  text += '\n';
+}
+
+}  // namespace
+
+std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
+  const SeamSplit split = split_at_seams(mesh);
+  std::string text;
+  text.reserve(mesh.vertices_mm.size() * 70 + split.entries.size() * 26 + split.triangles.size() * 60);
+  text += "# Relievo face model, millimetres, ";
+  text += mesh.frame == ExportFrame::Head ? "head frame: x to the person's left, y up, z out of the face\n"
+                                          : "camera frame: x right, y down, z forward\n";
+  text.append("mtllib ").append(mtl_name).append("\no face\n");
+  for (const auto& v : mesh.vertices_mm) add_line(text, "v", v.x, v.y, v.z);
+  for (const auto& n : mesh.normals) add_line(text, "vn", n.x, n.y, n.z);
+  if (mesh.textured()) {
+    for (const auto& entry : split.entries) add_line(text, "vt", entry.uv.x, 1.0f - entry.uv.y);
+  }
+  text += "usemtl face\n";
+  for (const auto& triangle : split.triangles) {
+    text += 'f';
+    for (const std::uint32_t entry : triangle) {
+      const std::uint32_t vertex = split.entries[entry].vertex + 1;
+      text += ' ';
+      add(text, vertex);
+      text += '/';
+      if (mesh.textured()) add(text, entry + 1);
+      text += '/';
+      add(text, vertex);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string mtl_text(const ExportMesh& mesh, std::string_view png_name) {
+  std::string text = "# Relievo face model\nnewmtl face\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n";
+  if (mesh.textured()) text.append("map_Kd ").append(png_name).append("\n");
+  return text;
+}
+
+}  // namespace relievo::storage

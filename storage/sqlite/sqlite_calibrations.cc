@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// SqliteStore: calibrations and settings.
+#include "storage/calibration_record.h"
+#include "storage/sqlite/sqlite_audit.h"
+#include "storage/sqlite/sqlite_change.h"
+#include "storage/text.h"
+
+namespace relievo::storage {
+
+Result<void> SqliteStore::make_active(std::uint32_t revision) {
+  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 0 WHERE active = 1"));
+  RELIEVO_TRY_ASSIGN(auto update, database_->prepare("UPDATE calibration SET active = 1 WHERE revision = ?"));
+  RELIEVO_TRY(update.bind(std::int64_t{revision}).run());
+  if (database_->changes() != 1) return not_found("there is no calibration of this revision", revision);
+  return {};
+}
+
+Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
+                                                    std::string_view note) {
+  RELIEVO_TRY(check_calibration(calibration));
+  if (note.size() > kMaxTextBytes) return Error{Errc::InvalidInput, "the note is longer than the store takes"};
+  return change([&](WallTime at) -> Result<std::uint32_t> {
+    RELIEVO_TRY_ASSIGN(auto insert, database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
+                                                       "VALUES (?, ?, zeroblob(0), 0)"));
+    RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
+    pipeline::StereoCalibration numbered = calibration;
+    numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
+    const auto record = encode_calibration(numbered);
+    RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
+    RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
+    RELIEVO_TRY(make_active(numbered.revision));
+    RELIEVO_TRY(append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+    return numbered.revision;
+  });
+}
+
+Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
+  return without_exceptions(database_->where(), [&]() -> Result<std::vector<CalibrationInfo>> {
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, created_at_ms, note, active, record "
+                                                      "FROM calibration ORDER BY revision DESC"));
+    std::vector<CalibrationInfo> found;
+    for (;;) {
+      RELIEVO_TRY_ASSIGN(const bool row, query.step());
+      if (!row) return found;
+      RELIEVO_TRY_ASSIGN(const auto calibration, decode_calibration(query.blob(4)));
+      found.push_back({.revision = static_cast<std::uint32_t>(query.integer(0)),
+                       .created_at = from_ms(query.integer(1)),
+                       .note = std::string(query.text(2)),
+                       .rms_px = calibration.rms_px,
+                       .width_px = calibration.left.width_px,
+                       .height_px = calibration.left.height_px,
+                       .active = query.integer(3) != 0});
+    }
+  });
+}
+
+namespace {
+
+// The record says itself which revision it is: a swapped one is noticed.
+Result<pipeline::StereoCalibration> record_in(const Statement& query) {
+  RELIEVO_TRY_ASSIGN(const auto calibration, decode_calibration(query.blob(1)));
+  if (calibration.revision != query.integer(0)) {
+    return Error{Errc::StoreCorrupt, "a stored calibration stands in the place of another"};
+  }
+  return calibration;
+}
+
+}  // namespace
+
+Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revision) {
+  return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?"));
+    RELIEVO_TRY_ASSIGN(const bool row, query.bind(std::int64_t{revision}).step());
+    if (!row) return not_found("there is no calibration of this revision", revision);
+    return record_in(query);
+  });
+}
+
+Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
+  return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, record FROM calibration WHERE active = 1"));
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(database_->where());
+    return record_in(query);
+  });
+}
+
+Result<void> SqliteStore::activate_calibration(std::uint32_t revision) {
+  return change([&](WallTime at) -> Result<void> {
+    RELIEVO_TRY(make_active(revision));
+    return append_audit_line(*database_, {"calibration.activated", {}, std::to_string(revision)}, at);
+  });
+}
+
+Result<std::string> SqliteStore::setting(std::string_view key) {
+  return without_exceptions(database_->where(), [&]() -> Result<std::string> {
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT value FROM setting WHERE key = ?"));
+    RELIEVO_TRY_ASSIGN(const bool row, query.bind(key).step());
+    if (!row) return Error{Errc::NotFound, "this setting is not set"}.at(key);
+    return std::string(query.text(0));
+  });
+}
+
+Result<void> SqliteStore::set_setting(std::string_view key, std::string_view value) {
+  if (!is_name(key) || value.size() > kMaxTextBytes) {
+    return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}.at(key);
+  }
+  return change([&](WallTime at) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(auto insert, database_->prepare("INSERT INTO setting (key, value, changed_at_ms) VALUES (?, ?, ?) "
+                                                       "ON CONFLICT (key) DO UPDATE SET value = excluded.value, "
+                                                       "changed_at_ms = excluded.changed_at_ms"));
+    RELIEVO_TRY(insert.bind(key).bind(value).bind(to_ms(at)).run());
+    // The key only: a value may be a secret.
+    return append_audit_line(*database_, {"setting.changed", {}, std::string(key)}, at);
+  });
+}
+
+}  // namespace relievo::storage

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "storage/sqlite/sqlite_database.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace relievo::storage {
+namespace {
+
+constexpr int kBlobPieceBytes = 256 * 1024;
+
+struct BlobCloser {
+  sqlite3_blob* handle = nullptr;
+  ~BlobCloser() { sqlite3_blob_close(handle); }
+};
+
+}  // namespace
+
+Error sqlite_error(int code, int system_errno, std::string_view where) {
+  const auto made = [&](Errc errc, Literal what) { return Error{errc, what, system_errno}.at(where); };
+  const bool full = system_errno == ENOSPC || system_errno == EDQUOT || system_errno == EFBIG;
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+      return made(Errc::MediaFull, "the disk is full, nothing was changed: erase subjects or make room, then try again");
+    case SQLITE_NOMEM:
+      return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return made(Errc::Timeout, "another program is using the store: close it, then try again");
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return made(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+      if (code == SQLITE_IOERR_NOMEM) return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
+      if (full) {
+        return made(Errc::MediaFull, "the disk is full, nothing was changed: erase subjects or make room, then try again");
+      }
+      return made(Errc::IoFailed, "the disk could not be read or written: check the disk and its permissions");
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return made(Errc::IoFailed, "the store may not be written here: check owner and permissions");
+    case SQLITE_TOOBIG:
+      return made(Errc::InvalidInput, "this is larger than the store takes");
+    default:
+      return made(Errc::LibraryFailed, "SQLite refused a request; please report this");
+  }
+}
+
+Statement::~Statement() { sqlite3_finalize(handle_); }
+
+Statement& Statement::note(int code) {
+  if (code != SQLITE_OK && bind_code_ == SQLITE_OK) bind_code_ = code;
+  return *this;
+}
+Statement& Statement::bind(std::int64_t value) { return note(sqlite3_bind_int64(handle_, ++bound_, value)); }
+Statement& Statement::bind(std::string_view text) {
+  // An empty view may carry a null pointer, which would mean NULL.
+  return note(sqlite3_bind_text64(handle_, ++bound_, text.empty() ? "" : text.data(), text.size(), SQLITE_STATIC,
+                                  SQLITE_UTF8));
+}
+Statement& Statement::bind(std::span<const std::byte> blob) {
+  return note(sqlite3_bind_blob64(handle_, ++bound_, blob.empty() ? reinterpret_cast<const std::byte*>("") : blob.data(),
+                                  blob.size(), SQLITE_STATIC));
+}
+Statement& Statement::bind_null() { return note(sqlite3_bind_null(handle_, ++bound_)); }
+Statement& Statement::bind_zeros(std::int64_t bytes) {
+  return note(sqlite3_bind_zeroblob64(handle_, ++bound_, static_cast<sqlite3_uint64>(bytes)));
+}
+
+Result<bool> Statement::step() {
+  if (bind_code_ != SQLITE_OK) return sqlite_error(bind_code_, 0, where_);
+  const int code = sqlite3_step(handle_);
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  return sqlite_error(sqlite3_extended_errcode(sqlite3_db_handle(handle_)),
+                      sqlite3_system_errno(sqlite3_db_handle(handle_)), where_);
+}
+
+Result<void> Statement::run() {
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, step());
+    if (!row) return {};
+  }
+}
+
+std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_, column); }
+std::string_view Statement::text(int column) const {
+  // Out of memory while converting yields null: what follows fails at the next step().
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
+  return text == nullptr ? std::string_view{} : std::string_view(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column)));
+}
+std::span<const std::byte> Statement::blob(int column) const {
+  const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(handle_, column));
+  return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(sqlite3_column_bytes(handle_, column))};
+}
+bool Statement::is_null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
+
+Database::~Database() { close(); }
+
+void Database::close() {
+  sqlite3_close_v2(handle_);
+  handle_ = nullptr;
+}
+
+Result<void> Database::open(bool writable) {
+  const int flags = SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_EXRESCODE |
+                    (writable ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
+  const int code = sqlite3_open_v2(where_.c_str(), &handle_, flags, nullptr);
+  if (code != SQLITE_OK) return error(code);
+  // A store is data, never a program: no schema in it may run what we did not write.
+  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                     {SQLITE_DBCONFIG_ENABLE_FKEY, 1}, {SQLITE_DBCONFIG_ENABLE_TRIGGER, 1},
+                                     {SQLITE_DBCONFIG_ENABLE_VIEW, 0}, {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0},
+                                     {SQLITE_DBCONFIG_DQS_DDL, 0}, {SQLITE_DBCONFIG_DQS_DML, 0}}) {
+    const int set = sqlite3_db_config(handle_, option, value, nullptr);
+    if (set != SQLITE_OK) return error(set);
+  }
+  return tidy_up_on_close(false);
+}
+
+Result<void> Database::tidy_up_on_close(bool on) {
+  const int code = sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 0 : 1, nullptr);
+  return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+Error Database::error(int code) const {
+  return sqlite_error(code, handle_ == nullptr ? 0 : sqlite3_system_errno(handle_), where_);
+}
+Error Database::error() const { return error(sqlite3_extended_errcode(handle_)); }
+
+Result<void> Database::run(const char* sql) {
+  const int code = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);
+  return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+Result<Statement> Database::prepare(std::string_view sql) {
+  sqlite3_stmt* handle = nullptr;
+  const int code = sqlite3_prepare_v2(handle_, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
+  if (code != SQLITE_OK) return error(code);
+  return Statement(handle, where_);
+}
+
+Result<std::int64_t> Database::integer(std::string_view sql) {
+  RELIEVO_TRY_ASSIGN(auto statement, prepare(sql));
+  RELIEVO_TRY_ASSIGN(const bool row, statement.step());
+  return row ? statement.integer(0) : 0;
+}
+
+std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(handle_); }
+std::int64_t Database::changes() const { return sqlite3_changes64(handle_); }
+bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_) == 0; }
+
+Result<void> Database::write_blob(const char* table, const char* column, std::int64_t row,
+                                  std::span<const std::byte> bytes) {
+  BlobCloser blob;
+  int code = sqlite3_blob_open(handle_, "main", table, column, row, 1, &blob.handle);
+  for (std::size_t at = 0; code == SQLITE_OK && at < bytes.size(); at += kBlobPieceBytes) {
+    const int size = static_cast<int>(std::min<std::size_t>(kBlobPieceBytes, bytes.size() - at));
+    code = sqlite3_blob_write(blob.handle, bytes.data() + at, size, static_cast<int>(at));
+  }
+  return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+Result<void> Database::read_blob(const char* table, const char* column, std::int64_t row,
+                                 std::span<std::byte> bytes) {
+  BlobCloser blob;
+  int code = sqlite3_blob_open(handle_, "main", table, column, row, 0, &blob.handle);
+  if (code == SQLITE_OK && static_cast<std::size_t>(sqlite3_blob_bytes(blob.handle)) < bytes.size()) {
+    code = SQLITE_CORRUPT;
+  }
+  for (std::size_t at = 0; code == SQLITE_OK && at < bytes.size(); at += kBlobPieceBytes) {
+    const int size = static_cast<int>(std::min<std::size_t>(kBlobPieceBytes, bytes.size() - at));
+    code = sqlite3_blob_read(blob.handle, bytes.data() + at, size, static_cast<int>(at));
+  }
+  return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+Result<void> Database::copy_to(const std::filesystem::path& target) {
+  Database copy(target);
+  RELIEVO_TRY(copy.open(true));
+  sqlite3_backup* backup = sqlite3_backup_init(copy.handle_, "main", handle_, "main");
+  if (backup == nullptr) return copy.error();
+  sqlite3_backup_step(backup, -1);
+  const int code = sqlite3_backup_finish(backup);
+  if (code != SQLITE_OK) return sqlite_error(code, sqlite3_system_errno(copy.handle_), copy.where());
+  RELIEVO_TRY(copy.tidy_up_on_close(true));
+  return copy.run("PRAGMA journal_mode = DELETE");  // one file, nothing beside it
+}
+
+Transaction::~Transaction() {
+  // Some errors have rolled back already; where this fails too, closing the store does it.
+  if (open_ && database_.in_transaction()) (void)database_.run("ROLLBACK");
+}
+
+Result<void> Transaction::begin() {
+  RELIEVO_TRY(database_.run("BEGIN IMMEDIATE"));
+  open_ = true;
+  return {};
+}
+
+Result<void> Transaction::commit() {
+  RELIEVO_TRY(database_.run("COMMIT"));
+  open_ = false;
+  return {};
+}
+
+}  // namespace relievo::storage

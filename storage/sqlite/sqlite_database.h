@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SQLite, as this room wants it: handles that close themselves, results instead of codes.
+//
+// Errors: what SQLite says, told apart by what a person can do: MediaFull, IoFailed, Timeout (held by
+// another program), StoreCorrupt, OutOfMemory, LibraryFailed (a bug of ours).
+// Thread: one at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "hal/base/result.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace relievo::storage {
+
+// The error for what `code` says; `where` is the store's path.
+Error sqlite_error(int code, int system_errno, std::string_view where);
+
+// One prepared statement. Bound text and blobs are borrowed until the last step().
+class Statement {
+ public:
+  Statement(sqlite3_stmt* handle, std::string_view where) : handle_(handle), where_(where) {}
+  ~Statement();
+  Statement(Statement&& other) noexcept
+      : handle_(std::exchange(other.handle_, nullptr)), where_(other.where_), bound_(other.bound_) {}
+  Statement& operator=(Statement&&) = delete;
+
+  // Placeholders are filled in order, from the first. A failure shows at step().
+  Statement& bind(std::int64_t value);
+  Statement& bind(std::string_view text);
+  Statement& bind(std::span<const std::byte> blob);
+  Statement& bind_null();
+  Statement& bind_zeros(std::int64_t bytes);
+
+  Result<bool> step();  // true: there is a row
+  Result<void> run();   // to the end, without rows
+
+  std::int64_t integer(int column) const;
+  // Valid until the next step().
+  std::string_view text(int column) const;
+  std::span<const std::byte> blob(int column) const;
+  bool is_null(int column) const;
+
+ private:
+  Statement& note(int code);
+  sqlite3_stmt* handle_;
+  std::string_view where_;
+  int bound_ = 0;
+  int bind_code_ = 0;
+};
+
+class Database {
+ public:
+  explicit Database(std::filesystem::path file) : file_(std::move(file)), where_(file_.string()) {}
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  // Opens without changing a byte of it; a missing file is made only if `writable`.
+  Result<void> open(bool writable);
+  void close();
+
+  Result<void> run(const char* sql);  // one or more statements without parameters
+  Result<Statement> prepare(std::string_view sql);
+  Result<std::int64_t> integer(std::string_view sql);  // the first column of the first row; 0 if none
+  std::int64_t last_row_id() const;
+  std::int64_t changes() const;
+  bool in_transaction() const;
+  // Whether closing moves the write-ahead log into the file: off until it is known to be ours.
+  Result<void> tidy_up_on_close(bool on);
+
+  // One blob in pieces, so that SQLite never holds a second copy of a model. Unread remains zero.
+  Result<void> write_blob(const char* table, const char* column, std::int64_t row,
+                          std::span<const std::byte> bytes);
+  Result<void> read_blob(const char* table, const char* column, std::int64_t row,
+                         std::span<std::byte> bytes);
+  Result<void> copy_to(const std::filesystem::path& target);
+
+  const std::filesystem::path& file() const { return file_; }
+  std::string_view where() const { return where_; }
+  Error error() const;  // for what failed last
+
+ private:
+  Error error(int code) const;
+  sqlite3* handle_ = nullptr;
+  std::filesystem::path file_;
+  std::string where_;
+};
+
+// BEGIN IMMEDIATE ... COMMIT; rolls back unless commit() succeeded.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) {}
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  Result<void> begin();
+  Result<void> commit();
+
+ private:
+  Database& database_;
+  bool open_ = false;
+};
+
+// What every verb runs in: memory that runs out below is an error like another.
+template <typename Work>
+auto without_exceptions(std::string_view where, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory, "not enough memory for this; nothing was changed"}.at(where);
+  }
+}
+
+}  // namespace relievo::storage

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Names as people write them.
+#pragma once
+
+#include <string_view>
+
+namespace relievo::storage {
+
+// 1 to kMaxNameBytes bytes of well-formed UTF-8 (Unicode 15, table 3-7), no control characters.
+bool is_name(std::string_view text);
+
+// `part` anywhere in `name`; ASCII letters in either case, all others as they are.
+bool contains_name(std::string_view name, std::string_view part);
+
+}  // namespace relievo::storage
