@@ -1,17 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one file that names implementations: which board, which store.
+// The one file that names implementations: which board, which store, which simulation.
 #include <string>
 
 #include "firmware/command/services.h"
+#include "firmware/work/pool_size.h"
 #include "hal/monotonic_clock.h"
+#include "hal/sim/board.h"
 #include "storage/sqlite/sqlite_store.h"
 
 namespace relievo::firmware {
 namespace {
 
+constexpr std::string_view kFolder = "folder:";
+
 Result<std::unique_ptr<hal::Board>> open_board(std::string_view board) {
+  if (board == "sim") {
+    hal::SimBoardOptions options;
+    options.threads = pool_size();
+    return hal::make_sim_board(options);
+  }
+  if (board.substr(0, kFolder.size()) == kFolder) return hal::make_folder_board(board.substr(kFolder.size()));
   return Error{Errc::InvalidInput, "is no board: use sim, or folder:DIR with recorded pairs"}.at(board);
 }
 
@@ -22,8 +32,15 @@ Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_w
   return storage::open_sqlite_store(folder, clock, options);
 }
 
-Result<void> simulate(const SimulateArgs&, const Path&, const Services::SimulateProgress&) {
-  return Error{Errc::Unsupported, "not built yet"};
+Result<void> simulate(const SimulateArgs& args, const Path& folder) {
+  hal::sim::SimulationOptions options;
+  options.scene = args.board ? hal::sim::SceneKind::Board : hal::sim::SceneKind::Head;
+  options.seed = args.seed;
+  options.truth = args.truth;
+  if (args.pairs > 0) options.board_poses = args.pairs;
+  options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
+  options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
+  return hal::sim::render_to_folder(options, folder, pool_size());
 }
 
 }  // namespace

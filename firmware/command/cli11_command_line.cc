@@ -141,10 +141,10 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   for (const bool board : {true, false}) {
     CLI::App* sub = board ? command->add_subcommand("board", "a chessboard in many poses (10x7 inner corners, 20 mm)")
                           : command->add_subcommand("face", "a face made of a seed");
-    sub->add_option("-o,--output", args.output, "folder for left_NNNNNN.png and right_NNNNNN.png")
+    sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()->type_name("DIR");
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
-    sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
+    if (board) sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
     sub->add_option("--scale", args.scale, "size of the pictures")->check(within(0.1, 1))->capture_default_str();
     if (!board) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
     sub->callback([&args, &chosen, board] {

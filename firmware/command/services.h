@@ -21,9 +21,8 @@ struct Services {
   std::function<Result<std::unique_ptr<hal::Board>>(std::string_view board)> open_board;
   // Errors: the store's own. To write makes the folder; to read needs it.
   std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store;
-  // Photographs with the simulated rig; tells how far it is, asks whether to stop.
-  using SimulateProgress = std::function<bool(float done)>;  // false: stop
-  std::function<Result<void>(const SimulateArgs& args, const Path& folder, const SimulateProgress& progress)> simulate;
+  // Photographs with the simulated rig, into the folder. Errors: the rig's and the disk's.
+  std::function<Result<void>(const SimulateArgs& args, const Path& folder)> simulate;
   Console& console;
 };
 

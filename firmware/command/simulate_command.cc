@@ -1,22 +1,36 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/command/commands.h"
-#include "firmware/command/interrupt.h"
 #include "firmware/command/output_folder.h"
+#include "firmware/command/watched_job.h"
 
 namespace relievo::firmware {
+namespace {
+
+class SimulateJob final : public Job {
+ public:
+  SimulateJob(const SimulateArgs& args, const Path& folder, const Services& services)
+      : args_(args), folder_(folder), services_(services) {}
+  Result<void> run(JobControl& control) override {
+    RELIEVO_TRY(services_.simulate(args_, folder_));
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    return {};
+  }
+
+ private:
+  const SimulateArgs& args_;
+  const Path& folder_;
+  const Services& services_;
+};
+
+}  // namespace
 
 Result<void> run_simulate(const SimulateArgs& args, Services& services) {
-  const std::atomic<bool>& stop = interrupted();
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  const auto progress = [&](float done) {
-    services.console.progress("Simulate", done);
-    return !stop.load();
-  };
-  if (const auto done = services.simulate(args, folder.path(), progress); !done) {
+  SimulateJob job(args, folder.path(), services);
+  if (const auto done = run_watched(job, services.console, [] { return "Simulate"; }); !done) {
     return done.error().where().empty() ? done.error().at(args.output.string()) : done.error();
   }
-  if (stop.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"}.at(args.output.string());
   RELIEVO_TRY(folder.commit());
   services.console.say("pictures: " + args.output.string());
   return {};

@@ -65,7 +65,7 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"subjects"},
       {"subjects", "show"},
       {"enrol", "--board", "sim"},
-      {"simulate", "face", "-o", "out", "--pairs", "0"},
+      {"simulate", "board", "-o", "out", "--pairs", "0"},
       {"version", "more"}};
   for (const auto& words : wrong) {
     testing::internal::CaptureStderr();
