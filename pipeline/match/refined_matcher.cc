@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/match/epipolar_alignment.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -98,7 +100,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
-  const Pyramids pyramids = build_pyramids(pair, context);
+  Pyramids pyramids = build_pyramids(pair, context);
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field4(&context.scratch, fine.width, fine.height, 4);
   {
@@ -116,6 +118,10 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   const auto& half = pyramids.left[1].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
   densify(field4, field2);
+  const VerticalShift shift = measure_vertical_shift(pyramids.left[1].grey, pyramids.right[1].grey, 1, field2, context);
+  set.epipolar_residual_px = static_cast<float>(shift.rms_px);
+  if (shift.rms_px > options_.align_beyond_px)
+    for (const int level : {0, 1}) shift_rows(shift, level, pyramids.right[static_cast<std::size_t>(level)].grey, context);
   RELIEVO_TRY(refine(1, field2));
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   RELIEVO_TRY(refine(0, field2));

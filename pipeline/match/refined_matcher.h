@@ -17,7 +17,8 @@ namespace relievo::pipeline {
 struct RefinedMatcherOptions {
   CoarseSurfaceOptions coarse;
   SurfaceRefinerOptions refiner;
-  float sigma_limit_px = 0.6F;   // a place less certain than this has no match
+  float sigma_limit_px = 1.5F;   // a place less certain than this has no match
+  float align_beyond_px = 0.03F; // the rows are realigned on the face itself where they disagree by more
   Result<void> check() const;
 };
 
@@ -29,6 +30,7 @@ void describe(RefinedMatcherOptions& o, Field&& field) {
   field("steps", o.refiner.steps, OptionRange{1, 32}, "warps at each size of the pictures");
   field("solver_steps", o.refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");
   field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
+  field("align_beyond_px", o.align_beyond_px, OptionRange{0, 1000}, "rows of the two views that disagree by more are realigned on the face");
   field("band", o.coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
   field("cross_check_px", o.coarse.cross_check_px, OptionRange{0.25, 16}, "how far the two views may disagree, pixels at a quarter of the size");
 }

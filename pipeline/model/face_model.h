@@ -14,7 +14,7 @@ namespace relievo::pipeline {
 struct ModelQuality {
   double median_sigma_mm = 0;       // of the measured vertices
   double measured_area_mm2 = 0;
-  double coverage = 0;              // share of the face region that carries surface
+  double coverage = 0;              // share of the front of the face (60 mm around the nose) that was measured
   double width_mm = 0;              // of the surface in the head frame, first to last percentile
   double height_mm = 0;
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks

@@ -23,6 +23,7 @@ struct Match {
 struct MatchSet {
   explicit MatchSet(std::pmr::memory_resource* memory) : matches(memory) {}
   std::pmr::vector<Match> matches;
+  float epipolar_residual_px = 0; // rms vertical disagreement of the matches before any realignment; 0 where not measured
   int lattice_step_px = 0;        // as in Keypoints: left_px of accepted and rejected lie on a lattice
 };
 

@@ -7,6 +7,7 @@
 // Thread: any; keeps no state.
 #pragma once
 
+#include "pipeline/options.h"
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
@@ -17,6 +18,12 @@ struct SingleViewTexturerOptions {
 
   Result<void> check() const;
 };
+
+template <typename Field>
+void describe(SingleViewTexturerOptions& o, Field&& field) {
+  field("max_atlas_px", o.max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
+  field("margin_px", o.margin_px, OptionRange{0, 256}, "texels left free around the face");
+}
 
 class SingleViewTexturer final : public Texturer {
  public:

@@ -10,6 +10,7 @@
 // Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
 #pragma once
 
+#include "pipeline/options.h"
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
@@ -24,6 +25,16 @@ struct TwoViewTexturerOptions {
 
   Result<void> check() const;
 };
+
+template <typename Field>
+void describe(TwoViewTexturerOptions& o, Field&& field) {
+  field("max_atlas_px", o.max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
+  field("margin_px", o.margin_px, OptionRange{0, 256}, "texels left free around the face");
+  field("angle_power", o.angle_power, OptionRange{0, 64}, "weight of a view: cosine of its angle of incidence to this power");
+  field("occlusion_px", o.occlusion_px, OptionRange{0, 64}, "disparity by which something in front hides a point from the right view");
+  field("feather_passes", o.feather_passes, OptionRange{0, 32}, "how far, in mesh edges, one view fades into the other");
+  field("highlight_level", o.highlight_level, OptionRange{0, 255}, "grey levels by which the brighter view loses its say");
+}
 
 class TwoViewTexturer final : public Texturer {
  public:

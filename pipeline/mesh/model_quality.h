@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What can be said about a finished surface without knowing the truth.
+#pragma once
+
+#include "pipeline/mesh/head_frame.h"
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/face_model.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+// Everything but epipolar_residual_px, which the matches know. Memory: scratch only.
+ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, StageContext& context);
+
+}  // namespace relievo::pipeline
