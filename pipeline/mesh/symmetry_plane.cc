@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/symmetry_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+namespace relievo::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFar = 6;        // mm: a reflection further off than this says nothing more
+constexpr double kMissing = 2.5;  // mm: what a reflection beside the surface costs; dear enough to keep the halves overlapping
+constexpr double kScale = 1.5;    // mm: asymmetry of a usual face; the robust weight halves about here
+
+// Yaw about y, roll about z, offset along the normal.
+using Pose = Vector3d;
+
+Vector3d normal_of(const Pose& pose) {
+  return {std::cos(pose[0]) * std::cos(pose[1]), std::sin(pose[1]), -std::sin(pose[0]) * std::cos(pose[1])};
+}
+
+struct Residual { double distance; bool met; };
+
+Residual residual(const HeightMap& map, const SurfacePoint& p, const Vector3d& normal, double offset) {
+  const Vector3d mirrored = p.at_mm - 2 * (normal.dot(p.at_mm) - offset) * normal;
+  const SurfacePoint* other = map.at(mirrored.x(), mirrored.y());
+  if (other == nullptr) return {0, false};
+  const Vector3d turned = p.normal - 2 * normal.dot(p.normal) * normal;
+  if (turned.dot(other->normal) < 0.5) return {kFar, true};
+  return {other->normal.dot(mirrored - other->at_mm), true};
+}
+
+double cost(const HeightMap& map, std::span<const SurfacePoint> points, std::size_t every, const Pose& pose) {
+  const Vector3d normal = normal_of(pose);
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); i += every) {
+    const Residual r = residual(map, points[i], normal, pose[2]);
+    sum += r.met ? std::min(std::abs(r.distance), kFar) : kMissing;
+  }
+  return sum;
+}
+
+// Gauss-Newton with Geman-McClure weights; derivatives by differences, as the map is in steps anyway.
+Pose descend(const HeightMap& map, std::span<const SurfacePoint> points, Pose pose) {
+  const Vector3d step{0.01, 0.01, 0.5};
+  for (int turn = 0; turn < 20; ++turn) {
+    std::array<Vector3d, 3> ahead;
+    std::array<double, 3> offset{pose[2], pose[2], pose[2] + step[2]};
+    for (int k = 0; k < 3; ++k) {
+      Pose moved = pose;
+      moved[k] += step[k];
+      ahead[static_cast<std::size_t>(k)] = normal_of(moved);
+    }
+    const Vector3d normal = normal_of(pose);
+    Eigen::Matrix3d a = Eigen::Matrix3d::Identity() * 1e-9;
+    Vector3d b = Vector3d::Zero();
+    for (const SurfacePoint& p : points) {
+      const Vector3d mirrored = p.at_mm - 2 * (normal.dot(p.at_mm) - pose[2]) * normal;
+      const SurfacePoint* other = map.at(mirrored.x(), mirrored.y());
+      if (other == nullptr) continue;
+      const double r = other->normal.dot(mirrored - other->at_mm);
+      if (std::abs(r) > 2 * kFar) continue;
+      Vector3d slope;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d moved = p.at_mm - 2 * (ahead[k].dot(p.at_mm) - offset[k]) * ahead[k];
+        slope[static_cast<Eigen::Index>(k)] = other->normal.dot(moved - mirrored) / step[static_cast<Eigen::Index>(k)];
+      }
+      const double w = 1 / ((1 + r * r / (kScale * kScale)) * (1 + r * r / (kScale * kScale)));
+      a += w * slope * slope.transpose();
+      b -= w * r * slope;
+    }
+    const Vector3d change = a.ldlt().solve(b);
+    if (!change.allFinite()) break;
+    pose += change;
+    if (std::abs(change[0]) + std::abs(change[1]) < 1e-5 && std::abs(change[2]) < 1e-3) break;
+  }
+  return pose;
+}
+
+struct Start { double cost; Pose pose; };
+
+// The best of a coarse raster; three of them, as a face a quarter turned has false optima.
+std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> points) {
+  std::array<Start, 3> best;
+  best.fill({1e30, Pose::Zero()});
+  const std::size_t every = std::max<std::size_t>(1, points.size() / 500);
+  constexpr double kDeg = std::numbers::pi / 180;
+  for (int yaw = -40; yaw <= 40; yaw += 10)
+    for (int roll = -16; roll <= 16; roll += 8)
+      for (int offset = -8; offset <= 8; offset += 4) {
+        const Pose pose{yaw * kDeg, roll * kDeg, static_cast<double>(offset)};
+        const double c = cost(map, points, every, pose);
+        if (c >= best.back().cost) continue;
+        best.back() = {c, pose};
+        std::sort(best.begin(), best.end(), [](const Start& l, const Start& r) { return l.cost < r.cost; });
+      }
+  return best;
+}
+
+}  // namespace
+
+HeightMap::HeightMap(std::span<const SurfacePoint> points, double cell_mm, std::pmr::memory_resource* memory)
+    : cell_mm_(cell_mm), cells_(memory), count_(memory) {
+  double right = -1e9;
+  double top = -1e9;
+  left_mm_ = bottom_mm_ = 1e9;
+  for (const SurfacePoint& p : points) {
+    left_mm_ = std::min(left_mm_, p.at_mm.x());
+    right = std::max(right, p.at_mm.x());
+    bottom_mm_ = std::min(bottom_mm_, p.at_mm.y());
+    top = std::max(top, p.at_mm.y());
+  }
+  if (points.empty() || right - left_mm_ > 5000 || top - bottom_mm_ > 5000) return;
+  columns_ = static_cast<int>((right - left_mm_) / cell_mm) + 1;
+  rows_ = static_cast<int>((top - bottom_mm_) / cell_mm) + 1;
+  const std::size_t n = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  cells_.assign(n, SurfacePoint{});
+  count_.assign(n, 0U);
+  for (const SurfacePoint& p : points) {
+    const auto c = static_cast<std::size_t>((p.at_mm.x() - left_mm_) / cell_mm);
+    const auto r = static_cast<std::size_t>((p.at_mm.y() - bottom_mm_) / cell_mm);
+    const std::size_t k = r * static_cast<std::size_t>(columns_) + c;
+    cells_[k].at_mm += p.at_mm;
+    cells_[k].normal += p.normal;
+    ++count_[k];
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (count_[k] == 0) continue;
+    cells_[k].at_mm /= static_cast<double>(count_[k]);
+    cells_[k].normal.normalize();
+  }
+}
+
+const SurfacePoint* HeightMap::at(double x_mm, double y_mm) const {
+  const double c = std::floor((x_mm - left_mm_) / cell_mm_);
+  const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
+  if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
+  const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  return count_[k] == 0 ? nullptr : &cells_[k];
+}
+
+Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
+  const Error none{Errc::PoorGeometry, "the surface has no plane of symmetry: it shows less than half a face"};
+  const HeightMap map(points, 2.5, &context.scratch);
+  Start best{1e30, Pose::Zero()};
+  for (const Start& start : raster(map, points)) {
+    if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+    const Pose pose = descend(map, points, start.pose);
+    const double c = cost(map, points, 1, pose);
+    if (c < best.cost) best = {c, pose};
+  }
+  SymmetryPlane plane;
+  plane.normal = normal_of(best.pose);
+  plane.offset_mm = best.pose[2];
+  plane.cost_mm = best.cost / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  std::pmr::vector<double> distances(&context.scratch);
+  distances.reserve(points.size());
+  for (const SurfacePoint& p : points)
+    if (const Residual r = residual(map, p, plane.normal, plane.offset_mm); r.met) distances.push_back(std::abs(r.distance));
+  plane.overlap = static_cast<double>(distances.size()) / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 || std::abs(plane.offset_mm) > 20) return none;
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+  plane.residual_mm = distances[distances.size() / 2];
+  return plane;
+}
+
+}  // namespace relievo::pipeline
