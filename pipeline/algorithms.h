@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
+// command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
+// Keys: selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
+// texturer; and NAME.OPTION for every option of every algorithm.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/matcher.h"
+#include "pipeline/mesh/mesher.h"
+#include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/texture/texturer.h"
+
+namespace relievo::pipeline {
+
+class AlgorithmSet {
+ public:
+  // Errors: NotFound (no such key or algorithm), InvalidInput (not a number, out of range); the error's
+  // place names the key and what would be possible.
+  Result<void> set(std::string_view key, std::string_view value);
+  // The value set, or the default.
+  std::string get(std::string_view key) const;
+  // Every choice, sorted, one "key = value" a line: for reports and the store.
+  std::string to_text() const;
+
+ private:
+  friend class AlgorithmMaker;
+  std::map<std::string, std::string, std::less<>> chosen_;
+};
+
+// What may be chosen: for help texts, the technician's page and the documentation.
+struct OptionDescription {
+  std::string key;           // "refined.bending", or a kind: "matcher"
+  std::string value;         // the default
+  std::string sentence;
+  std::vector<std::string> names;  // of a kind: what it may be; empty for a number
+  double least = 0, most = 0;      // of a number
+};
+std::vector<OptionDescription> describe_algorithms();
+
+// Errors: InvalidInput where the options do not fit together.
+Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set);
+Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
+Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);
+Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set);
+Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
+Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/pipeline.h"
+
+#include <utility>
+
+#include "pipeline/mesh/head_frame.h"
+#include "pipeline/mesh/model_quality.h"
+
+namespace relievo::pipeline {
+
+Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration& calibration,
+                                const RectifierOptions& volume, Region region) {
+  Pipeline pipeline;
+  pipeline.set_ = set;
+  pipeline.calibration_ = calibration;
+  RELIEVO_TRY(volume.check());
+  pipeline.volume_ = volume;
+  pipeline.region_ = region;
+  if (region == Region::Face) {
+    RELIEVO_TRY_ASSIGN(FaceFinder finder, FaceFinder::open({}));
+    pipeline.finder_ = std::make_shared<FaceFinder>(std::move(finder));
+  }
+  RELIEVO_TRY_ASSIGN(pipeline.selector_, make_selector(set));
+  RELIEVO_TRY_ASSIGN(pipeline.matcher_, make_matcher(set));
+  RELIEVO_TRY_ASSIGN(auto constraints, make_constraints(set));
+  for (auto& constraint : constraints) pipeline.constraints_.push_back(std::move(constraint));
+  RELIEVO_TRY_ASSIGN(pipeline.triangulator_, make_triangulator(set));
+  RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
+  RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
+  return pipeline;
+}
+
+Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) -> Result<RectifiedPair> {
+    RELIEVO_TRY_ASSIGN(RectifiedPair pair, Rectifier(volume_).rectify(frame, calibration_, c));
+    if (finder_ != nullptr) {
+      RELIEVO_TRY_ASSIGN(const FaceBox box, find_face(*finder_, pair, c));
+      RELIEVO_TRY(mark_face_region(pair, box, c));
+    }
+    return pair;
+  });
+}
+
+Result<MatchSet> Pipeline::match(const RectifiedPair& pair, StageContext& context) const {
+  auto keypoints = run_stage(context, [&](StageContext& c) { return selector_->select(pair, c); });
+  if (!keypoints) return keypoints.error();
+  auto set = run_stage(context, [&](StageContext& c) { return matcher_->match(pair, *keypoints, c); });
+  if (!set) return set.error();
+  std::uint16_t bit = 1;
+  for (const auto& constraint : constraints_) {
+    auto judged = run_stage(context, [&](StageContext& c) -> Result<void> {
+      constraint->judge(pair, set->matches, set->lattice_step_px, bit, c);
+      return {};
+    });
+    if (!judged) return judged.error();
+    bit = static_cast<std::uint16_t>(bit << 1);
+  }
+  return set;
+}
+
+Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) { return triangulator_->triangulate(pair, matches, c); });
+}
+
+Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) { return mesher_->mesh(cloud, c); });
+}
+
+Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
+    FaceModel model(&c.output);
+    RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
+    RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c));
+    model.head_from_camera = frame.head_from_camera;
+    model.quality = measure_quality(mesh, frame, c);
+    model.mesh = std::move(mesh);
+    return model;
+  });
+}
+
+}  // namespace relievo::pipeline

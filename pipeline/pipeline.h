@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pipeline: the stages in their order, each with the algorithm chosen for it. Data flows one way:
+//
+//   StereoFrame -> RectifiedPair -> MatchSet -> PointCloud -> FaceMesh -> FaceModel
+//
+// Every product lives in the context's `output`; `scratch` is swept after every call. A call is one
+// stage on the technician's page: Match (rectify and match), Reconstruct, Mesh, Texture.
+// Thread: worker; holds no state between calls.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/algorithms.h"
+#include "pipeline/match/face_region.h"
+#include "pipeline/match/rectifier.h"
+#include "pipeline/model/calibration.h"
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/stereo_frame.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+enum class Region : std::uint8_t { Face, All };
+
+class Pipeline {
+ public:
+  // Errors: InvalidInput (options), NotFound or LibraryFailed (the face detector's files).
+  static Result<Pipeline> make(const AlgorithmSet& set, const StereoCalibration& calibration,
+                               const RectifierOptions& volume = {}, Region region = Region::Face);
+
+  // Errors: InvalidInput (pictures that are not this calibration's), NoFace, Cancelled, OutOfMemory.
+  Result<RectifiedPair> rectify(const StereoFrame& frame, StageContext& context) const;
+  // Errors: TooFewMatches, NoFace, Cancelled, OutOfMemory.
+  Result<MatchSet> match(const RectifiedPair& pair, StageContext& context) const;
+  Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
+  // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+  // Takes the mesh over into the model.
+  Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
+
+  const StereoCalibration& calibration() const { return calibration_; }
+  const AlgorithmSet& algorithms() const { return set_; }
+
+ private:
+  Pipeline() = default;
+  AlgorithmSet set_;
+  StereoCalibration calibration_;
+  RectifierOptions volume_;
+  Region region_ = Region::Face;
+  std::shared_ptr<FaceFinder> finder_;  // null where the whole view is wanted
+  std::shared_ptr<const KeypointSelector> selector_;
+  std::shared_ptr<const Matcher> matcher_;
+  std::vector<std::shared_ptr<const MatchConstraint>> constraints_;
+  std::shared_ptr<const Triangulator> triangulator_;
+  std::shared_ptr<const Mesher> mesher_;
+  std::shared_ptr<const Texturer> texturer_;
+};
+
+}  // namespace relievo::pipeline
