@@ -193,11 +193,13 @@ Result<void> Database::copy_to(const std::filesystem::path& target) {
 }
 
 Transaction::~Transaction() {
-  // Some errors have rolled back already; where this fails too, closing the store does it.
+  // Some errors have rolled back already; where this fails, the next begin() or close() does it.
   if (open_ && database_.in_transaction()) (void)database_.run("ROLLBACK");
 }
 
 Result<void> Transaction::begin() {
+  // A rollback may have failed for want of memory: it is made up for here.
+  if (database_.in_transaction()) RELIEVO_TRY(database_.run("ROLLBACK"));
   RELIEVO_TRY(database_.run("BEGIN IMMEDIATE"));
   open_ = true;
   return {};

@@ -141,8 +141,7 @@ Error SqliteStore::not_found(Literal what, std::int64_t number) const {
 
 Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal::Clock& clock,
                                                  const SqliteStoreOptions& options) {
-  const std::string named = dir.string();
-  return without_exceptions(named, [&]() -> Result<std::unique_ptr<Store>> {
+  return without_exceptions(dir.native(), [&]() -> Result<std::unique_ptr<Store>> {
     const bool writable = options.mode == OpenMode::ReadWrite;
     std::error_code failed;
     if (writable) RELIEVO_TRY(make_directory(fs::absolute(dir, failed)));

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verbs, one by one.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::storage {
+namespace {
+
+using test::identical;
+using test::opened;
+using test::sample_calibration;
+using test::sample_enrolment;
+using test::sample_model;
+
+class SqliteStoreVerbs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    store = opened(dir);
+    ASSERT_TRUE(store);
+  }
+  void reopen() {
+    store.reset();
+    store = opened(dir);
+    ASSERT_TRUE(store);
+  }
+  relievo::test::TemporaryFolder folder;
+  std::filesystem::path dir = folder / "store";
+  std::unique_ptr<Store> store;
+};
+
+template <typename T>
+Errc code_of(const Result<T>& result) {
+  EXPECT_FALSE(result);
+  return result ? Errc::Cancelled : result.error().code;
+}
+
+unsigned mode_of(const std::filesystem::path& path) {
+  struct stat status {};
+  ::stat(path.c_str(), &status);
+  return status.st_mode & 0777;
+}
+
+TEST_F(SqliteStoreVerbs, IsNobodyElsesBusiness) {
+  EXPECT_EQ(mode_of(dir), 0700u);
+  EXPECT_EQ(mode_of(dir / "relievo.db"), 0600u);
+  ASSERT_TRUE(store->add_subject({"Ada"}));
+  for (const auto& entry : std::filesystem::directory_iterator(dir)) EXPECT_EQ(mode_of(entry.path()) & 077, 0u) << entry.path();
+}
+
+TEST_F(SqliteStoreVerbs, EnrolsInOneGoAndReturnsTheModelBitForBit) {
+  const auto model = sample_model(40, 3);
+  const auto id = store->add_enrolment(NewSubject{"Ada Lovelace"}, sample_enrolment(model));
+  ASSERT_TRUE(id);
+  reopen();
+  const auto people = store->subjects({});
+  ASSERT_TRUE(people);
+  ASSERT_EQ(people->size(), 1u);
+  EXPECT_EQ(people->front().name, "Ada Lovelace");
+  EXPECT_EQ(people->front().enrolments, 1);
+  const auto back = store->load_model(*id, std::pmr::new_delete_resource());
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(identical(model, *back));
+  const auto record = store->enrolment(*id);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->consent.wording, "2026-03");
+  EXPECT_EQ(record->consent.language, "en");
+  EXPECT_EQ(record->consent.given_at, WallTime(std::chrono::milliseconds(1'772'000'000'000)));
+  EXPECT_EQ(record->created_at, WallTime(std::chrono::milliseconds(1'772'000'000'123)));
+  EXPECT_EQ(record->algorithms, "[matcher]\nname = \"refined\"\n");
+  EXPECT_EQ(record->report_json, "{\"version\": \"0.1.0\"}");
+  EXPECT_EQ(record->calibration_revision, 0u);
+  EXPECT_TRUE(store->check());
+}
+
+TEST_F(SqliteStoreVerbs, AddsASecondEnrolmentToSomebodyKnown) {
+  const auto ada = store->add_subject({"Ada"});
+  ASSERT_TRUE(ada);
+  const auto first = sample_model(6, 1), second = sample_model(6, 2);
+  ASSERT_TRUE(store->add_enrolment(*ada, sample_enrolment(first)));
+  ASSERT_TRUE(store->add_enrolment(*ada, sample_enrolment(second)));
+  const auto both = store->enrolments(*ada);
+  ASSERT_TRUE(both);
+  ASSERT_EQ(both->size(), 2u);
+  EXPECT_TRUE(identical(second, *store->load_model((*both)[1].id, std::pmr::new_delete_resource())));
+}
+
+TEST_F(SqliteStoreVerbs, RefusedEnrolmentsLeaveNobodyBehind) {
+  auto model = sample_model(6);
+  auto enrolment = sample_enrolment(model);
+  EXPECT_EQ(code_of(store->add_enrolment(SubjectId{99}, enrolment)), Errc::NotFound);
+  EXPECT_EQ(code_of(store->add_enrolment(NewSubject{""}, enrolment)), Errc::InvalidInput);
+  enrolment.calibration_revision = 5;
+  EXPECT_EQ(code_of(store->add_enrolment(NewSubject{"Ada"}, enrolment)), Errc::NotFound);
+  enrolment.calibration_revision = 0;
+  model.mesh.triangles[0][0] = 10'000;
+  EXPECT_EQ(code_of(store->add_enrolment(NewSubject{"Ada"}, enrolment)), Errc::InvalidInput);
+  enrolment.consent.wording.clear();
+  EXPECT_EQ(code_of(store->add_enrolment(NewSubject{"Ada"}, enrolment)), Errc::InvalidInput);
+  EXPECT_TRUE(store->subjects({})->empty());
+  EXPECT_TRUE(store->audit(0, 100)->empty());
+}
+
+TEST_F(SqliteStoreVerbs, FindsPeople) {
+  for (const char* name : {"Ada Lovelace", "Bob", "ada", "Žofie"}) ASSERT_TRUE(store->add_subject({name}));
+  EXPECT_EQ(store->subjects({.name = "ADA"})->size(), 2u);
+  EXPECT_EQ(store->subjects({.name = "ada", .whole_name = true})->size(), 1u);
+  EXPECT_EQ(store->subjects({.name = "Žof"})->size(), 1u);
+  EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->front().name, "ada");
+  EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->size(), 2u);
+  EXPECT_EQ(code_of(store->subject(SubjectId{77})), Errc::NotFound);
+}
+
+TEST_F(SqliteStoreVerbs, NeverGivesANumberTwice) {
+  const auto ada = store->add_subject({"Ada"});
+  ASSERT_TRUE(store->erase_subject(*ada));
+  const auto bob = store->add_subject({"Bob"});
+  EXPECT_NE(*ada, *bob);
+  EXPECT_EQ(code_of(store->erase_subject(*ada)), Errc::NotFound);
+}
+
+TEST_F(SqliteStoreVerbs, KeepsEveryCalibrationAndOneActive) {
+  EXPECT_EQ(code_of(store->active_calibration()), Errc::NotCalibrated);
+  auto calibration = sample_calibration();
+  ASSERT_EQ(*store->save_calibration(calibration, "rig.yml"), 1u);
+  calibration.left.focal_px.x += 1;
+  ASSERT_EQ(*store->save_calibration(calibration, "live"), 2u);
+  EXPECT_EQ(store->active_calibration()->revision, 2u);
+  EXPECT_EQ(store->active_calibration()->left.focal_px.x, calibration.left.focal_px.x);
+  ASSERT_TRUE(store->activate_calibration(1));
+  reopen();
+  EXPECT_EQ(store->active_calibration()->left.focal_px.x, sample_calibration().left.focal_px.x);
+  EXPECT_EQ(code_of(store->activate_calibration(3)), Errc::NotFound);
+  EXPECT_EQ(store->active_calibration()->revision, 1u) << "a refused one changes nothing";
+  const auto all = store->calibrations();
+  ASSERT_EQ(all->size(), 2u);
+  EXPECT_EQ(all->front().note, "live");
+  EXPECT_FALSE(all->front().active);
+  EXPECT_TRUE(all->back().active);
+  calibration.left.focal_px.x = -1;
+  EXPECT_EQ(code_of(store->save_calibration(calibration, "")), Errc::InvalidInput);
+  const auto model = sample_model(4);
+  auto enrolment = sample_enrolment(model);
+  enrolment.calibration_revision = 2;
+  const auto id = store->add_enrolment(NewSubject{"Ada"}, enrolment);
+  EXPECT_EQ(store->enrolment(*id)->calibration_revision, 2u);
+}
+
+TEST_F(SqliteStoreVerbs, RemembersSettings) {
+  EXPECT_EQ(code_of(store->setting("language")), Errc::NotFound);
+  ASSERT_TRUE(store->set_setting("language", "de"));
+  ASSERT_TRUE(store->set_setting("language", "fr"));
+  ASSERT_TRUE(store->set_setting("empty", ""));
+  reopen();
+  EXPECT_EQ(*store->setting("language"), "fr");
+  EXPECT_EQ(*store->setting("empty"), "");
+  EXPECT_EQ(code_of(store->set_setting("", "x")), Errc::InvalidInput);
+}
+
+TEST_F(SqliteStoreVerbs, AuditsWithoutNames) {
+  const auto model = sample_model(4);
+  const auto ada = store->add_subject({"Ada Canary"});
+  ASSERT_TRUE(store->add_enrolment(*ada, sample_enrolment(model)));
+  ASSERT_TRUE(store->set_setting("pin", "4711"));
+  ASSERT_TRUE(store->append_audit({"technician.entered", {}, "door"}));
+  ASSERT_TRUE(store->erase_subject(*ada));
+  const auto lines = store->audit(0, 100);
+  ASSERT_TRUE(lines);
+  std::string words;
+  for (const auto& line : *lines) {
+    words += line.event.what + " ";
+    EXPECT_EQ((line.event.what + line.event.detail).find("Canary"), std::string::npos);
+    EXPECT_EQ(line.event.detail.find("4711"), std::string::npos);
+  }
+  EXPECT_EQ(words, "subject.added enrolment.added setting.changed technician.entered subject.erased ");
+  EXPECT_EQ(lines->back().event.subject, *ada);
+  EXPECT_EQ(store->audit(3, 1)->front().number, 4);
+  EXPECT_EQ(code_of(store->append_audit({"", {}, ""})), Errc::InvalidInput);
+  EXPECT_TRUE(store->check());
+}
+
+TEST_F(SqliteStoreVerbs, OneWriterAtATimeAnyReaders) {
+  ASSERT_TRUE(store->add_subject({"Ada"}));
+  const test::StillClock clock;
+  const auto second = open_sqlite_store(dir, clock, {.wait_for_lock = std::chrono::milliseconds(40)});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Timeout);
+  EXPECT_NE(second.error().what.view().find("another program"), std::string_view::npos);
+  {
+    const auto reader = opened(dir, {.mode = OpenMode::ReadOnly});
+    EXPECT_EQ(reader->subjects({})->size(), 1u);
+    EXPECT_EQ(code_of(reader->add_subject({"Bob"})), Errc::InvalidState);
+    EXPECT_EQ(code_of(reader->erase_subject(SubjectId{1})), Errc::InvalidState);
+    ASSERT_TRUE(store->add_subject({"Bob"}));
+    EXPECT_EQ(reader->subjects({})->size(), 2u);
+  }
+  store.reset();
+  EXPECT_TRUE(open_sqlite_store(dir, clock));
+}
+
+TEST(SqliteStoreOpening, SaysWhatIsWrongWithThePlace) {
+  const relievo::test::TemporaryFolder folder;
+  const test::StillClock clock;
+  EXPECT_EQ(code_of(open_sqlite_store(folder / "none", clock, {.mode = OpenMode::ReadOnly})), Errc::NotFound);
+  relievo::test::write_text(folder / "file", "x");
+  EXPECT_EQ(code_of(open_sqlite_store(folder / "file", clock)), Errc::InvalidInput);
+  EXPECT_TRUE(open_sqlite_store(folder / "deep/er", clock));
+  std::filesystem::create_directory_symlink(folder / "deep", folder / "link");
+  EXPECT_TRUE(open_sqlite_store(folder / "link/er", clock)) << "a link on the way is the caller's business";
+}
+
+}  // namespace
+}  // namespace relievo::storage
