@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/sim/render.h"
+
+#include <system_error>
+
+#include "hal/sim/text.h"
+#include "hal/sim/truth.h"
+
+namespace relievo::hal::sim {
+namespace {
+
+Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder, const std::string& number) {
+  RELIEVO_TRY(write_picture(folder / ("left" + number + ".png"), pair.left.view()));
+  return write_picture(folder / ("right" + number + ".png"), pair.right.view());
+}
+
+Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder, ThreadPool& pool) {
+  RELIEVO_TRY_ASSIGN(const std::vector<BoardPose> poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
+  SensorOptions sensor = o.sensor;
+  sensor.grey = true;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const BoardScene scene(o.board, poses[k]);
+    RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder, text("_%02d", static_cast<int>(k))));
+  }
+  return {};
+}
+
+Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder, ThreadPool& pool) {
+  const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
+  RELIEVO_TRY(write_pair(render_pair(*scene, rig, o.sensor, o.seed * 1000ULL, pool), folder, ""));
+  if (!o.truth) return {};
+  RELIEVO_TRY(write_truth(folder / "truth.bin", measure_truth(*scene, rig, pool)));
+  return write_mesh(folder / "head.ply", scene->solid_mesh());
+}
+
+}  // namespace
+
+Result<void> SimulationOptions::check() const {
+  RELIEVO_TRY(rig.check());
+  RELIEVO_TRY(board.check());
+  if (board_poses < 1 || board_poses > 200) return Error{Errc::InvalidInput, "choose between 1 and 200 board poses"};
+  if (!(std::abs(pose.yaw_deg) <= 60) || !(std::abs(pose.pitch_deg) <= 45) || !(std::abs(pose.roll_deg) <= 60))
+    return Error{Errc::InvalidInput, "a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees"};
+  if (!(pose.distance_mm >= 250) || !(pose.distance_mm <= 2000))
+    return Error{Errc::InvalidInput, "a simulated scene stands between 250 and 2000 mm away"};
+  return {};
+}
+
+PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor, std::uint64_t noise_seed, ThreadPool& pool) {
+  PicturePair pair;
+  pair.left = read_sensor(expose(scene, rig.left, sensor, pool), sensor, 2 * noise_seed);
+  pair.right = read_sensor(expose(scene, rig.right, sensor, pool), sensor, 2 * noise_seed + 1);
+  return pair;
+}
+
+Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder, int threads) {
+  RELIEVO_TRY(options.check());
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(folder.native());
+  ThreadPool pool(threads);
+  const SimRig rig = make_rig(options.rig);
+  RELIEVO_TRY(write_rig(folder / "rig.yml", rig));
+  return options.scene == SceneKind::Board ? render_boards(options, rig, folder, pool) : render_head(options, rig, folder, pool);
+}
+
+}  // namespace relievo::hal::sim
