@@ -129,5 +129,73 @@ TEST(RefinedMatcher, RefusesUnrelatedViews) {
   }
 }
 
+TEST(RefinedMatcher, EveryArenaTooSmallSaysSo) {
+  const BumpScene scene{.width_px = 160, .height_px = 128};
+  std::vector<std::byte> block(std::size_t{32} << 20);
+  Arena memory(block);
+  const RectifiedPair pair = scene.render(&memory);
+  const Keypoints keypoints = test::lattice(pair, 2, &memory);
+  int refusals = 0;
+  bool succeeded = false;
+  for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
+    StageBench bench(size, size);
+    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    succeeded = matches.has_value();
+    if (succeeded) break;
+    EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
+    ++refusals;
+  }
+  EXPECT_TRUE(succeeded);
+  EXPECT_GT(refusals, 10);
+}
+
+TEST(RefinedMatcher, StopsWhenAsked) {
+  StageBench bench;
+  const RectifiedPair pair = BumpScene{}.render(&bench.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  bench.cancelled = true;
+  // Not through run_stage, which would not even begin.
+  const auto matches = RefinedMatcher({}).match(pair, keypoints, bench.context);
+  ASSERT_FALSE(matches);
+  EXPECT_EQ(matches.error().code, Errc::Cancelled);
+}
+
+TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
+  const BumpScene scene{.noise = 0.5, .seed = 31};
+  StageBench bench;
+  RectifiedPair pair = scene.render(&bench.output);
+  // The right view slips down by 0.8 px and tilts: row y shows what belonged on row y - shift(x).
+  const RectifiedPair original = scene.render(&bench.output);
+  const auto shift = [&](int x) { return 0.8 + 0.002 * (x - scene.width_px / 2.0); };
+  for (int y = 2; y < pair.height_px - 3; ++y)
+    for (int x = 0; x < pair.width_px; ++x) {
+      const double from = y - shift(x);
+      const int k = static_cast<int>(std::floor(from));
+      const double t = from - k;
+      const auto at = [&](int row) { return original.right.grey[static_cast<std::size_t>(row * pair.width_px + x)]; };
+      pair.right.grey[static_cast<std::size_t>(y * pair.width_px + x)] = static_cast<float>((1 - t) * at(k) + t * at(k + 1));
+    }
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  const auto aligned = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  RefinedMatcherOptions off;
+  off.align_beyond_px = 100;
+  const auto unaligned = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+  ASSERT_TRUE(aligned);
+  ASSERT_TRUE(unaligned);
+  EXPECT_NEAR(aligned->epipolar_residual_px, 0.8, 0.15);
+  const auto rms = [&](const MatchSet& set) {
+    double sum = 0;
+    double n = 0;
+    for (const Match& m : set.matches) {
+      if (!scene.judged(m.left_px.x, m.left_px.y)) continue;
+      const double e = m.disparity_px - scene.disparity(m.left_px.x, m.left_px.y);
+      sum += e * e;
+      ++n;
+    }
+    return std::sqrt(sum / n);
+  };
+  EXPECT_LT(rms(*aligned), 0.6 * rms(*unaligned));
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
