@@ -3,11 +3,14 @@
 #include "firmware/command/output_folder.h"
 
 #include <cerrno>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <unistd.h>
+
+#include "hal/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -77,6 +80,13 @@ Result<void> OutputFolder::commit() {
   for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
     fs::rename(entry.path(), target_ / entry.path().filename(), error);
     if (error) return failed(target_ / entry.path().filename(), error.value());
+  }
+  return {};
+}
+
+Result<void> write_text(const fs::path& file, std::string_view text, const fs::path& place) {
+  if (const auto written = hal::write_whole_file(file, std::as_bytes(std::span(text))); !written) {
+    return written.error().at(place.native());
   }
   return {};
 }

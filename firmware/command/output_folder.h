@@ -9,6 +9,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "hal/base/result.h"
 
@@ -30,5 +31,9 @@ class OutputFolder {
   std::filesystem::path work_;          // empty once committed or moved from
   std::filesystem::path made_parent_;   // the topmost folder that was missing, if any
 };
+
+// A small file, whole or not at all. An error names `place`: what the caller was asked for, not where
+// the file lies for the moment.
+Result<void> write_text(const std::filesystem::path& file, std::string_view text, const std::filesystem::path& place);
 
 }  // namespace relievo::firmware

@@ -11,7 +11,7 @@ namespace {
 Result<void> run(const CalibrateArgs&, Services&) { return Error{Errc::Unsupported, "not built yet"}; }
 Result<void> run(const CalibrationArgs& args, Services& services) { return run_calibration(args, services); }
 Result<void> run(const ReconstructArgs& args, Services& services) { return run_reconstruct(args, services); }
-Result<void> run(const CompareArgs&, Services&) { return Error{Errc::Unsupported, "not built yet"}; }
+Result<void> run(const CompareArgs& args, Services& services) { return run_compare(args, services); }
 Result<void> run(const EnrolArgs& args, Services& services) { return run_enrol(args, services); }
 Result<void> run(const SubjectsArgs& args, Services& services) { return run_subjects(args, services); }
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }

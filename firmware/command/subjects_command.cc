@@ -3,14 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
-#include <span>
 #include <string>
 
 #include "firmware/command/commands.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/subject_lookup.h"
 #include "firmware/command/wall_time.h"
-#include "hal/whole_file.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -59,12 +57,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   if (const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Head); !files) {
     return files.error().at(args.output.string());
   }
-  if (!newest.report_json.empty()) {
-    const auto bytes = std::as_bytes(std::span(newest.report_json));
-    if (const auto written = hal::write_whole_file(folder.path() / "report.json", bytes); !written) {
-      return written.error().at(args.output.string());
-    }
-  }
+  if (!newest.report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(folder.commit());
   console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name + ": " +
               args.output.string());

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/reconstruction.h"
+
+#include "firmware/command/algorithm_choice.h"
+#include "firmware/command/picture_pair.h"
+#include "firmware/command/watched_job.h"
+#include "firmware/work/pipeline_stages.h"
+#include "firmware/work/pool_size.h"
+#include "firmware/work/reconstruct_job.h"
+#include "hal/monotonic_clock.h"
+#include "pipeline/calibrate/calibration_file.h"
+
+namespace relievo::firmware {
+
+Result<void> Reconstruction::run(const Path& left, const Path& right, const Path& calibration_file,
+                                 const AlgorithmArgs& algorithms, Console& console) {
+  RELIEVO_TRY_ASSIGN(const auto calibration, pipeline::read_calibration(calibration_file));
+  RELIEVO_TRY_ASSIGN(const PicturePair pictures, read_pair(left, right, calibration));
+  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(algorithms, calibration));
+
+  ThreadPool pool(pool_size());
+  const hal::MonotonicClock clock;
+  PipelineStages stages(std::move(pipeline));
+  ReconstructJob job(stages, session_, pool, clock);
+  RELIEVO_TRY(session_.open(""));
+  session_.products().frame = pictures.frame();
+  const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
+  session_.products().frame.reset();  // the pictures go with this function
+  // A stage does not know the names of the files it works on.
+  if (!done) return done.error().where().empty() ? done.error().at(left.string()) : done.error();
+  report_ = {calibration_file.string(), stages.pipeline().algorithms().to_text(), job.records(), job.took(),
+             peak_rss_bytes(), model().quality};
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/measure/measurement.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "firmware/measure/rigid_fit.h"
+
+namespace relievo::firmware::measure {
+namespace {
+
+constexpr double kTruthReachMm = 20;
+constexpr double kModelReachMm = 10;
+constexpr std::size_t kSamples = 100'000;
+
+double percentile(std::vector<double>& values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto k = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
+  return values[k];
+}
+
+double share_within(const std::vector<double>& values, double limit) {
+  const auto n = std::count_if(values.begin(), values.end(), [&](double v) { return v <= limit; });
+  return values.empty() ? 0 : static_cast<double>(n) / static_cast<double>(values.size());
+}
+
+Surface measured_part(const pipeline::FaceMesh& mesh) {
+  Surface surface;
+  surface.vertices_mm.assign(mesh.vertices_mm.begin(), mesh.vertices_mm.end());
+  const auto seen = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
+  for (const auto& t : mesh.triangles) {
+    if (seen(t[0]) && seen(t[1]) && seen(t[2])) surface.triangles.push_back(t);
+  }
+  return surface;
+}
+
+// Points spread evenly, the same every time: a new one after every `step` of area.
+std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
+  const auto corner = [&](const auto& t, std::size_t k) { return wide(surface.vertices_mm[t[k]]); };
+  const auto area = [&](const auto& t) {
+    return 0.5 * length(cross(difference(corner(t, 1), corner(t, 0)), difference(corner(t, 2), corner(t, 0))));
+  };
+  double total = 0;
+  for (const auto& t : surface.triangles) total += area(t);
+  std::vector<Vec3d> points;
+  if (!(total > 0)) return points;
+  const double step = total / static_cast<double>(count);
+  double due = step / 2;
+  double a = 0.5;
+  double b = 0.5;
+  for (const auto& t : surface.triangles) {
+    for (due += area(t); due >= step; due -= step) {
+      a += 0.7548776662466927;  // Roberts' low-discrepancy pair
+      b += 0.5698402909980532;
+      a -= std::floor(a);
+      b -= std::floor(b);
+      const bool fold = a + b > 1;
+      const double u = fold ? 1 - a : a;
+      const double v = fold ? 1 - b : b;
+      points.push_back(sum(scaled(corner(t, 0), 1 - u - v), sum(scaled(corner(t, 1), u), scaled(corner(t, 2), v))));
+    }
+  }
+  return points;
+}
+
+void measure_surface(const Surface& model, const TruthView& truth, const TriangleGrid& true_surface, Measurement& m) {
+  std::vector<double> accuracy;
+  std::vector<double> interior;
+  std::size_t far = 0;
+  const std::vector<Vec3d> samples = spread(model, kSamples);
+  for (const Vec3d& p : samples) {
+    const auto near = true_surface.nearest(p, kTruthReachMm);
+    const double d = near ? near->distance_mm : kTruthReachMm;
+    const std::uint8_t flags = truth.flags_at(p);
+    if ((flags & TruthView::kJudged) == TruthView::kJudged) {
+      accuracy.push_back(d);
+      if ((flags & TruthView::kInterior) != 0) interior.push_back(d);
+    }
+    if (d > 3) ++far;
+  }
+  m.accuracy_median_mm = percentile(accuracy, 0.5);
+  m.accuracy_p95_mm = percentile(accuracy, 0.95);
+  m.interior_median_mm = percentile(interior, 0.5);
+  m.interior_p95_mm = percentile(interior, 0.95);
+  m.outliers_3mm = samples.empty() ? 0 : static_cast<double>(far) / static_cast<double>(samples.size());
+}
+
+void measure_sigma(const pipeline::FaceMesh& mesh, const Surface& moved, const TruthView& truth,
+                   const TriangleGrid& true_surface, Measurement& m) {
+  std::size_t asked = 0;
+  std::size_t one = 0;
+  std::size_t two = 0;
+  for (std::size_t i = 0; i < moved.vertices_mm.size(); ++i) {
+    if (!mesh.measured.empty() && mesh.measured[i] == 0) continue;
+    const Vec3d p = wide(moved.vertices_mm[i]);
+    const std::uint8_t flags = truth.flags_at(p);
+    if ((flags & TruthView::kJudged) != TruthView::kJudged) continue;
+    ++m.measured_vertices;
+    if (mesh.sigma_mm.empty() || (flags & TruthView::kInterior) == 0 || i % 5 != 0) continue;
+    const auto near = true_surface.nearest(p, kTruthReachMm);
+    if (!near) continue;
+    ++asked;
+    one += near->distance_mm <= static_cast<double>(mesh.sigma_mm[i]) ? 1U : 0U;
+    two += near->distance_mm <= 1.96 * static_cast<double>(mesh.sigma_mm[i]) ? 1U : 0U;
+  }
+  if (asked == 0) return;
+  m.within_sigma = static_cast<double>(one) / static_cast<double>(asked);
+  m.within_196_sigma = static_cast<double>(two) / static_cast<double>(asked);
+}
+
+}  // namespace
+
+Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth) {
+  Measurement m;
+  Surface model = measured_part(mesh);
+  const std::vector<Vec3d> asked = truth.judged_points(50'000);
+  {
+    // The truth's points onto the model, as the surface asked about is the smaller one; then the model back.
+    const TriangleGrid grid(model);
+    std::vector<Vec3d> some;
+    for (std::size_t i = 0; i < asked.size(); i += 4) some.push_back(asked[i]);
+    const RigidFit fit = fit_rigidly(some, grid);
+    const pipeline::RigidTransform back = inverse(fit.surface_from_points);
+    for (Vec3f& v : model.vertices_mm) {
+      const Vec3d p = apply(back, wide(v));
+      v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
+    m.moved_mm = fit.moved_mm;
+    m.turned_deg = fit.turned_deg;
+  }
+  const Surface visible = truth.surface();
+  const TriangleGrid true_surface(visible);
+  measure_surface(model, truth, true_surface, m);
+  measure_sigma(mesh, model, truth, true_surface, m);
+  const TriangleGrid model_surface(model);
+  std::vector<double> gaps;
+  for (const Vec3d& p : asked) {
+    const auto near = model_surface.nearest(p, kModelReachMm);
+    gaps.push_back(near ? near->distance_mm : kModelReachMm);
+  }
+  m.complete_quarter_mm = share_within(gaps, 0.25);
+  m.complete_half_mm = share_within(gaps, 0.5);
+  m.complete_1mm = share_within(gaps, 1);
+  return m;
+}
+
+}  // namespace relievo::firmware::measure

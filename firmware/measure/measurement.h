@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Measurement: how far a model is from the truth. Millimetres; shares of 1.
+//   accuracy  from points spread evenly over the model's measured surface, where it is judged face
+//   interior  the same, where the whole 23 pixel window around is judged face
+//   complete  share of the judged true face with model surface within the distance
+//   outliers  share of the model's measured surface further than 3 mm from anything true
+//   sigma     share of vertices whose error is within one, and 1.96, of their own sigma_mm: honest
+//             models say 0.68 and 0.95
+// The model is first moved rigidly onto the truth (its calibration is an estimate); never scaled.
+// Thread: any.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "firmware/measure/truth_view.h"
+#include "pipeline/model/face_mesh.h"
+
+namespace relievo::firmware::measure {
+
+struct Measurement {
+  double accuracy_median_mm = 0, accuracy_p95_mm = 0;
+  double interior_median_mm = 0, interior_p95_mm = 0;
+  double complete_quarter_mm = 0, complete_half_mm = 0, complete_1mm = 0;
+  double outliers_3mm = 0;
+  double within_sigma = 0, within_196_sigma = 0;
+  std::size_t measured_vertices = 0;
+  double moved_mm = 0, turned_deg = 0;
+};
+
+Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth);
+
+}  // namespace relievo::firmware::measure

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TriangleGrid: a surface of triangles that answers "what is the nearest point on you?". A uniform
+// grid over the triangles' boxes; the search goes outwards ring by ring and is exact within its
+// reach. Millimetres, any frame. Thread: any number at once, once built.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "firmware/measure/vector3.h"
+
+namespace relievo::firmware::measure {
+
+struct Surface {
+  std::vector<Vec3f> vertices_mm;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct Nearest {
+  double distance_mm = 0;
+  Vec3d at_mm;
+  Vec3d normal;  // of the triangle, unit length, either side
+};
+
+class TriangleGrid {
+ public:
+  explicit TriangleGrid(const Surface& surface);  // borrowed
+  // Nothing within reach_mm.
+  std::optional<Nearest> nearest(const Vec3d& point_mm, double reach_mm) const;
+
+ private:
+  struct Cell { int x, y, z; };
+  Cell cell_of(const Vec3d& point_mm) const;
+  std::size_t index_of(const Cell& cell) const;
+  void look(const Cell& cell, const Vec3d& point_mm, double& best, std::uint32_t& which, Vec3d& at) const;
+  void look_at_ring(const Cell& centre, int ring, const Vec3d& point_mm, double& best, std::uint32_t& which, Vec3d& at) const;
+
+  const Surface& surface_;
+  double cell_mm_ = 1;
+  Vec3d origin_mm_;
+  int nx_ = 0, ny_ = 0, nz_ = 0;
+  std::vector<std::uint32_t> begin_;      // one a cell, and one more
+  std::vector<std::uint32_t> triangles_;  // sorted by cell
+};
+
+}  // namespace relievo::firmware::measure

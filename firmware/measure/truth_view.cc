@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/measure/truth_view.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+
+#include "hal/whole_file.h"
+#include "pipeline/calibrate/calibration_file.h"
+
+namespace relievo::firmware::measure {
+namespace {
+
+constexpr double kNoseRadiusMm = 95;      // the crop of 3D face recognition
+constexpr int kInteriorHalfWindowPx = 11;
+constexpr float kTearMm = 2;              // neighbouring pixels further apart are two surfaces
+
+// Brown-Conrady, as pipeline/model/calibration.h names it.
+Vec3d bent(const double d[5], double x, double y) {
+  const double r2 = x * x + y * y;
+  const double s = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
+  return {x * s + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x), y * s + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y, 1};
+}
+
+// The point at depth 1 that the pixel sees: the lens undone by fixed-point steps.
+Vec3d straight(const pipeline::CameraIntrinsics& c, double u, double v) {
+  const double xd = (u - c.centre_px.x) / c.focal_px.x;
+  const double yd = (v - c.centre_px.y) / c.focal_px.y;
+  double x = xd;
+  double y = yd;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3d b = bent(c.distortion, x, y);
+    x += xd - b.x;
+    y += yd - b.y;
+  }
+  return {x, y, 1};
+}
+
+Error bad(const std::filesystem::path& file) {
+  return Error{Errc::InvalidInput, "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
+      .at(file.string());
+}
+
+// Two whole numbers and the letter z; the number of bytes up to the line feed, or 0.
+std::size_t header(std::string_view text, int& width_px, int& height_px) {
+  const std::size_t end = text.substr(0, 64).find('\n');
+  if (end == std::string_view::npos) return 0;
+  const char* last = text.data() + end;
+  auto [after_width, e1] = std::from_chars(text.data(), last, width_px);
+  if (e1 != std::errc() || after_width == last || *after_width != ' ') return 0;
+  auto [after_height, e2] = std::from_chars(after_width + 1, last, height_px);
+  if (e2 != std::errc() || std::string_view(after_height, static_cast<std::size_t>(last - after_height)) != " z") return 0;
+  const bool sane = width_px > 0 && height_px > 0 && width_px <= 16384 && height_px <= 16384;
+  return sane ? end + 1 : 0;
+}
+
+}  // namespace
+
+Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
+  TruthView truth;
+  RELIEVO_TRY_ASSIGN(const auto rig, pipeline::read_calibration(folder / "rig.yml"));
+  truth.left_ = rig.left;
+  const auto file = folder / "truth.bin";
+  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, std::size_t{1} << 30));
+  const std::size_t start = header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
+  const std::size_t count = static_cast<std::size_t>(truth.width_px_) * static_cast<std::size_t>(truth.height_px_);
+  if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_) return bad(file);
+  truth.points_mm_.resize(count);
+  truth.flags_.resize(count);
+  std::memcpy(truth.flags_.data(), bytes.data() + start + count * 4, count);
+  for (int y = 0; y < truth.height_px_; ++y) {
+    for (int x = 0; x < truth.width_px_; ++x) {
+      const std::size_t i = truth.at(x, y);
+      float z = 0;
+      std::memcpy(&z, bytes.data() + start + i * 4, 4);
+      const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : scaled(straight(truth.left_, x, y), z);
+      truth.points_mm_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      truth.flags_[i] = std::isnan(z) ? std::uint8_t{0} : static_cast<std::uint8_t>(truth.flags_[i] & kJudged);
+    }
+  }
+  truth.keep_near_nose();
+  truth.mark_interior();
+  return truth;
+}
+
+// The tip of the nose is the skin nearest to the camera.
+void TruthView::keep_near_nose() {
+  std::size_t tip = flags_.size();
+  for (std::size_t i = 0; i < flags_.size(); ++i) {
+    if ((flags_[i] & (kSkin | kBothSee)) != (kSkin | kBothSee)) continue;
+    if (tip == flags_.size() || points_mm_[i].z < points_mm_[tip].z) tip = i;
+  }
+  for (std::size_t i = 0; i < flags_.size() && tip < flags_.size(); ++i) {
+    if ((flags_[i] & kJudged) == kJudged && distance(wide(points_mm_[i]), wide(points_mm_[tip])) <= kNoseRadiusMm) continue;
+    flags_[i] = static_cast<std::uint8_t>(flags_[i] & ~kSteep);
+  }
+}
+
+void TruthView::mark_interior() {
+  constexpr int kSide = 2 * kInteriorHalfWindowPx + 1;
+  std::vector<int> across(flags_.size());  // length of the judged run that ends here
+  for (int y = 0; y < height_px_; ++y) {
+    int run = 0;
+    for (int x = 0; x < width_px_; ++x) across[at(x, y)] = run = (flags_[at(x, y)] & kJudged) == kJudged ? run + 1 : 0;
+  }
+  for (int x = kInteriorHalfWindowPx; x + kInteriorHalfWindowPx < width_px_; ++x) {
+    int run = 0;  // rows whose whole width of window is judged
+    for (int y = 0; y < height_px_; ++y) {
+      run = across[at(x + kInteriorHalfWindowPx, y)] >= kSide ? run + 1 : 0;
+      if (run >= kSide) flags_[at(x, y - kInteriorHalfWindowPx)] |= kInterior;
+    }
+  }
+}
+
+std::uint8_t TruthView::flags_at(const Vec3d& p) const {
+  if (!(p.z > 0)) return 0;
+  const Vec3d b = bent(left_.distortion, p.x / p.z, p.y / p.z);
+  const double u = std::round(left_.focal_px.x * b.x + left_.centre_px.x);
+  const double v = std::round(left_.focal_px.y * b.y + left_.centre_px.y);
+  if (!(u >= 0 && v >= 0 && u < width_px_ && v < height_px_)) return 0;
+  return flags_[at(static_cast<int>(u), static_cast<int>(v))];
+}
+
+std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {
+  std::vector<Vec3d> points;
+  const auto judged = static_cast<std::size_t>(
+      std::count_if(flags_.begin(), flags_.end(), [](std::uint8_t f) { return (f & kJudged) == kJudged; }));
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(judged) / static_cast<double>(count))));
+  for (int y = 0; y < height_px_; y += step) {
+    for (int x = 0; x < width_px_; x += step) {
+      if ((flags_[at(x, y)] & kJudged) == kJudged) points.push_back(wide(points_mm_[at(x, y)]));
+    }
+  }
+  return points;
+}
+
+Surface TruthView::surface() const {
+  Surface surface;
+  surface.vertices_mm = points_mm_;
+  const auto whole = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const float za = points_mm_[a].z;
+    const float zb = points_mm_[b].z;
+    const float zc = points_mm_[c].z;
+    return std::max({za, zb, zc}) - std::min({za, zb, zc}) < kTearMm && za > 0 && zb > 0 && zc > 0;
+  };
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    if (!whole(a, b, c)) return;
+    surface.triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+  };
+  for (int y = 0; y + 1 < height_px_; ++y) {
+    for (int x = 0; x + 1 < width_px_; ++x) {
+      add(at(x, y), at(x, y + 1), at(x + 1, y));
+      add(at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+    }
+  }
+  return surface;
+}
+
+}  // namespace relievo::firmware::measure
