@@ -35,12 +35,12 @@ struct GridMesherOptions {
 
 template <typename Field>
 void describe(GridMesherOptions& o, Field&& field) {
-  field("max_triangles", o.max_triangles, OptionRange{1000, 4'000'000}, "the lattice is thinned until this many triangles hold it");
-  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89.9}, "steepest triangle, between its normal and the line of sight, degrees");
+  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "the lattice is thinned until this many triangles hold it");
+  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89}, "steepest triangle, between its normal and the line of sight, degrees");
   field("step_sigmas", o.step_sigmas, OptionRange{0, 100}, "a neighbour's depth may leave the local slope by this many sigmas");
-  field("step_slope_ratio", o.step_slope_ratio, OptionRange{0, 100}, "and by this many times the slope on either side");
+  field("step_slope_ratio", o.step_slope_ratio, OptionRange{1, 100}, "and by this many times the slope on either side");
   field("min_step_mm", o.min_step_mm, OptionRange{0, 100}, "smaller steps are never an edge of something in front, mm");
-  field("max_hole_mm", o.max_hole_mm, OptionRange{0, 100}, "holes up to this wide are closed, mm");
+  field("max_hole_mm", o.max_hole_mm, OptionRange{0, 50}, "holes up to this wide are closed, mm");
   field("outline_passes", o.outline_passes, OptionRange{0, 16}, "how often single teeth are trimmed off the boundary");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
   field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");

@@ -97,65 +97,12 @@ Frame chained(const Frame& first, const Frame& second) {
   return {second.rows * first.rows, first.origin + first.rows.transpose() * second.origin};
 }
 
-// Height of the middle over the cheek 18 to 28 mm beside it, by rows of 2 mm: a nose stands out by 15
-// to 30 mm, a chin by half of that, a forehead hardly. Unlike the foremost point this does not depend
-// on how the head nods.
-class Profile {
- public:
-  explicit Profile(const Points& points) {
-    for (const SurfacePoint& p : points) {
-      const double bin = std::floor(p.at_mm.y() / kStep) + kBins / 2;
-      if (!(bin >= 0 && bin < kBins)) continue;
-      const double x = p.at_mm.x();
-      const auto k = static_cast<std::size_t>(bin);
-      if (std::abs(x) < 6) add(middle_[k], p.at_mm.z());
-      if (x > 18 && x < 28) add(left_[k], p.at_mm.z());
-      if (x < -18 && x > -28) add(right_[k], p.at_mm.z());
-    }
-  }
-
-  // Where it is highest; false where nothing can be compared.
-  bool highest(double& y_mm) const {
-    double best = -1e9;
-    for (std::size_t k = 4; k + 4 < kBins; ++k) {
-      Sum middle, left, right;
-      for (std::size_t j = k - 2; j <= k + 2; ++j) {
-        join(middle, middle_[j]);
-        join(left, left_[j]);
-        join(right, right_[j]);
-      }
-      if (middle.n < 3 || left.n + right.n < 3) continue;
-      double side = 0;
-      double sides = 0;
-      for (const Sum& s : {left, right}) {
-        if (s.n < 2) continue;
-        side += s.z / s.n;
-        sides += 1;
-      }
-      if (sides < 1) continue;
-      const double relief = middle.z / middle.n - side / sides;
-      if (relief <= best) continue;
-      best = relief;
-      y_mm = (static_cast<double>(k) - kBins / 2 + 0.5) * kStep;
-    }
-    return best > -1e8;
-  }
-
- private:
-  static constexpr int kBins = 200;
-  static constexpr double kStep = 2;
-  struct Sum { double z = 0, n = 0; };
-  static void add(Sum& s, double z) { s.z += z; s.n += 1; }
-  static void join(Sum& s, const Sum& o) { s.z += o.z; s.n += o.n; }
-  std::array<Sum, kBins> middle_{}, left_{}, right_{};
-};
-
-// Foremost point of a paraboloid through the surface around the foremost place.
-Vector3d tip_near(std::span<const SurfacePoint> points, double y_mm) {
-  Vector3d top(0, y_mm, -1e9);
+// Foremost point of a paraboloid through the surface around the foremost place near the origin.
+Vector3d tip_near(std::span<const SurfacePoint> points) {
+  Vector3d top(0, 0, -1e9);
   for (const SurfacePoint& p : points)
-    if (std::abs(p.at_mm.x()) < 12 && std::abs(p.at_mm.y() - y_mm) < 20 && p.at_mm.z() > top.z()) top = p.at_mm;
-  if (top.z() < -1e8) return {0, y_mm, 0};
+    if (std::abs(p.at_mm.x()) < 10 && std::abs(p.at_mm.y()) < 14 && p.at_mm.z() > top.z()) top = p.at_mm;
+  if (top.z() < -1e8) return Vector3d::Zero();
   for (int turn = 0; turn < 4; ++turn) {
     Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Identity() * 1e-6;
     Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
@@ -233,8 +180,23 @@ RigidTransform to_transform(const Frame& frame) {
   return t;
 }
 
+// The place that stands out most of those on the plane of symmetry: a chin lies on it too, but stands
+// out a third as far as a nose; a shoulder or an ear lies beside it.
+Vector3d nose_on_plane(const NoseCandidates& noses, const Frame& upright) {
+  constexpr double kBeside = 15;  // mm; a candidate is a sample point, not yet a tip
+  Vector3d best = Vector3d::Zero();
+  double protrusion = 0;
+  for (std::size_t i = 0; i < noses.count; ++i) {
+    const Vector3d at = upright.rows * (noses.best[i].at_mm - upright.origin);
+    if (std::abs(at.x()) > kBeside || noses.best[i].protrusion_mm <= protrusion) continue;
+    protrusion = noses.best[i].protrusion_mm;
+    best = at;
+  }
+  return {0, best.y(), best.z()};
+}
+
 // The frame of the most mirror-like face around one of the places that stand out like a nose: x is
-// final, nod and origin are not yet. A chin lies in the same plane, so taking it for the nose does no harm.
+// final, the origin is near the tip, the nod is a guess.
 Result<Frame> upright_frame(const Points& points, SymmetryPlane& best, StageContext& context) {
   Error why{Errc::PoorGeometry, "nothing on the surface stands out like a nose: look straight into the cameras"};
   double best_score = 1e9;
@@ -263,7 +225,9 @@ Result<Frame> upright_frame(const Points& points, SymmetryPlane& best, StageCont
     frame = chained(guess, upright);
   }
   if (best_score > 1e8) return why;
-  return frame;
+  Frame at_nose;
+  at_nose.origin = nose_on_plane(noses, frame);
+  return chained(frame, at_nose);
 }
 
 }  // namespace
@@ -288,11 +252,8 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
   move_into(points, frame);
 
   for (int turn = 0; turn < 6; ++turn) {
-    double tip_y = 0;
-    if (!Profile(points).highest(tip_y))
-      return Error{Errc::PoorGeometry, "the middle of the face was not measured: there is no nose to begin from"};
     Frame step;
-    step.origin = tip_near(points, tip_y);
+    step.origin = tip_near(points);
     step.origin.x() = 0;  // the plane of symmetry is surer than a crooked tip; moved there at the end
     frame = chained(frame, step);
     move_into(points, step);
@@ -304,7 +265,7 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
     if (std::abs(nod) < 1e-4) break;
   }
   Frame tip;
-  tip.origin = tip_near(points, 0);
+  tip.origin = tip_near(points);
   frame = chained(frame, tip);
   move_into(points, tip);
 

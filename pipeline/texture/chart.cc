@@ -52,6 +52,15 @@ void copy_texel(std::span<std::uint8_t> rgb, std::size_t from, std::size_t to) {
 
 }  // namespace
 
+Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair) {
+  if (mesh.triangles.empty() || mesh.vertices_mm.empty() || mesh.normals.size() != mesh.vertices_mm.size())
+    return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
+  const std::size_t bytes = 3 * static_cast<std::size_t>(std::max(pair.width_px, 0)) * static_cast<std::size_t>(std::max(pair.height_px, 0));
+  if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
+    return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
+  return {};
+}
+
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, int max_px, int margin_px,
               std::pmr::memory_resource* memory) {
   Chart chart(memory);

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/result.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/texture_atlas.h"
@@ -37,6 +38,9 @@ struct Chart {
 };
 
 inline constexpr float kNoSurface = -1e30F;  // disparity of a texel without surface
+
+// What no texturer can work with: InvalidInput.
+Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
 
 // At most `max_px` wide and high; never finer than the photograph. `margin_px` texels stay free
 // around the face. Throws std::bad_alloc.

@@ -10,17 +10,8 @@ namespace relievo::pipeline {
 Result<void> SingleViewTexturerOptions::check() const {
   if (max_atlas_px < 64 || max_atlas_px > 8192)
     return Error{Errc::InvalidInput, "max_atlas_px must lie in 64 .. 8192"}.at("texturer.single-view");
-  if (margin_px < 0 || margin_px > 16)
-    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 16"}.at("texturer.single-view");
-  return {};
-}
-
-Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair) {
-  if (mesh.triangles.empty() || mesh.vertices_mm.empty() || mesh.normals.size() != mesh.vertices_mm.size())
-    return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
-  const std::size_t bytes = 3 * static_cast<std::size_t>(std::max(pair.width_px, 0)) * static_cast<std::size_t>(std::max(pair.height_px, 0));
-  if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
-    return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
+  if (margin_px < 0 || margin_px > 256 || 4 * margin_px > max_atlas_px)
+    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 256 and within a quarter of max_atlas_px"}.at("texturer.single-view");
   return {};
 }
 

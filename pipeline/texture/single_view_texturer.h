@@ -36,7 +36,4 @@ class SingleViewTexturer final : public Texturer {
   SingleViewTexturerOptions options_;
 };
 
-// Shared by the texturers: what neither can work with.
-Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
-
 }  // namespace relievo::pipeline

@@ -8,7 +8,6 @@
 
 #include "pipeline/texture/chart.h"
 #include "pipeline/texture/photo_sampler.h"
-#include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/view_weights.h"
 
 namespace relievo::pipeline {
@@ -95,10 +94,10 @@ Gains match_exposure(const Shading& s) {
 Result<void> TwoViewTexturerOptions::check() const {
   if (max_atlas_px < 64 || max_atlas_px > 8192)
     return Error{Errc::InvalidInput, "max_atlas_px must lie in 64 .. 8192"}.at("texturer.two-view");
-  if (margin_px < 0 || margin_px > 16)
-    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 16"}.at("texturer.two-view");
-  if (!(angle_power >= 0 && angle_power <= 64) || !(occlusion_px > 0 && occlusion_px <= 100))
-    return Error{Errc::InvalidInput, "angle_power 0 .. 64, occlusion_px above 0, to 100"}.at("texturer.two-view");
+  if (margin_px < 0 || margin_px > 256 || 4 * margin_px > max_atlas_px)
+    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 256 and within a quarter of max_atlas_px"}.at("texturer.two-view");
+  if (!(angle_power >= 0 && angle_power <= 64) || !(occlusion_px >= 0 && occlusion_px <= 64))
+    return Error{Errc::InvalidInput, "angle_power 0 .. 64, occlusion_px 0 .. 64"}.at("texturer.two-view");
   if (feather_passes < 0 || feather_passes > 32 || !(highlight_level >= 0 && highlight_level <= 255))
     return Error{Errc::InvalidInput, "feather_passes 0 .. 32, highlight_level 0 .. 255"}.at("texturer.two-view");
   return {};

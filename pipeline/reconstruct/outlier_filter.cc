@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/reconstruct/outlier_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/reconstruct/neighbourhood.h"
+
+namespace relievo::pipeline {
+namespace {
+
+enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
+
+// Depth along the sight of the centre and the place across it: the frame in which support and planes
+// are judged.
+struct Sight {
+  explicit Sight(const Vec3f& at) {
+    const float l = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
+    along = {at.x / l, at.y / l, at.z / l};
+    const float flat = std::sqrt(along.x * along.x + along.z * along.z);
+    across = {along.z / flat, 0, -along.x / flat};
+    down = {along.y * across.z, along.z * across.x - along.x * across.z, -along.y * across.x};
+  }
+  Vec3f along, across, down;
+};
+
+float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+struct Offset { float u, v, depth; };  // from the centre, in its Sight
+
+class Filter {
+ public:
+  Filter(const PointCloud& cloud, const OutlierFilterOptions& options, Arena& scratch)
+      : points_(cloud.points), options_(options), near_(cloud, &scratch),
+        max_slope_(static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
+        verdict_(cloud.points.size(), Verdict::Unsupported, &scratch), island_(&scratch), stack_(&scratch) {}
+
+  // Points without a cell were not finite; they stay unsupported.
+  bool judge(StageContext& context) {
+    for (int r = 0; r < near_.rows(); ++r) {
+      if (context.stop()) return false;
+      for (int c = 0; c < near_.columns(); ++c)
+        for (const std::uint32_t i : near_.cell(c, r)) verdict_[i] = judge_point(i, c, r);
+    }
+    return !context.stop();
+  }
+
+  void drop_islands(Arena& scratch) {
+    island_.assign(points_.size(), 0U);
+    stack_.reserve(points_.size());
+    std::pmr::vector<std::uint64_t> at(points_.size(), 0U, &scratch);  // row << 32 | column
+    for (int r = 0; r < near_.rows(); ++r)
+      for (int c = 0; c < near_.columns(); ++c)
+        for (const std::uint32_t i : near_.cell(c, r))
+          at[i] = static_cast<std::uint64_t>(r) << 32 | static_cast<std::uint64_t>(c);
+    const std::size_t least = static_cast<std::size_t>(options_.min_island * static_cast<double>(points_.size()));
+    std::uint32_t label = 0;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      if (verdict_[i] != Verdict::Kept || island_[i] != 0) continue;
+      flood(i, ++label, at);
+      if (stack_.size() >= least) continue;
+      for (const std::uint32_t k : stack_) verdict_[k] = Verdict::Island;
+    }
+  }
+
+  Verdict verdict(std::size_t i) const { return verdict_[i]; }
+
+ private:
+  bool supports(const Offset& o, float sigma) const {
+    return std::abs(o.depth) <= max_slope_ * std::sqrt(o.u * o.u + o.v * o.v) + 2 * sigma;
+  }
+
+  Verdict judge_point(std::uint32_t i, int column, int row) const {
+    const CloudPoint& p = points_[i];
+    const Sight sight(p.at_mm);
+    int places = 0;
+    int support = 0;
+    Offset near[64];
+    const int reach = near_.reach();
+    for (int r = row - reach; r <= row + reach; ++r)
+      for (int c = column - reach; c <= column + reach; ++c)
+        for (const std::uint32_t k : near_.cell(c, r)) {
+          if (k == i) continue;
+          ++places;
+          const CloudPoint& q = points_[k];
+          const Vec3f d{q.at_mm.x - p.at_mm.x, q.at_mm.y - p.at_mm.y, q.at_mm.z - p.at_mm.z};
+          const Offset o{dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)};
+          if (supports(o, std::max(p.sigma_mm, q.sigma_mm)) && support < 64) near[support++] = o;
+        }
+    // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
+    const double wanted = options_.min_support * (near_.on_lattice() ? 24 : std::max(places, 6));
+    if (support < wanted) return Verdict::Unsupported;
+    return options_.spike_sigmas > 0 && off_plane({near, static_cast<std::size_t>(support)}, p.sigma_mm) ? Verdict::Spike : Verdict::Kept;
+  }
+
+  // Least-squares plane of the neighbours (the point itself has no vote), and their scatter about it.
+  bool off_plane(std::span<const Offset> near, float sigma) const {
+    if (near.size() < 6) return false;
+    float n = 0, u = 0, v = 0, d = 0, uu = 0, uv = 0, vv = 0, ud = 0, vd = 0;
+    for (const Offset& o : near) {
+      n += 1; u += o.u; v += o.v; d += o.depth;
+      uu += o.u * o.u; uv += o.u * o.v; vv += o.v * o.v; ud += o.u * o.depth; vd += o.v * o.depth;
+    }
+    uu -= u * u / n; uv -= u * v / n; vv -= v * v / n; ud -= u * d / n; vd -= v * d / n;
+    const float det = uu * vv - uv * uv;
+    if (!(det > 1e-6F * uu * vv)) return false;
+    const float a = (ud * vv - vd * uv) / det;
+    const float b = (vd * uu - ud * uv) / det;
+    const float base = (d - a * u - b * v) / n;  // the plane's depth at the point; the point's own is 0
+    float scatter = 0;
+    for (const Offset& o : near) {
+      const float r = o.depth - base - a * o.u - b * o.v;
+      scatter += r * r;
+    }
+    const float usual = std::max(std::sqrt(scatter / n), sigma);
+    return std::abs(base) > static_cast<float>(options_.spike_sigmas) * usual;
+  }
+
+  void flood(std::uint32_t seed, std::uint32_t label, const std::pmr::vector<std::uint64_t>& at) {
+    stack_.assign(1, seed);
+    island_[seed] = label;
+    for (std::size_t next = 0; next < stack_.size(); ++next) {
+      const std::uint32_t i = stack_[next];
+      const Sight sight(points_[i].at_mm);
+      const int column = static_cast<int>(at[i] & 0xFFFFFFFFU);
+      const int row = static_cast<int>(at[i] >> 32);
+      for (int r = row - 1; r <= row + 1; ++r)
+        for (int c = column - 1; c <= column + 1; ++c)
+          for (const std::uint32_t k : near_.cell(c, r)) {
+            if (verdict_[k] != Verdict::Kept || island_[k] != 0) continue;
+            const Vec3f& a = points_[i].at_mm;
+            const Vec3f& b = points_[k].at_mm;
+            const Vec3f d{b.x - a.x, b.y - a.y, b.z - a.z};
+            if (!supports({dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)}, std::max(points_[i].sigma_mm, points_[k].sigma_mm))) continue;
+            island_[k] = label;
+            stack_.push_back(k);
+          }
+    }
+  }
+
+  std::span<const CloudPoint> points_;
+  const OutlierFilterOptions& options_;
+  Neighbourhood near_;
+  float max_slope_;
+  std::pmr::vector<Verdict> verdict_;
+  std::pmr::vector<std::uint32_t> island_, stack_;
+};
+
+}  // namespace
+
+Result<void> OutlierFilterOptions::check() const {
+  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
+    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("outlier-filter");
+  if (!(min_support >= 0 && min_support <= 1) || !(min_island >= 0 && min_island <= 1))
+    return Error{Errc::InvalidInput, "min_support and min_island must lie in 0 .. 1"}.at("outlier-filter");
+  if (!(spike_sigmas >= 0 && spike_sigmas <= 100))
+    return Error{Errc::InvalidInput, "spike_sigmas must lie in 0 .. 100"}.at("outlier-filter");
+  return {};
+}
+
+Result<OutlierCounts> reject_outliers(PointCloud& cloud, const OutlierFilterOptions& options, StageContext& context) {
+  RELIEVO_TRY(options.check());
+  const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
+  if (context.stop()) return stopped;
+  Filter filter(cloud, options, context.scratch);
+  if (!filter.judge(context)) return stopped;
+  filter.drop_islands(context.scratch);
+  if (context.stop()) return stopped;
+
+  OutlierCounts counts;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Verdict verdict = filter.verdict(i);
+    if (verdict == Verdict::Kept) cloud.points[kept++] = cloud.points[i];
+    counts.unsupported += verdict == Verdict::Unsupported;
+    counts.spikes += verdict == Verdict::Spike;
+    counts.islands += verdict == Verdict::Island;
+  }
+  cloud.points.resize(kept);
+  return counts;
+}
+
+}  // namespace relievo::pipeline
