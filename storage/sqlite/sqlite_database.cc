@@ -12,6 +12,19 @@ namespace {
 
 constexpr int kBlobPieceBytes = 256 * 1024;
 
+// SQLite's own sqlite3_system_errno() forgets while it rolls back; the files remember.
+int system_errno_of(sqlite3* db) {
+  if (db == nullptr) return 0;
+  int cause = sqlite3_system_errno(db);
+  if (cause == 0) sqlite3_file_control(db, "main", SQLITE_FCNTL_LAST_ERRNO, &cause);
+  sqlite3_file* log = nullptr;
+  if (cause == 0 && sqlite3_file_control(db, "main", SQLITE_FCNTL_JOURNAL_POINTER, &log) == SQLITE_OK &&
+      log != nullptr && log->pMethods != nullptr) {
+    log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &cause);
+  }
+  return cause;
+}
+
 struct BlobCloser {
   sqlite3_blob* handle = nullptr;
   ~BlobCloser() { sqlite3_blob_close(handle); }
@@ -77,8 +90,8 @@ Result<bool> Statement::step() {
   const int code = sqlite3_step(handle_);
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  return sqlite_error(sqlite3_extended_errcode(sqlite3_db_handle(handle_)),
-                      sqlite3_system_errno(sqlite3_db_handle(handle_)), where_);
+  sqlite3* db = sqlite3_db_handle(handle_);
+  return sqlite_error(sqlite3_extended_errcode(db), system_errno_of(db), where_);
 }
 
 Result<void> Statement::run() {
@@ -129,7 +142,7 @@ Result<void> Database::tidy_up_on_close(bool on) {
 }
 
 Error Database::error(int code) const {
-  return sqlite_error(code, handle_ == nullptr ? 0 : sqlite3_system_errno(handle_), where_);
+  return sqlite_error(code, system_errno_of(handle_), where_);
 }
 Error Database::error() const { return error(sqlite3_extended_errcode(handle_)); }
 
@@ -187,7 +200,7 @@ Result<void> Database::copy_to(const std::filesystem::path& target) {
   if (backup == nullptr) return copy.error();
   sqlite3_backup_step(backup, -1);
   const int code = sqlite3_backup_finish(backup);
-  if (code != SQLITE_OK) return sqlite_error(code, sqlite3_system_errno(copy.handle_), copy.where());
+  if (code != SQLITE_OK) return sqlite_error(code, system_errno_of(copy.handle_), copy.where());
   RELIEVO_TRY(copy.tidy_up_on_close(true));
   return copy.run("PRAGMA journal_mode = DELETE");  // one file, nothing beside it
 }

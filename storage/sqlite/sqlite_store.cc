@@ -2,77 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/sqlite/sqlite_store.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <system_error>
-#include <thread>
 
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Lock {
- public:
-  ~Lock() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Lock() = default;
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  int release() { return std::exchange(fd_, -1); }
-
-  // A file of its own: any close() of relievo.db in this process would drop SQLite's locks on it.
-  Result<void> take(const fs::path& file, std::chrono::milliseconds wait) {
-    fd_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (fd_ < 0) return sqlite_error(14 /* cannot open */, errno, file.string());
-    constexpr std::chrono::milliseconds kPause{20};
-    for (auto waited = kPause * 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; waited += kPause) {
-      if (errno != EWOULDBLOCK && errno != EINTR) {
-        return Error{Errc::IoFailed, "the store could not be locked", errno}.at(file.string());
-      }
-      if (waited >= wait) {
-        return Error{Errc::Timeout, "another program is using the store: close it, then try again"}.at(file.parent_path().string());
-      }
-      std::this_thread::sleep_for(kPause);
-    }
-    return {};
-  }
-
- private:
-  int fd_ = -1;
-};
-
-// A directory that is there already keeps its mode: it may hold other things than ours.
-Result<void> make_directory(const fs::path& dir) {
-  std::error_code ignored;
-  if (fs::is_directory(dir, ignored)) return {};
-  std::error_code failed;
-  fs::create_directories(dir.parent_path(), failed);
-  if (::mkdir(dir.c_str(), 0700) != 0 && errno != EEXIST) {
-    if (errno == ENOSPC) return sqlite_error(13 /* full */, errno, dir.string());
-    return Error{Errc::IoFailed, "the directory of the store cannot be made: check the path and its owner", errno}.at(dir.string());
-  }
-  if (!fs::is_directory(dir, ignored)) return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
-  return {};
-}
-
-// SQLite would make the file by the umask; its log and index take over the file's mode.
-Result<void> make_private(const fs::path& file) {
-  const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (fd >= 0) ::close(fd);
-  if ((fd < 0 && errno != EEXIST) || ::chmod(file.c_str(), 0600) != 0) {
-    return sqlite_error(14 /* cannot open */, errno, file.string());
-  }
-  return {};
-}
 
 Result<void> set_up(Database& database, const SqliteStoreOptions& options) {
   const std::string wait = "PRAGMA busy_timeout = " + std::to_string(options.wait_for_lock.count());
@@ -89,7 +30,8 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
     return Error{Errc::Unsupported, "this disk cannot hold the store's log: use a local disk"}.at(database.where());
   }
   RELIEVO_TRY(mode.run());
-  RELIEVO_TRY(database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 4194304"));
+  // The log is moved into the file after every enrolment: on a full disk little is then left in it.
+  RELIEVO_TRY(database.run("PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 100; PRAGMA journal_size_limit = 4194304"));
   if (options.max_bytes > 0) {
     RELIEVO_TRY_ASSIGN(const std::int64_t page, database.integer("PRAGMA page_size"));
     const std::string limit = "PRAGMA max_page_count = " + std::to_string(options.max_bytes / page);
@@ -99,7 +41,7 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
 }
 
 Result<void> open_to_write(Database& database, const SqliteStoreOptions& options) {
-  RELIEVO_TRY(make_private(database.file()));
+  RELIEVO_TRY(make_private_file(database.file()));
   RELIEVO_TRY(database.open(true));
   RELIEVO_TRY(set_up(database, options));
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
@@ -144,13 +86,19 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal:
   return without_exceptions(dir.native(), [&]() -> Result<std::unique_ptr<Store>> {
     const bool writable = options.mode == OpenMode::ReadWrite;
     std::error_code failed;
-    if (writable) RELIEVO_TRY(make_directory(fs::absolute(dir, failed)));
+    if (writable) RELIEVO_TRY(make_store_directory(fs::absolute(dir, failed)));
     // No link may stand in for the file; links on the way to it are the caller's business.
     const fs::path home = fs::weakly_canonical(dir, failed);
-    Lock lock;
+    StoreLock lock;
     if (writable) RELIEVO_TRY(lock.take(home / "relievo.lock", options.wait_for_lock));
     auto database = std::make_unique<Database>(home / "relievo.db");
-    RELIEVO_TRY(writable ? open_to_write(*database, options) : open_to_read(*database, options));
+    auto ready = writable ? open_to_write(*database, options) : open_to_read(*database, options);
+    if (!ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
+      database = std::make_unique<Database>(home / "relievo.db");
+      ready = open_to_write(*database, options);
+    }
+    if (!ready) return ready.error();
+    if (writable) set_aside_reserve(home, options.reserve_bytes);
     auto store = std::make_unique<SqliteStore>(std::move(database), clock, options.mode, lock.release());
     return std::unique_ptr<Store>(std::move(store));
   });

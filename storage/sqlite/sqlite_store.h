@@ -3,7 +3,8 @@
 //
 // The one way to open a store of SQLite. It lives in DIR/relievo.db (directory 0700, file 0600);
 // DIR/relievo.lock keeps a second writer out; DIR/relievo.db.before-N is the copy made before a
-// migration to version N, removed by the next erasure.
+// migration to version N, removed by the next erasure; DIR/relievo.reserve is room set aside, given
+// up when the disk is full so that the store still opens and people can still be erased.
 //
 // Errors: InvalidInput (another program's database, DIR is no directory); NotFound (opened to read,
 // nothing there); StoreNewer (made by a newer Relievo: left untouched); StoreCorrupt; Timeout
@@ -33,7 +34,8 @@ enum class OpenMode : std::uint8_t { ReadWrite, ReadOnly };
 struct SqliteStoreOptions {
   OpenMode mode = OpenMode::ReadWrite;
   std::chrono::milliseconds wait_for_lock{2000};
-  std::int64_t max_bytes = 0;  // of the database file; 0: as much as the disk holds
+  std::int64_t max_bytes = 0;                   // of the database file; 0: as much as the disk holds
+  std::int64_t reserve_bytes = 64'000'000;      // an erasure needs as much as it erases, for a moment
 };
 
 class SqliteStore final : public Store {

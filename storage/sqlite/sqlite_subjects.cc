@@ -4,6 +4,7 @@
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/store_directory.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -74,11 +75,16 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
-    const auto erased = change([&](WallTime at) -> Result<void> {
-      RELIEVO_TRY_ASSIGN(auto erase, database_->prepare("DELETE FROM subject WHERE id = ?"));
-      RELIEVO_TRY(erase.bind(number(id)).run());
+    const auto erase = [&](WallTime at) -> Result<void> {
+      RELIEVO_TRY_ASSIGN(auto statement, database_->prepare("DELETE FROM subject WHERE id = ?"));
+      RELIEVO_TRY(statement.bind(number(id)).run());
       return append_audit_line(*database_, {"subject.erased", id, ""}, at);
-    });
+    };
+    auto erased = change(erase);
+    // The way out of a full disk may not itself end there.
+    if (!erased && erased.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path())) {
+      erased = change(erase);
+    }
     if (!erased) return erased;
     // The log still holds the pages as they were: move it into the file, and empty it.
     RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));

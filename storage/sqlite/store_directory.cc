@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "storage/sqlite/store_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <thread>
+
+namespace relievo::storage {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error failed(const fs::path& place, int cause) {
+  if (cause == ENOSPC || cause == EDQUOT) {
+    return Error{Errc::MediaFull, "the disk is full: make room, then try again", cause}.at(place.native());
+  }
+  return Error{Errc::IoFailed, "the store cannot be made or opened here: check the path and its owner", cause}.at(place.native());
+}
+
+}  // namespace
+
+StoreLock::~StoreLock() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+// A file of its own: any close() of relievo.db in this process would drop SQLite's locks on it.
+Result<void> StoreLock::take(const fs::path& file, std::chrono::milliseconds wait) {
+  fd_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (fd_ < 0) return failed(file, errno);
+  constexpr std::chrono::milliseconds kPause{20};
+  for (auto waited = kPause * 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; waited += kPause) {
+    if (errno != EWOULDBLOCK && errno != EINTR) {
+      return Error{Errc::IoFailed, "the store could not be locked", errno}.at(file.string());
+    }
+    if (waited >= wait) {
+      return Error{Errc::Timeout, "another program is using the store: close it, then try again"}.at(file.parent_path().string());
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return {};
+}
+
+Result<void> make_store_directory(const fs::path& dir) {
+  std::error_code ignored;
+  if (fs::is_directory(dir, ignored)) return {};
+  fs::create_directories(dir.parent_path(), ignored);
+  if (::mkdir(dir.c_str(), 0700) != 0 && errno != EEXIST) {
+    return failed(dir, errno);
+  }
+  if (!fs::is_directory(dir, ignored)) return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
+  return {};
+}
+
+Result<void> make_private_file(const fs::path& file) {
+  const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (fd >= 0) ::close(fd);
+  if ((fd < 0 && errno != EEXIST) || ::chmod(file.c_str(), 0600) != 0) {
+    return failed(file, errno);
+  }
+  return {};
+}
+
+void set_aside_reserve(const fs::path& dir, std::int64_t bytes) {
+  constexpr std::int64_t kTooSmall = 65'536;
+  const fs::path file = dir / "relievo.reserve";
+  const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (fd < 0) return;
+  while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0) bytes /= 2;
+  ::close(fd);
+  if (bytes < kTooSmall) ::unlink(file.c_str());
+}
+
+bool give_up_reserve(const fs::path& dir) { return ::unlink((dir / "relievo.reserve").c_str()) == 0; }
+
+}  // namespace relievo::storage

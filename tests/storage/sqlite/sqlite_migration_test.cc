@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Migrations, and files that are not what they should be.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+#include <map>
+
+#include "storage/schema/embedded_sql.h"
+#include "storage/sqlite/sqlite_migration.h"
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::storage {
+namespace {
+
+using relievo::test::TemporaryFolder;
+using test::opened;
+
+class Raw {
+ public:
+  explicit Raw(const std::filesystem::path& file) { EXPECT_EQ(sqlite3_open(file.c_str(), &db_), SQLITE_OK); }
+  ~Raw() { sqlite3_close_v2(db_); }
+  Raw(const Raw&) = delete;
+  Raw& operator=(const Raw&) = delete;
+  void run(const std::string& sql) {
+    char* message = nullptr;
+    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK) << sql << ": " << (message ? message : "");
+    sqlite3_free(message);
+  }
+  // Rows as text, columns joined by bars.
+  std::vector<std::string> rows(const std::string& sql) {
+    std::vector<std::string> found;
+    const auto keep = [](void* to, int count, char** values, char**) {
+      std::string row;
+      for (int i = 0; i < count; ++i) row += std::string(values[i] ? values[i] : "NULL") + "|";
+      static_cast<std::vector<std::string>*>(to)->push_back(row);
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), keep, &found, nullptr), SQLITE_OK) << sql;
+    return found;
+  }
+
+ private:
+  sqlite3* db_ = nullptr;
+};
+
+std::string number(std::int64_t n) { return std::to_string(n); }
+
+void make_version(const std::filesystem::path& dir, std::int64_t version) {
+  std::filesystem::create_directories(dir);
+  Raw raw(dir / "relievo.db");
+  raw.run("PRAGMA journal_mode = WAL");
+  for (std::int64_t n = 0; n < version; ++n) raw.run(std::string(migrations()[static_cast<std::size_t>(n)]));
+  raw.run("PRAGMA application_id = " + number(kApplicationId) + "; PRAGMA user_version = " + number(version));
+}
+
+std::vector<std::string> schema_of(Raw& raw) {
+  auto all = raw.rows("SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name");
+  for (const char* table : {"store_info", "audit_end"}) {
+    for (const auto& row : raw.rows(std::string("SELECT * FROM ") + table)) all.push_back(row);
+  }
+  return all;
+}
+
+Errc refusal(const std::filesystem::path& dir, OpenMode mode = OpenMode::ReadWrite) {
+  const test::StillClock clock;
+  const auto store = open_sqlite_store(dir, clock, {.mode = mode});
+  EXPECT_FALSE(store);
+  return store ? Errc::Cancelled : store.error().code;
+}
+
+TEST(SqliteMigration, SumOfMigrationsIsTheSchema) {
+  const TemporaryFolder folder;
+  make_version(folder / "steps", store_version());
+  opened(folder / "fresh");
+  Raw steps(folder / "steps/relievo.db"), fresh(folder / "fresh/relievo.db");
+  EXPECT_EQ(schema_of(steps), schema_of(fresh));
+  EXPECT_EQ(fresh.rows("PRAGMA user_version"), steps.rows("PRAGMA user_version"));
+  EXPECT_EQ(fresh.rows("PRAGMA application_id"), steps.rows("PRAGMA application_id"));
+  for (const auto& sql : fresh.rows("SELECT sql FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%'")) {
+    EXPECT_NE(sql.find("STRICT"), std::string::npos) << sql;
+  }
+}
+
+TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
+  for (std::int64_t version = 1; version < store_version(); ++version) {
+    const TemporaryFolder folder;
+    const auto dir = folder / "store";
+    make_version(dir, version);
+    Raw(dir / "relievo.db").run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461')");
+    EXPECT_EQ(refusal(dir, OpenMode::ReadOnly), Errc::InvalidState);
+    auto store = opened(dir);
+    ASSERT_TRUE(store);
+    EXPECT_EQ(store->subjects({})->front().name, "Ada");
+    EXPECT_TRUE(store->set_setting("language", "de"));
+    EXPECT_TRUE(store->check());
+    const auto copy = dir / ("relievo.db.before-" + number(version + 1));
+    ASSERT_TRUE(std::filesystem::exists(copy));
+    EXPECT_EQ(std::filesystem::status(copy).permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    EXPECT_EQ(Raw(copy).rows("PRAGMA user_version"), std::vector<std::string>{number(version) + "|"});
+    EXPECT_EQ(Raw(copy).rows("SELECT name FROM subject"), std::vector<std::string>{"Ada|"});
+    // A copy must not outlive the person in it.
+    EXPECT_TRUE(store->erase_subject(SubjectId{1}));
+    EXPECT_FALSE(std::filesystem::exists(copy));
+    EXPECT_EQ(test::all_bytes(dir).find("Ada"), std::string::npos);
+  }
+}
+
+TEST(SqliteMigration, AFailedMigrationChangesNothing) {
+  const TemporaryFolder folder;
+  make_version(folder.path(), 1);
+  Raw(folder / "relievo.db").run("CREATE TABLE audit_end (in_the_way)");
+  EXPECT_EQ(refusal(folder.path()), Errc::LibraryFailed);
+  Raw raw(folder / "relievo.db");
+  EXPECT_EQ(raw.rows("PRAGMA user_version"), std::vector<std::string>{"1|"});
+  EXPECT_TRUE(raw.rows("SELECT 1 FROM sqlite_schema WHERE name = 'audit'").empty());
+}
+
+TEST(SqliteMigration, ANewerStoreIsLeftUntouched) {
+  const TemporaryFolder folder;
+  opened(folder.path());
+  Raw(folder / "relievo.db").run("UPDATE store_info SET compatible_version = " + number(store_version() + 1) +
+                                 "; PRAGMA user_version = " + number(store_version() + 1));
+  const auto before = relievo::test::read_text(folder / "relievo.db");
+  EXPECT_EQ(refusal(folder.path()), Errc::StoreNewer);
+  EXPECT_EQ(refusal(folder.path(), OpenMode::ReadOnly), Errc::StoreNewer);
+  EXPECT_TRUE(before == relievo::test::read_text(folder / "relievo.db"));
+}
+
+TEST(SqliteMigration, ANewerButCompatibleStoreIsUsed) {
+  const TemporaryFolder folder;
+  opened(folder.path());
+  Raw(folder / "relievo.db").run("PRAGMA user_version = " + number(store_version() + 5));
+  const auto store = opened(folder.path());
+  ASSERT_TRUE(store);
+  EXPECT_TRUE(store->add_subject({"Ada"}));
+  EXPECT_EQ(Raw(folder / "relievo.db").rows("PRAGMA user_version"), std::vector<std::string>{number(store_version() + 5) + "|"});
+}
+
+TEST(SqliteMigration, AnotherProgramsDatabaseIsLeftAlone) {
+  const TemporaryFolder folder;
+  Raw(folder / "relievo.db").run("CREATE TABLE theirs (x)");
+  EXPECT_EQ(refusal(folder.path()), Errc::InvalidInput);
+  EXPECT_EQ(Raw(folder / "relievo.db").rows("SELECT name FROM sqlite_schema"), std::vector<std::string>{"theirs|"});
+}
+
+// The audit log is whole, or check() says so.
+TEST(SqliteAudit, FindsEveryEditDropSwapAndCut) {
+  const std::map<std::string, std::string> tampering = {
+      {"edited", "UPDATE audit SET detail = 'x' WHERE number = 3"},
+      {"redated", "UPDATE audit SET at_ms = at_ms + 1 WHERE number = 3"},
+      {"dropped", "DELETE FROM audit WHERE number = 3"},
+      {"first dropped", "DELETE FROM audit WHERE number = 1"},
+      {"tail cut", "DELETE FROM audit WHERE number >= 4"},
+      {"all cut", "DELETE FROM audit"},
+      {"swapped", "UPDATE audit SET number = 99 WHERE number = 2; UPDATE audit SET number = 2 WHERE number = 3; "
+                  "UPDATE audit SET number = 3 WHERE number = 99"},
+      {"letter moved", "UPDATE audit SET what = what || 'a', detail = substr(detail, 2) WHERE number = 3"},
+      {"end moved back", "UPDATE audit_end SET number = 3"},
+      {"end gone", "DELETE FROM audit_end"},
+  };
+  for (const auto& [name, sql] : tampering) {
+    const TemporaryFolder folder;
+    {
+      const auto store = opened(folder.path());
+      for (const char* detail : {"alpha", "adam", "abel", "anna", "abba"}) ASSERT_TRUE(store->append_audit({"door", {}, detail}));
+      ASSERT_TRUE(store->check());
+    }
+    Raw(folder / "relievo.db").run(sql);
+    const auto checked = opened(folder.path())->check();
+    ASSERT_FALSE(checked) << name;
+    EXPECT_EQ(checked.error().code, Errc::StoreCorrupt) << name;
+  }
+}
+
+TEST(SqliteDamage, ChecksumsSpeakWhereSqliteIsContent) {
+  const TemporaryFolder folder;
+  const auto model = test::sample_model(6);
+  {
+    const auto store = opened(folder.path());
+    ASSERT_TRUE(store->save_calibration(test::sample_calibration(), "rig"));
+    ASSERT_TRUE(store->add_enrolment(NewSubject{"Ada"}, test::sample_enrolment(model)));
+  }
+  Raw(folder / "relievo.db").run("UPDATE model SET bytes = CAST(substr(bytes, 1, 500) || x'00' || substr(bytes, 502) AS BLOB)");
+  {
+    const auto store = opened(folder.path());
+    const auto loaded = store->load_model(EnrolmentId{1}, std::pmr::new_delete_resource());
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().code, Errc::StoreCorrupt);
+    ASSERT_FALSE(store->check());
+    EXPECT_TRUE(store->active_calibration());
+  }
+  Raw(folder / "relievo.db").run("UPDATE calibration SET record = substr(record, 1, 100)");
+  const auto calibration = opened(folder.path())->active_calibration();
+  ASSERT_FALSE(calibration);
+  EXPECT_EQ(calibration.error().code, Errc::StoreCorrupt);
+}
+
+}  // namespace
+}  // namespace relievo::storage
