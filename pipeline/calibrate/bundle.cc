@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/bundle.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace relievo::pipeline::bundle {
+namespace {
+
+using Jacobian = Eigen::Matrix<double, 2, 9>;   // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
+using Globals = Eigen::Matrix<double, kGlobals, kGlobals>;
+using GlobalVector = Eigen::Matrix<double, kGlobals, 1>;
+
+Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// Pixel of a point in the camera's frame, with its derivatives where asked for.
+Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, Jacobian* by_camera,
+                         Eigen::Matrix<double, 2, 3>* by_point) {
+  const double x = p.x() / p.z();
+  const double y = p.y() / p.z();
+  const double* k = c.distortion;
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double xd = x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x);
+  const double yd = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
+  const double fx = c.focal_px.x;
+  const double fy = c.focal_px.y;
+  if (by_camera != nullptr) {
+    const double r4 = r2 * r2;
+    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x), fx * x * r4 * r2,
+        0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y, fy * y * r4 * r2;
+  }
+  if (by_point != nullptr) {
+    const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
+    Eigen::Matrix2d by_plane;
+    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
+        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
+    Eigen::Matrix<double, 2, 3> plane_by_point;
+    plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
+    *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
+  }
+  return {fx * xd + c.centre_px.x, fy * yd + c.centre_px.y};
+}
+
+struct Normal {
+  Globals a = Globals::Zero();
+  GlobalVector g = GlobalVector::Zero();
+  std::vector<Eigen::Matrix<double, kGlobals, 6>> b;
+  std::vector<Matrix6d> c;
+  std::vector<Vector6d> h;
+  double cost = 0;
+};
+
+struct Block {
+  Globals& a;
+  GlobalVector& g;
+  Eigen::Matrix<double, kGlobals, 6>& b;
+  Matrix6d& c;
+  Vector6d& h;
+};
+
+void add_camera(const Problem& p, const View& view, std::size_t eye, Block block, double& sum) {
+  const Pose& relation = p.right_from_left;
+  const int base = eye == 0 ? 0 : 9;
+  for (int i = 0; i < p.pattern.corners(); ++i) {
+    const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm, (i / p.pattern.columns) * p.pattern.square_mm, 0);
+    const Eigen::Vector3d turned = view.left_from_board.rotation * board;
+    const Eigen::Vector3d left = turned + view.left_from_board.translation_mm;
+    const Eigen::Vector3d turned_left = eye == 0 ? left : Eigen::Vector3d(relation.rotation * left);
+    const Eigen::Vector3d here = eye == 0 ? left : Eigen::Vector3d(turned_left + relation.translation_mm);
+    Jacobian by_camera;
+    Eigen::Matrix<double, 2, 3> by_point;
+    const Eigen::Vector2d pixel = pixel_of(p.camera[eye], here, &by_camera, &by_point);
+    const Vec2d& seen = (*view.seen[eye])[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d residual(seen.x - pixel.x(), seen.y - pixel.y());
+    sum += here.z() > 0 ? residual.squaredNorm() : 1e12;
+    Eigen::Matrix<double, 2, 6> by_pose;
+    const Eigen::Matrix<double, 2, 3> by_left = eye == 0 ? by_point : Eigen::Matrix<double, 2, 3>(by_point * relation.rotation);
+    by_pose << by_left * -cross(turned), by_left;
+    Eigen::Matrix<double, 2, kGlobals> by_global = Eigen::Matrix<double, 2, kGlobals>::Zero();
+    by_global.middleCols<9>(base) = by_camera;
+    if (eye == 1) by_global.rightCols<6>() << by_point * -cross(turned_left), by_point;
+    block.a.noalias() += by_global.transpose() * by_global;
+    block.g.noalias() += by_global.transpose() * residual;
+    block.b.noalias() += by_global.transpose() * by_pose;
+    block.c.noalias() += by_pose.transpose() * by_pose;
+    block.h.noalias() += by_pose.transpose() * residual;
+  }
+}
+
+Normal linearise(Problem& p) {
+  Normal n;
+  n.b.assign(p.views.size(), Eigen::Matrix<double, kGlobals, 6>::Zero());
+  n.c.assign(p.views.size(), Matrix6d::Zero());
+  n.h.assign(p.views.size(), Vector6d::Zero());
+  p.residuals = 0;
+  for (std::size_t v = 0; v < p.views.size(); ++v) {
+    View& view = p.views[v];
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      view.squared_px[eye] = 0;
+      if (view.seen[eye] == nullptr) continue;
+      add_camera(p, view, eye, {n.a, n.g, n.b[v], n.c[v], n.h[v]}, view.squared_px[eye]);
+      n.cost += view.squared_px[eye];
+      p.residuals += 2 * p.pattern.corners();
+    }
+    view.information = n.c[v];
+  }
+  // What is not free neither pulls nor moves.
+  for (int i = 0; i < kGlobals; ++i) {
+    if (p.free[static_cast<std::size_t>(i)]) continue;
+    n.a.row(i).setZero();
+    n.a.col(i).setZero();
+    n.a(i, i) = 1;
+    n.g(i) = 0;
+    for (auto& b : n.b) b.row(i).setZero();
+  }
+  return n;
+}
+
+void move(Problem& p, const GlobalVector& by) {
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const auto s = by.segment<9>(eye == 0 ? 0 : 9);
+    CameraIntrinsics& c = p.camera[eye];
+    c.focal_px = {c.focal_px.x + s[0], c.focal_px.y + s[1]};
+    c.centre_px = {c.centre_px.x + s[2], c.centre_px.y + s[3]};
+    for (int i = 0; i < 5; ++i) c.distortion[i] += s[4 + i];
+  }
+  p.right_from_left.step(by.tail<6>());
+}
+
+// One damped step; the Schur complement without damping is kept for the covariance.
+Problem stepped(const Problem& p, const Normal& n, double damping) {
+  Globals s = n.a;
+  s.diagonal() *= 1 + damping;
+  GlobalVector g = n.g;
+  std::vector<Matrix6d> inverse(n.c.size());
+  for (std::size_t v = 0; v < n.c.size(); ++v) {
+    Matrix6d c = n.c[v];
+    c.diagonal() *= 1 + damping;
+    inverse[v] = c.ldlt().solve(Matrix6d::Identity());
+    s.noalias() -= n.b[v] * inverse[v] * n.b[v].transpose();
+    g.noalias() -= n.b[v] * (inverse[v] * n.h[v]);
+  }
+  const GlobalVector by = s.ldlt().solve(g);
+  Problem moved = p;
+  move(moved, by);
+  for (std::size_t v = 0; v < n.c.size(); ++v)
+    moved.views[v].left_from_board.step(inverse[v] * (n.h[v] - n.b[v].transpose() * by));
+  return moved;
+}
+
+void keep_covariance(Problem& p, const Normal& n) {
+  Globals s = n.a;
+  for (std::size_t v = 0; v < n.c.size(); ++v)
+    s.noalias() -= n.b[v] * n.c[v].ldlt().solve(n.b[v].transpose());
+  p.covariance = s.ldlt().solve(Globals::Identity());
+  for (int i = 0; i < kGlobals; ++i)
+    if (!p.free[static_cast<std::size_t>(i)]) p.covariance(i, i) = 0;
+}
+
+}  // namespace
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle < 1e-12) return Eigen::Matrix3d::Identity() + cross(turn);
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+Eigen::Vector3d turn_of(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+void Pose::step(const Vector6d& by) {
+  rotation = Eigen::Quaterniond(rotation_of(by.head<3>()) * rotation).normalized().toRotationMatrix();
+  translation_mm += by.tail<3>();
+}
+
+Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm) {
+  const Eigen::Vector2d pixel =
+      pixel_of(camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm, nullptr, nullptr);
+  return {pixel.x(), pixel.y()};
+}
+
+bool solve(Problem& problem) {
+  constexpr int kMaxSteps = 100;
+  constexpr double kSmallGain = 1e-11;
+  double damping = 1e-4;
+  Normal normal = linearise(problem);
+  for (int i = 0; i < kMaxSteps && damping < 1e10; ++i) {
+    Problem next = stepped(problem, normal, damping);
+    Normal there = linearise(next);
+    if (!std::isfinite(there.cost) || there.cost > normal.cost) {
+      damping *= 10;
+      continue;
+    }
+    const double gain = normal.cost - there.cost;
+    problem = std::move(next);
+    normal = std::move(there);
+    damping = std::max(damping / 10, 1e-12);
+    if (gain <= kSmallGain * normal.cost) break;
+  }
+  problem.squared_px = normal.cost;
+  keep_covariance(problem, normal);
+  return std::isfinite(normal.cost) && problem.covariance.allFinite();
+}
+
+bool solve_poses(Problem& problem) {
+  const auto free = problem.free;
+  problem.free.fill(false);
+  const bool solved = solve(problem);
+  problem.free = free;
+  return solved;
+}
+
+}  // namespace relievo::pipeline::bundle

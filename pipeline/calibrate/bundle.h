@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bundle adjustment of one or two cameras that look at a flat board: the parameters under which the
+// corners seen are the most likely ones (least squares on pixels; Triggs et al. 2000). The poses of
+// the board are eliminated view by view (Schur complement), so the time grows with the views only.
+// Inside calibrate/ only. Millimetres, pixels. Thread: any.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/model/calibration.h"
+
+namespace relievo::pipeline::bundle {
+
+// A rigid motion; a step (w, d) of six numbers turns it into (exp(w) R, t + d).
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
+
+  void step(const Eigen::Matrix<double, 6, 1>& by);
+};
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn);  // exp
+Eigen::Vector3d turn_of(const Eigen::Matrix3d& rotation);  // log
+
+struct View {
+  View(const BoardCorners* left, const BoardCorners* right, const Pose& pose) : seen{left, right}, left_from_board(pose) {}
+
+  std::array<const BoardCorners*, 2> seen;    // borrowed; nullptr where a camera has no board
+  Pose left_from_board;
+  std::array<double, 2> squared_px{};         // out: sum of squared residuals
+  Matrix6d information = Matrix6d::Zero();    // out: of the pose, for corners of 1 px noise
+};
+
+// Order of the global parameters: nine of each camera (fx fy cx cy k1 k2 p1 p2 k3), then the step of
+// right_from_left.
+inline constexpr int kGlobals = 24;
+
+struct Problem {
+  BoardPattern pattern;
+  std::array<CameraIntrinsics, 2> camera;
+  Pose right_from_left;
+  std::vector<View> views;
+  std::array<bool, kGlobals> free{};          // the others keep their value
+  // out:
+  double squared_px = 0;                      // of all views
+  int residuals = 0;                          // numbers, two a corner
+  Eigen::Matrix<double, kGlobals, kGlobals> covariance =
+      Eigen::Matrix<double, kGlobals, kGlobals>::Zero();  // for 1 px noise; 0 for what is not free
+};
+
+// Where a camera sees the board's corner (column, row).
+Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm);
+
+// False where it does not converge to a finite answer.
+bool solve(Problem& problem);
+
+// Poses and sums only: the same problem with nothing global free.
+bool solve_poses(Problem& problem);
+
+// A first guess of focal length and poses from the boards' homographies, principal point in the
+// middle (Zhang 2000). False where the views do not determine it.
+bool first_guess(Problem& problem);
+
+}  // namespace relievo::pipeline::bundle

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From corners seen to a calibrated rig: each camera alone (Zhang 2000), then both together; views in
+// which the two cameras disagree are found, named and left out (README.md says by which rule).
+// Errors of calibrate(): InvalidInput (sizes, counts of corners), PoorGeometry (too few boards, or
+// views that determine nothing; where() says how many).
+// Thread: any; the same input gives the same result.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/quality.h"
+#include "pipeline/model/calibration.h"
+
+namespace relievo::pipeline {
+
+inline constexpr int kMinBoardPairs = 5;
+inline constexpr int kMaxBoardPairs = 500;
+
+struct BoardView {
+  std::string name;
+  BoardCorners left;   // empty where no board was found
+  BoardCorners right;
+};
+
+struct CalibratorInput {
+  BoardPattern pattern;
+  int width_px = 0;    // of both cameras
+  int height_px = 0;
+  std::vector<BoardView> views;
+};
+
+struct CalibratorOutput {
+  StereoCalibration calibration;
+  CalibrationQuality quality;  // with verdict Refuse the calibration is not to be used
+};
+
+Result<CalibratorOutput> calibrate(const CalibratorInput& input);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/quality_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kFolds = 5;
+constexpr int kGrid = 8;
+constexpr int kGlobals = bundle::kGlobals;
+
+// Of one camera's picture onto the plane z = 1, by Newton's fixed point.
+Eigen::Vector3d ray_of(const CameraIntrinsics& c, const Vec2d& at) {
+  const double u = (at.x - c.centre_px.x) / c.focal_px.x;
+  const double v = (at.y - c.centre_px.y) / c.focal_px.y;
+  const double* k = c.distortion;
+  double x = u;
+  double y = v;
+  for (int i = 0; i < 50; ++i) {
+    const double r2 = x * x + y * y;
+    const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    x = (u - 2 * k[2] * x * y - k[3] * (r2 + 2 * x * x)) / radial;
+    y = (v - k[2] * (r2 + 2 * y * y) - 2 * k[3] * x * y) / radial;
+  }
+  return {x, y, 1};
+}
+
+// Sum of squared distances (px of the right camera) of right corners from the epipolar planes.
+double epipolar_squared(const bundle::Problem& p, const BoardView& view) {
+  const bundle::Pose& relation = p.right_from_left;
+  double sum = 0;
+  for (std::size_t i = 0; i < view.left.size(); ++i) {
+    const Eigen::Vector3d left = relation.rotation * ray_of(p.camera[0], view.left[i]);
+    const Eigen::Vector3d right = ray_of(p.camera[1], view.right[i]);
+    const Eigen::Vector3d line = relation.translation_mm.cross(left);
+    const double distance = line.dot(right) / line.head<2>().norm();
+    sum += distance * distance;
+  }
+  const double focal = 0.5 * (p.camera[1].focal_px.x + p.camera[1].focal_px.y);
+  return sum * focal * focal;
+}
+
+double epipolar_rms(const Fitted& f, const StereoFit& fit, std::span<const int> views) {
+  double sum = 0;
+  for (const int view : views) sum += epipolar_squared(fit.problem, f.input.views[static_cast<std::size_t>(view)]);
+  return std::sqrt(sum / std::max(1.0, static_cast<double>(views.size()) * f.input.pattern.corners()));
+}
+
+// Each fifth of the used views judged by a fit to which it gave no pair.
+double held_out_epipolar(const Fitted& f) {
+  double sum = 0;
+  std::size_t count = 0;
+  const std::vector<int>& used = f.selection.used;
+  for (int fold = 0; fold < kFolds; ++fold) {
+    std::vector<int> learn;
+    std::vector<int> test;
+    for (std::size_t i = 0; i < used.size(); ++i) (static_cast<int>(i) % kFolds == fold ? test : learn).push_back(used[i]);
+    StereoFit fit;
+    if (test.empty() || learn.size() < 2 ||
+        !fit_stereo(f.input, f.cameras, learn, f.selection.fit.problem.right_from_left, true, fit))
+      continue;
+    const double rms = epipolar_rms(f, fit, test);
+    sum += rms * rms * static_cast<double>(test.size());
+    count += test.size();
+  }
+  return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+double coverage(const CalibratorInput& input, bool right) {
+  std::array<bool, kGrid * kGrid> seen{};
+  for (const BoardView& view : input.views)
+    for (const Vec2d& at : right ? view.right : view.left) {
+      const int x = std::clamp(static_cast<int>(at.x / input.width_px * kGrid), 0, kGrid - 1);
+      const int y = std::clamp(static_cast<int>(at.y / input.height_px * kGrid), 0, kGrid - 1);
+      seen[static_cast<std::size_t>(y * kGrid + x)] = true;
+    }
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / (kGrid * kGrid);
+}
+
+bundle::Problem nudged(bundle::Problem p, int parameter, double by) {
+  if (parameter >= 18) {
+    bundle::Vector6d step = bundle::Vector6d::Zero();
+    step[parameter - 18] = by;
+    p.right_from_left.step(step);
+    return p;
+  }
+  CameraIntrinsics& c = p.camera[static_cast<std::size_t>(parameter / 9)];
+  double* const place[9] = {&c.focal_px.x, &c.focal_px.y, &c.centre_px.x, &c.centre_px.y, &c.distortion[0],
+                            &c.distortion[1], &c.distortion[2], &c.distortion[3], &c.distortion[4]};
+  *place[parameter % 9] += by;
+  return p;
+}
+
+// Depth of the point nearest to both lines of sight.
+double depth_of(const bundle::Problem& p, const Vec2d& left, const Vec2d& right) {
+  const Eigen::Matrix3d back = p.right_from_left.rotation.transpose();
+  const Eigen::Vector3d a = ray_of(p.camera[0], left);
+  const Eigen::Vector3d b = back * ray_of(p.camera[1], right);
+  const Eigen::Vector3d c = -(back * p.right_from_left.translation_mm);
+  const double den = a.dot(a) * b.dot(b) - a.dot(b) * a.dot(b);
+  const double s = (c.dot(a) * b.dot(b) - c.dot(b) * a.dot(b)) / den;
+  const double t = (c.dot(a) * a.dot(b) - c.dot(b) * a.dot(a)) / den;
+  return 0.5 * (s * a.z() + c.z() + t * b.z());
+}
+
+// One standard deviation of depth over a field of 9 points at `distance`, from the fit's covariance.
+double depth_sigma(const bundle::Problem& p, double distance, double variance) {
+  double sum = 0;
+  for (int n = 0; n < 9; ++n) {
+    bundle::Pose at;
+    at.translation_mm = {(n % 3 - 1) * 0.15 * distance, (n / 3 - 1) * 0.15 * distance, distance};
+    const Vec2d left = bundle::project(p.camera[0], at, 0, 0);
+    at.translation_mm = p.right_from_left.rotation * at.translation_mm + p.right_from_left.translation_mm;
+    const Vec2d right = bundle::project(p.camera[1], at, 0, 0);
+    Eigen::Matrix<double, kGlobals, 1> slope = Eigen::Matrix<double, kGlobals, 1>::Zero();
+    for (int i = 0; i < kGlobals; ++i) {
+      if (!p.free[static_cast<std::size_t>(i)]) continue;
+      const double by = 0.01 * std::sqrt(std::max(p.covariance(i, i), 0.0)) + 1e-12;
+      slope[i] = (depth_of(nudged(p, i, by), left, right) - depth_of(nudged(p, i, -by), left, right)) / (2 * by);
+    }
+    sum += slope.dot(p.covariance * slope) * variance / 9;
+  }
+  return std::sqrt(std::max(sum, 0.0));
+}
+
+void measure_views(const Fitted& f, CalibrationQuality& q) {
+  for (const int view : f.cameras.left.views)
+    q.views[static_cast<std::size_t>(view)].left_rms_px = std::sqrt(f.cameras.left.squared_px(view) / f.input.pattern.corners());
+  for (const int view : f.cameras.right.views)
+    q.views[static_cast<std::size_t>(view)].right_rms_px = std::sqrt(f.cameras.right.squared_px(view) / f.input.pattern.corners());
+  std::vector<bundle::View> judged;
+  judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
+  std::vector<double> distances;
+  const double middle[2] = {0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
+                            0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm};
+  for (std::size_t i = 0; i < f.pairs.size(); ++i) {
+    ViewQuality& view = q.views[static_cast<std::size_t>(f.pairs[i])];
+    view.used = std::binary_search(f.selection.used.begin(), f.selection.used.end(), f.pairs[i]);
+    view.left_rms_px = std::sqrt(judged[i].squared_px[0] / f.input.pattern.corners());
+    view.right_rms_px = std::sqrt(judged[i].squared_px[1] / f.input.pattern.corners());
+    const int one[] = {f.pairs[i]};
+    view.epipolar_rms_px = epipolar_rms(f, f.selection.fit, one);
+    view.excess_px = std::sqrt(f.selection.excess[i] / (2 * f.input.pattern.corners()));
+    const bundle::Pose& pose = judged[i].left_from_board;
+    view.distance_mm = (pose.rotation * Eigen::Vector3d(middle[0], middle[1], 0) + pose.translation_mm).norm();
+    if (view.used) distances.push_back(view.distance_mm);
+  }
+  const auto half = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), half, distances.end());
+  q.working_distance_mm = *half;
+}
+
+}  // namespace
+
+void measure_quality(const Fitted& f, CalibrationQuality& q) {
+  measure_views(f, q);
+  const StereoFit& fit = f.selection.fit;
+  q.used = static_cast<int>(f.selection.used.size());
+  q.left_rms_px = f.cameras.left.rms_px();
+  q.right_rms_px = f.cameras.right.rms_px();
+  q.pair_rms_px = fit.rms_px();
+  q.epipolar_rms_px = epipolar_rms(f, fit, f.selection.used);
+  q.held_out_epipolar_px = held_out_epipolar(f);
+  q.coverage_left = coverage(f.input, false);
+  q.coverage_right = coverage(f.input, true);
+  const double noise = 0.5 * (f.cameras.left.variance_px2 + f.cameras.right.variance_px2);
+  q.slip_ratio = std::sqrt(std::max(1.0, f.selection.spread_px2 / noise));
+  // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.
+  q.holds_still = q.slip_ratio < 2;
+  const int moved = change_point(f.selection.excess, std::max(f.selection.spread_px2, noise));
+  q.moved_after = moved < 0 ? -1 : f.pairs[static_cast<std::size_t>(moved)];
+  q.distortion_terms = f.cameras.distortion_terms;
+  q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
+  // A rig that slips is known only as well as its slips average out.
+  q.depth_sigma_mm = depth_sigma(fit.problem, q.working_distance_mm, noise * q.slip_ratio * q.slip_ratio);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The numbers of CalibrationQuality, from the fits. Inside calibrate/ only.
+#pragma once
+
+#include "pipeline/calibrate/quality.h"
+#include "pipeline/calibrate/view_selection.h"
+
+namespace relievo::pipeline {
+
+struct Fitted {
+  const CalibratorInput& input;
+  const CameraFits& cameras;
+  std::span<const int> pairs;   // views with a board in both pictures, fit for use
+  const Selection& selection;
+};
+
+// Fills everything but verdict and reasons. quality.views must name all views already.
+void measure_quality(const Fitted& fitted, CalibrationQuality& quality);
+
+// Verdict and reasons, from the numbers.
+void judge_quality(CalibrationQuality& quality);
+
+}  // namespace relievo::pipeline

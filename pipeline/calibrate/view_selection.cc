@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/view_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr std::size_t kMaxStarts = 24;
+constexpr int kConcentrations = 4;
+constexpr double kDegrees = 6;
+
+double alone(const CameraFits& cameras, int view) { return cameras.left.squared_px(view) + cameras.right.squared_px(view); }
+
+double noise_px2(const CameraFits& cameras) { return 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2); }
+
+// P(chi-square of `degrees` <= x), degrees even: a finite sum.
+double chi_square(double x, int degrees) {
+  double term = 1;
+  double sum = 1;
+  for (int k = 1; k < degrees / 2; ++k) sum += term *= x / 2 / k;
+  return 1 - std::exp(-x / 2) * sum;
+}
+
+// The best share of a normal sample looks calmer than the sample is: the factor that mends it
+// (Croux and Haesbroeck 1999).
+double trimming_factor(double share) {
+  if (share >= 0.999) return 1;
+  double low = 0;
+  double high = 100;
+  for (int i = 0; i < 60; ++i) (chi_square((low + high) / 2, 6) < share ? low : high) = (low + high) / 2;
+  return share / chi_square(low, 8);
+}
+
+// Paulson's normal deviate of an F ratio.
+double surprise(double f, double degrees_up, double degrees_down) {
+  const double a = 2 / (9 * degrees_up);
+  const double b = 2 / (9 * degrees_down);
+  const double root = std::cbrt(std::max(f, 0.0));
+  return ((1 - b) * root - (1 - a)) / std::sqrt(b * root * root + a);
+}
+
+std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) chosen.push_back(pairs[order[k]]);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+double excess_of(const CameraFits& cameras, const StereoFit& fit) {
+  double sum = fit.paired_squared_px;
+  for (const int view : fit.paired) sum -= alone(cameras, view);
+  return sum;
+}
+
+// From one view's own relation to the half that agrees best with what it leads to.
+bool concentrate(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, int start,
+                 std::size_t half, StereoFit& fit) {
+  const int first[] = {start};
+  if (!fit_stereo(input, cameras, first, relation_of(cameras, start), false, fit)) return false;
+  for (int round = 0; round < kConcentrations; ++round) {
+    std::vector<double> cost = judge_pairs(input, cameras, fit, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] -= alone(cameras, pairs[i]);
+    const std::size_t count = round == 0 ? std::max<std::size_t>(3, half / 2) : half;
+    const std::vector<int> chosen = least(pairs, cost, count);
+    if (round > 1 && chosen == fit.paired) break;
+    const bundle::Pose from = fit.problem.right_from_left;
+    if (!fit_stereo(input, cameras, chosen, from, round > 0, fit)) return false;
+  }
+  return true;
+}
+
+bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& best) {
+  const std::size_t half = pairs.size() / 2 + 1;
+  const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
+  double least_excess = 0;
+  bool found = false;
+  for (std::size_t s = 0; s < pairs.size(); s += stride) {
+    StereoFit fit;
+    if (!concentrate(input, cameras, pairs, pairs[s], half, fit)) continue;
+    const double excess = excess_of(cameras, fit);
+    if (found && excess >= least_excess) continue;
+    found = true;
+    least_excess = excess;
+    best = std::move(fit);
+  }
+  return found;
+}
+
+double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
+  const double used = static_cast<double>(fit.paired.size());
+  const double mended = trimming_factor(used / static_cast<double>(pairs));
+  return std::max(noise_px2(cameras), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
+}
+
+// Lets in the cheapest view outside; false when it is a surprise or none is left.
+bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& fit) {
+  constexpr std::size_t kCandidates = 3;
+  std::vector<int> outside;
+  for (const int view : pairs)
+    if (!std::binary_search(fit.paired.begin(), fit.paired.end(), view)) outside.push_back(view);
+  if (outside.empty()) return false;
+  std::vector<double> cost = judge_pairs(input, cameras, fit, outside);
+  for (std::size_t i = 0; i < outside.size(); ++i) cost[i] -= alone(cameras, outside[i]);
+  const double spread = spread_of(cameras, fit, pairs.size());
+  const double used = static_cast<double>(fit.paired.size());
+  // A scale from a part of the views is known only as well as that part is large.
+  const double degrees = kDegrees * (used - 1) * used / static_cast<double>(pairs.size());
+  StereoFit best;
+  double least_cost = 0;
+  for (const int view : least(outside, cost, kCandidates)) {
+    std::vector<int> with = fit.paired;
+    with.insert(std::lower_bound(with.begin(), with.end(), view), view);
+    StereoFit wider;
+    if (!fit_stereo(input, cameras, with, fit.problem.right_from_left, true, wider)) continue;
+    const double added = excess_of(cameras, wider) - excess_of(cameras, fit);
+    if (best.paired.empty() || added < least_cost) {
+      best = std::move(wider);
+      least_cost = added;
+    }
+  }
+  if (best.paired.empty() || surprise(least_cost / kDegrees / spread, kDegrees, degrees) > kSurprise) return false;
+  fit = std::move(best);
+  return true;
+}
+
+}  // namespace
+
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, Selection& out) {
+  if (!best_half(input, cameras, pairs, out.fit)) return false;
+  while (admit_one(input, cameras, pairs, out.fit)) {
+  }
+  out.used = out.fit.paired;
+  out.excess = judge_pairs(input, cameras, out.fit, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
+  out.spread_px2 = std::max(0.0, excess_of(cameras, out.fit)) / (kDegrees * static_cast<double>(out.used.size() - 1));
+  return true;
+}
+
+int change_point(std::span<const double> excess, double spread_px2) {
+  constexpr std::size_t kMinRun = 3;
+  const std::size_t n = excess.size();
+  if (n < 2 * kMinRun) return -1;
+  // Twice the log likelihood gained by two spreads instead of one, 6 degrees of freedom a view.
+  const auto cost = [&](std::size_t begin, std::size_t end) {
+    double mean = 0;
+    for (std::size_t i = begin; i < end; ++i) mean += excess[i] / kDegrees;
+    mean = std::max(mean / static_cast<double>(end - begin), 0.25 * spread_px2 + 1e-12);
+    return kDegrees * static_cast<double>(end - begin) * std::log(mean);
+  };
+  double most = 0;
+  std::size_t at = 0;
+  for (std::size_t split = kMinRun; split + kMinRun <= n; ++split) {
+    const double gain = cost(0, n) - cost(0, split) - cost(split, n);
+    if (gain <= most) continue;
+    most = gain;
+    at = split;
+  }
+  // Most of one side must stand out of the agreed spread, or it is a single bad view, no move.
+  if (at == 0 || most < 30) return -1;
+  const auto loud = [&](std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) count += excess[i] > 4 * kDegrees * spread_px2 ? 1U : 0U;
+    return 2 * count > end - begin;
+  };
+  return loud(0, at) != loud(at, n) ? static_cast<int>(at) - 1 : -1;
+}
+
+}  // namespace relievo::pipeline

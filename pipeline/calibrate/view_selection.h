@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which views agree on where the right camera stands. Inside calibrate/ only.
+//
+// A pair of pictures in which both cameras hold still adds six numbers of freedom (the board's pose)
+// less than two cameras alone would need: its excess, the sum of squares with the rig rigid minus
+// the sum with each camera alone, is noise * chi-square of 6. Views that moved have more.
+//  1. The half of the views with the least excess together (least trimmed squares with concentration
+//     steps, Rousseeuw and Van Driessen 2006), started from the relation each view alone suggests.
+//  2. Forward search (Atkinson and Riani 2000): the view whose admission costs least is let in as long
+//     as its cost is no surprise (F test of 6 degrees of freedom against the views already in).
+// The yardstick is the spread of the agreeing views themselves, never less than the corner noise: on
+// a rig that shakes, shaking is normal, and what is left out is what stands out of that.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pipeline/calibrate/stereo_fit.h"
+
+namespace relievo::pipeline {
+
+// Normal deviate above which a view is left out: one good view in some 30,000.
+inline constexpr double kSurprise = 4.0;
+
+struct Selection {
+  StereoFit fit;
+  std::vector<int> used;        // sorted
+  std::vector<double> excess;   // one a pair given, px² summed, under the final fit
+  double spread_px2 = 0;        // excess of the used views for one degree of freedom
+};
+
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, Selection& out);
+
+// Index into `pairs` of the last view before a lasting change of disagreement, -1 without one.
+int change_point(std::span<const double> excess, double spread_px2);
+
+}  // namespace relievo::pipeline
