@@ -12,6 +12,7 @@
 #include "pipeline/match/constraints/uniqueness_constraint.h"
 #include "pipeline/match/dense_selector.h"
 #include "pipeline/match/refined_matcher.h"
+#include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
@@ -35,7 +36,8 @@ const std::vector<Kind>& kinds() {
       {"constraints", "similarity+uniqueness+continuity", "which rules judge the matches, joined by '+', or none",
        {"similarity", "uniqueness", "continuity", "none"}},
       {"triangulator", "inverse-disparity", "how matches become points", {"inverse-disparity", "linear-least-squares"}},
-      {"mesher", "grid", "how points become a surface", {"grid"}},
+      {"outliers", "local", "which points are taken for outliers in space", {"local", "none"}},
+      {"mesher", "grid", "how points become a surface", {"grid", "delaunay"}},
       {"texturer", "two-view", "how the pictures are laid over it", {"two-view", "single-view"}},
   };
   return all;
@@ -49,7 +51,9 @@ void for_each_options(Visit&& visit) {
   visit("similarity", SimilarityConstraintOptions{});
   visit("uniqueness", UniquenessConstraintOptions{});
   visit("continuity", ContinuityConstraintOptions{});
+  visit("local", OutlierFilterOptions{});
   visit("grid", GridMesherOptions{});
+  visit("delaunay", DelaunayMesherOptions{});
   visit("two-view", TwoViewTexturerOptions{});
   visit("single-view", SingleViewTexturerOptions{});
 }
@@ -197,9 +201,18 @@ Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set)
   return kUnknown.at(name);
 }
 
+Result<std::optional<OutlierFilterOptions>> make_outlier_options(const AlgorithmSet& set) {
+  const std::string name = set.get("outliers");
+  if (name == "none") return std::optional<OutlierFilterOptions>{};
+  if (name != "local") return kUnknown.at(name);
+  RELIEVO_TRY_ASSIGN(const OutlierFilterOptions options, AlgorithmMaker::options<OutlierFilterOptions>(set, name));
+  return std::optional<OutlierFilterOptions>(options);
+}
+
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set) {
   const std::string name = set.get("mesher");
   if (name == "grid") return make<Mesher, GridMesher, GridMesherOptions>(set, name);
+  if (name == "delaunay") return make<Mesher, DelaunayMesher, DelaunayMesherOptions>(set, name);
   return kUnknown.at(name);
 }
 

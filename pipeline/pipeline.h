@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pipeline/algorithms.h"
@@ -58,6 +59,7 @@ class Pipeline {
   std::shared_ptr<const Matcher> matcher_;
   std::vector<std::shared_ptr<const MatchConstraint>> constraints_;
   std::shared_ptr<const Triangulator> triangulator_;
+  std::optional<OutlierFilterOptions> outliers_;  // none: every point is kept
   std::shared_ptr<const Mesher> mesher_;
   std::shared_ptr<const Texturer> texturer_;
 };
