@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/sqlite/sqlite_store.h"
 
-#include <unistd.h>
-
 #include <system_error>
 
 #include "storage/sqlite/sqlite_change.h"
@@ -68,11 +66,6 @@ Result<void> open_to_read(Database& database, const SqliteStoreOptions& options)
 
 }  // namespace
 
-SqliteStore::~SqliteStore() {
-  database_.reset();
-  if (lock_fd_ >= 0) ::close(lock_fd_);
-}
-
 WallTime SqliteStore::now() const {
   return std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
 }
@@ -89,8 +82,8 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal:
     if (writable) RELIEVO_TRY(make_store_directory(fs::absolute(dir, failed)));
     // No link may stand in for the file; links on the way to it are the caller's business.
     const fs::path home = fs::weakly_canonical(dir, failed);
-    StoreLock lock;
-    if (writable) RELIEVO_TRY(lock.take(home / "relievo.lock", options.wait_for_lock));
+    auto lock = std::make_unique<StoreLock>();
+    if (writable) RELIEVO_TRY(lock->take(home / "relievo.lock", options.wait_for_lock));
     auto database = std::make_unique<Database>(home / "relievo.db");
     auto ready = writable ? open_to_write(*database, options) : open_to_read(*database, options);
     if (!ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
@@ -99,7 +92,7 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal:
     }
     if (!ready) return ready.error();
     if (writable) set_aside_reserve(home, options.reserve_bytes);
-    auto store = std::make_unique<SqliteStore>(std::move(database), clock, options.mode, lock.release());
+    auto store = std::make_unique<SqliteStore>(std::move(lock), std::move(database), clock, options.mode);
     return std::unique_ptr<Store>(std::move(store));
   });
 }

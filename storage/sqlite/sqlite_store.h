@@ -25,6 +25,7 @@
 #include "hal/base/result.h"
 #include "hal/clock.h"
 #include "storage/sqlite/sqlite_database.h"
+#include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
 
 namespace relievo::storage {
@@ -40,12 +41,10 @@ struct SqliteStoreOptions {
 
 class SqliteStore final : public Store {
  public:
-  // Of a database that open_sqlite_store() has made ready; `lock_fd` keeps others out, -1: none.
-  SqliteStore(std::unique_ptr<Database> database, const hal::Clock& clock, OpenMode mode, int lock_fd)
-      : database_(std::move(database)), clock_(clock), mode_(mode), lock_fd_(lock_fd) {}
-  ~SqliteStore() override;
-  SqliteStore(const SqliteStore&) = delete;
-  SqliteStore& operator=(const SqliteStore&) = delete;
+  // Of a database that open_sqlite_store() has made ready, and the lock that keeps other writers out.
+  SqliteStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Database> database, const hal::Clock& clock,
+              OpenMode mode)
+      : lock_(std::move(lock)), database_(std::move(database)), clock_(clock), mode_(mode) {}
 
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -84,10 +83,10 @@ class SqliteStore final : public Store {
   Result<void> check_models();
   Result<void> check_calibrations();
 
+  std::unique_ptr<StoreLock> lock_;  // outlives the database
   std::unique_ptr<Database> database_;
   const hal::Clock& clock_;
   OpenMode mode_;
-  int lock_fd_;
 };
 
 // `clock` must outlive the store.

@@ -9,13 +9,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <utility>
 
 #include "hal/base/result.h"
 
 namespace relievo::storage {
 
-// Held until destroyed, or by whoever takes the descriptor over; the system lets go of a dead process's.
+// Held until destroyed; the system lets go of a dead process's.
 class StoreLock {
  public:
   StoreLock() = default;
@@ -24,7 +23,6 @@ class StoreLock {
   StoreLock& operator=(const StoreLock&) = delete;
 
   Result<void> take(const std::filesystem::path& file, std::chrono::milliseconds wait);
-  int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_ = -1;
