@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "tests/pipeline/mesh/mesh_checks.h"
+#include "tests/pipeline/mesh/stage_room.h"
+#include "tests/pipeline/mesh/truth_cloud.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::StageRoom;
+
+Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesherOptions& options = {}) {
+  return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
+}
+
+// A sphere with a round hole of so many pixels; the lattice is 2 px, about 1 mm.
+PointCloud pierced_sphere(double radius_px, double noise_mm = 0) {
+  return test::formula_cloud(2, 400, [&](double sx, double sy) {
+    const double dx = 1000 * sx - 30;
+    const double dy = 1000 * sy + 20;
+    if (dx * dx + dy * dy < radius_px * radius_px) return std::numeric_limits<double>::quiet_NaN();
+    return test::sphere_depth(sx, sy, 600, 90);
+  }, noise_mm);
+}
+
+TEST(GridMesher, ClosesASmallHoleWithTheCurvatureOfItsRim) {
+  StageRoom room;
+  const auto result = mesh_grid(pierced_sphere(4), room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  EXPECT_EQ(test::boundary_loops(*result), 1U);
+  std::size_t filled = 0;
+  for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
+    if (result->measured[v]) continue;
+    ++filled;
+    EXPECT_NEAR(mesh::length(mesh::minus(result->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.03);
+    EXPECT_GT(result->sigma_mm[v], 0.02F) << "a guess is less certain than a measurement";
+  }
+  EXPECT_GT(filled, 5U);
+}
+
+TEST(GridMesher, LeavesALargeHoleOpen) {
+  StageRoom room;
+  const auto result = mesh_grid(pierced_sphere(20), room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  EXPECT_EQ(std::count(result->measured.begin(), result->measured.end(), 0), 0);
+}
+
+TEST(GridMesher, LeavesEveryHoleOpenWhenAsked) {
+  StageRoom room;
+  GridMesherOptions options;
+  options.max_hole_mm = 0;
+  const auto result = mesh_grid(pierced_sphere(4), room, options);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(test::boundary_loops(*result), 2U);
+}
+
+TEST(GridMesher, AnIslandIsDropped) {
+  StageRoom room;
+  const PointCloud cloud = test::formula_cloud(2, 400, [](double sx, double sy) {
+    if (sx > 0.15 && sy > 0.15) return 500.0;
+    return sx < 0.1 && sy < 0.1 ? 500.0 : std::numeric_limits<double>::quiet_NaN();
+  });
+  const auto result = mesh_grid(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.x, 55);
+}
+
+TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
+  // Both cover the same 8 mm of depth; the flank over 8 columns, the step between two.
+  const auto depth = [](double sx, double over) {
+    const double t = std::clamp(sx / over, 0.0, 1.0);
+    return 500 + 8 * t;
+  };
+  StageRoom room;
+  const auto flank = mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.016); }), room);
+  ASSERT_TRUE(flank);
+  const auto near_and_far = [](const FaceMesh& m) {
+    bool near = false;
+    bool far = false;
+    for (const Vec3f& v : m.vertices_mm) {
+      near |= v.z < 501;
+      far |= v.z > 507;
+    }
+    return near && far;
+  };
+  EXPECT_TRUE(near_and_far(*flank));
+  StageRoom other;
+  const auto step = mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.0019); }), other);
+  ASSERT_TRUE(step);
+  EXPECT_FALSE(near_and_far(*step));
+}
+
+TEST(GridMesher, TrimsTeethOffTheBoundary) {
+  StageRoom room;
+  // Every other row is 12 px longer: a comb.
+  const PointCloud cloud = test::formula_cloud(2, 300, [](double sx, double sy) {
+    const bool tooth = static_cast<int>(std::lround(1000 * sy) / 2) % 2 == 0;
+    return sx < (tooth ? 0.1 : 0.088) ? 500.0 : std::numeric_limits<double>::quiet_NaN();
+  });
+  const auto result = mesh_grid(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.x, 46);
+}
+
+TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
+  StageRoom room;
+  PointCloud cloud = test::formula_cloud(2, 300, [](double, double) { return 500.0; });
+  cloud.lattice_step_px = 0;
+  const auto result = mesh_grid(cloud, room);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::Unsupported);
+}
+
+TEST(GridMesher, OptionsHaveLimits) {
+  EXPECT_TRUE(GridMesherOptions{}.check());
+  GridMesherOptions options;
+  options.max_incidence_deg = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(options.check());
+  options = {};
+  options.max_triangles = 0;
+  EXPECT_FALSE(options.check());
+}
+
+// Slow and obvious: each vertex against the truth it was made from.
+TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
+  const auto dir = test::rendered_head("d1");
+  if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
+  StageRoom room;
+  const PointCloud truth = test::truth_cloud(*dir, {});
+  GridMesherOptions options;
+  options.max_hole_mm = 0;
+  const auto result = mesh_grid(truth, room, options);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  std::set<std::tuple<float, float, float>> known;
+  for (const CloudPoint& p : truth.points) known.insert({p.at_mm.x, p.at_mm.y, p.at_mm.z});
+  for (const Vec3f& v : result->vertices_mm) EXPECT_TRUE(known.count({v.x, v.y, v.z}));
+}
+
+}  // namespace
+}  // namespace relievo::pipeline

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every mesher keeps, whichever it is.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "pipeline/mesh/delaunay_mesher.h"
+#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "tests/pipeline/mesh/mesh_checks.h"
+#include "tests/pipeline/mesh/stage_room.h"
+#include "tests/pipeline/mesh/truth_cloud.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::StageRoom;
+
+std::unique_ptr<Mesher> make(const std::string& name) {
+  if (name == "grid") return std::make_unique<GridMesher>(GridMesherOptions{});
+  return std::make_unique<DelaunayMesher>(DelaunayMesherOptions{});
+}
+
+PointCloud plane(double noise_mm = 0) {
+  return test::formula_cloud(2, 300, [](double sx, double sy) { return 500 / (1 - 0.3 * sx + 0.2 * sy); }, noise_mm);
+}
+
+PointCloud sphere(double noise_mm = 0) {
+  return test::formula_cloud(2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
+}
+
+class MesherContract : public testing::TestWithParam<std::string> {
+ protected:
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageRoom& room) const {
+    return room.run([&](StageContext& c) { return make(GetParam())->mesh(cloud, c); });
+  }
+};
+
+TEST_P(MesherContract, NoPointsAreNoFace) {
+  StageRoom room;
+  PointCloud cloud(std::pmr::get_default_resource());
+  cloud.lattice_step_px = 2;
+  const auto result = mesh(cloud, room);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::PoorGeometry);
+}
+
+TEST_P(MesherContract, AFewPointsAreNoFace) {
+  StageRoom room;
+  const PointCloud cloud = test::formula_cloud(2, 20, [](double, double) { return 500.0; });
+  const auto result = mesh(cloud, room);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::PoorGeometry);
+}
+
+TEST_P(MesherContract, PointsThatAreNotNumbersAreLeftOut) {
+  StageRoom room;
+  PointCloud cloud = plane();
+  for (std::size_t i = 0; i < cloud.points.size(); i += 997) {
+    cloud.points[i].at_mm.z = i % 2 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
+    if (i % 3 == 0) cloud.points[i].left_px.x = std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto result = mesh(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+}
+
+TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
+  StageRoom room;
+  const auto result = mesh(plane(), room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  // z = 500 + 0.3 x - 0.2 y over the pyramid of 300 px: the true area from its corners.
+  const auto corner = [](double px, double py) {
+    const double sx = px / 1000, sy = py / 1000, z = 500 / (1 - 0.3 * sx + 0.2 * sy);
+    return Vec3f{static_cast<float>(sx * z), static_cast<float>(sy * z), static_cast<float>(z)};
+  };
+  const std::vector<Vec3f> corners{corner(-150, -150), corner(148, -150), corner(148, 148), corner(-150, 148)};
+  const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}};
+  const double truth = area_mm2(corners, two);
+  const double area = area_mm2(result->vertices_mm, result->triangles);
+  EXPECT_LT(area, truth * 1.0001);
+  EXPECT_GT(area, truth * 0.99);  // the trimmed outline
+  const Vec3f normal = mesh::unit({0.3F, -0.2F, -1});
+  for (const Vec3f& n : result->normals) EXPECT_GT(mesh::dot(n, normal), 0.9999F);
+}
+
+TEST_P(MesherContract, SphereKeepsItsShape) {
+  StageRoom room;
+  const auto result = mesh(sphere(), room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  EXPECT_EQ(test::boundary_loops(*result), 1U);
+  for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
+    const Vec3f out = mesh::minus(result->vertices_mm[v], Vec3f{0, 0, 600});
+    EXPECT_NEAR(mesh::length(out), 90, 0.02);
+    const float cosine = std::abs(mesh::dot(mesh::unit(result->vertices_mm[v]), mesh::unit(out)));
+    if (cosine < 0.5F) continue;  // the rim, where the lattice is coarse
+    EXPECT_GT(mesh::dot(mesh::unit(out), result->normals[v]), 0.998F);
+    EXPECT_NEAR(result->sigma_mm[v], 0.02F * cosine, 0.002F);
+  }
+  // The cap 40 mm high, well inside the rim: 2 pi r h (Archimedes).
+  std::vector<Triangle> cap;
+  for (const Triangle& t : result->triangles)
+    if (result->vertices_mm[t[0]].z + result->vertices_mm[t[1]].z + result->vertices_mm[t[2]].z < 3 * (510 + 40)) cap.push_back(t);
+  const double truth = 2 * std::numbers::pi * 90 * 40;
+  EXPECT_NEAR(area_mm2(result->vertices_mm, cap), truth, 0.005 * truth);
+}
+
+TEST_P(MesherContract, NoiseAndDropoutsStillGiveOneCleanSurface) {
+  StageRoom room;
+  PointCloud cloud = sphere(0.15);
+  std::mt19937 random(3);
+  std::erase_if(cloud.points, [&](const CloudPoint&) { return random() % 12 == 0; });
+  for (CloudPoint& p : cloud.points)
+    if (random() % 40 == 0) {
+      const float push = 1 + static_cast<float>(static_cast<int>(random() % 200) - 100) / 1000;
+      p.at_mm = mesh::times(p.at_mm, push);
+    }
+  const auto result = mesh(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+}
+
+TEST_P(MesherContract, AStepIsNotBridged) {
+  StageRoom room;
+  const PointCloud cloud = test::formula_cloud(2, 300, [](double sx, double) { return sx < 0.02 ? 500.0 : 540.0; });
+  const auto result = mesh(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  for (const Vec3f& v : result->vertices_mm) EXPECT_NEAR(v.z, 500, 1) << "the larger half is the one that stays";
+}
+
+TEST_P(MesherContract, NeverMoreTrianglesThanAllowed) {
+  StageRoom room;
+  const PointCloud cloud = test::formula_cloud(1, 500, [](double, double) { return 500.0; });
+  const auto result = mesh(cloud, room);
+  ASSERT_TRUE(result);
+  EXPECT_LE(result->triangles.size(), 320'000U);
+  EXPECT_GT(result->triangles.size(), 100'000U);
+}
+
+TEST_P(MesherContract, SameResultTwice) {
+  StageRoom first, second;
+  const PointCloud cloud = sphere(0.1);
+  const auto a = mesh(cloud, first);
+  const auto b = mesh(cloud, second);
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->vertices_mm.size(), b->vertices_mm.size());
+  EXPECT_TRUE(a->triangles == b->triangles);
+  for (std::size_t v = 0; v < a->vertices_mm.size(); ++v) {
+    EXPECT_EQ(a->normals[v].x, b->normals[v].x);
+    EXPECT_EQ(a->sigma_mm[v], b->sigma_mm[v]);
+  }
+}
+
+TEST_P(MesherContract, ATinyArenaIsAnErrorNotACrash) {
+  const PointCloud cloud = test::formula_cloud(4, 300, [](double, double) { return 500.0; });
+  StageRoom roomy;
+  ASSERT_TRUE(mesh(cloud, roomy));
+  const std::size_t output = roomy.output.high_water();
+  const std::size_t scratch = roomy.scratch.high_water();
+  for (int step = 0; step < 24; ++step) {
+    StageRoom small_output(output * static_cast<std::size_t>(step) / 24, scratch);
+    StageRoom small_scratch(output, scratch * static_cast<std::size_t>(step) / 24);
+    for (StageRoom* room : {&small_output, &small_scratch}) {
+      const auto result = mesh(cloud, *room);
+      ASSERT_FALSE(result) << step;
+      EXPECT_EQ(result.error().code, Errc::OutOfMemory);
+    }
+  }
+}
+
+TEST_P(MesherContract, Cancelled) {
+  StageRoom room;
+  room.cancelled = true;
+  const auto result = mesh(plane(), room);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::Cancelled);
+}
+
+TEST_P(MesherContract, RenderedHeads) {
+  for (const char* name : {"d1", "d2", "d3"}) {
+    const auto dir = test::rendered_head(name);
+    if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
+    StageRoom room;
+    test::TruthOptions options;
+    options.noise_mm = 0.08;
+    options.outlier_share = 0.01;
+    const auto result = mesh(test::truth_cloud(*dir, options), room);
+    ASSERT_TRUE(result);
+    test::expect_clean(*result);
+    EXPECT_LE(result->triangles.size(), 320'000U);
+    EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), 25'000) << "a whole face";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MesherContract, testing::Values("grid", "delaunay"),
+                         [](const auto& test_case) { return test_case.param; });
+
+}  // namespace
+}  // namespace relievo::pipeline
