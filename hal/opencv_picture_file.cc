@@ -54,9 +54,10 @@ Result<cv::Mat> to_mat(const ImageView& image) {
   // OpenCV has no const Mat over foreign bytes; this one is only read.
   const cv::Mat borrowed(image.height_px, image.width_px, type, const_cast<std::byte*>(image.bytes),  // NOLINT
                          static_cast<std::size_t>(image.stride_bytes));
-  cv::Mat out = borrowed;
-  if (image.format == PixelFormat::Rgb8) cv::cvtColor(borrowed, out, cv::COLOR_RGB2BGR);
-  return out;
+  if (image.format != PixelFormat::Rgb8) return borrowed;
+  cv::Mat turned;       // memory of its own: the lender's must not change
+  cv::cvtColor(borrowed, turned, cv::COLOR_RGB2BGR);
+  return turned;
 }
 
 Result<std::vector<std::byte>> encode(const ImageView& image, const char* extension, const std::vector<int>& options) try {

@@ -8,7 +8,7 @@ namespace relievo::hal::sim {
 namespace {
 
 constexpr int kBands = 60;
-constexpr int kFineSide = 4;            // samples a side where bodies meet
+constexpr int kFineSide = 3;            // samples a side where bodies meet
 
 struct Cell {
   std::int32_t body = -1;

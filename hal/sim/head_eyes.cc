@@ -14,11 +14,11 @@ EyeForm::EyeForm(const HeadTraits& traits, const SkullForm& skull) : t_(traits) 
 // The highest point lies towards the nose, the lowest towards the ear.
 double EyeForm::upper_lid(double s) const {
   const double c = std::clamp(s, -1.0, 1.0), q = c + 0.16 * (1 - c * c);
-  return (1.3 + 0.9 * t_.eye_tilt) * c - 0.5 + (4.7 + 0.5 * t_.eye_open - 0.5 * t_.age) * (1 - std::pow(std::abs(q), 2.1));
+  return (1.2 + 1.1 * t_.eye_tilt) * c - 0.5 + (4.4 + 0.6 * t_.eye_open - 0.5 * t_.age) * (1 - std::pow(std::abs(q), 2.1));
 }
 double EyeForm::lower_lid(double s) const {
   const double c = std::clamp(s, -1.0, 1.0), q = c - 0.14 * (1 - c * c);
-  return (1.3 + 0.9 * t_.eye_tilt) * c - 0.5 - (4.7 + 0.25 * t_.eye_open) * (1 - std::pow(std::abs(q), 2.3));
+  return (1.2 + 1.1 * t_.eye_tilt) * c - 0.5 - (4.9 + 0.3 * t_.eye_open) * (1 - std::pow(std::abs(q), 2.3));
 }
 
 Vec3 EyeForm::lid_point(double s, bool upper) const {

@@ -80,7 +80,7 @@ void grow_scalp(Grower& grower, const HeadField& field, const Mesh& skin, const 
       const double edge = smoothstep(0, 1, grows);
       const double length_mm = t.hair_length * random.uniform(0.6, 1.15) * mix(0.35, 1, edge) * mix(0.45, 1.0, smoothstep(0, 55, p.y));
       const Vec3 flow = combed(t, p, n, random);
-      grower.grow(p, {length_mm, random.uniform(0.035, 0.06), 0, flow + n * random.uniform(0.35, 0.85), flow * 0.6 - n * 1.1 + Vec3{0, -0.25, 0}, 5, false});
+      grower.grow(p, {length_mm, random.uniform(0.035, 0.06), 0, flow + n * random.uniform(0.35, 1.0), flow * 0.8 - n * 1.0 + Vec3{0, -0.25, 0}, 5, false});
     }
   }
 }
@@ -98,7 +98,7 @@ void grow_brows(Grower& grower, const HeadField& field) {
   const HeadTraits& t = field.traits;
   Random& random = grower.random();
   const Brow brow = brow_of(t);
-  const int count = static_cast<int>(430 * t.brow_density);
+  const int count = static_cast<int>(620 * t.brow_density);
   for (int k = 0; k < 2 * count; ++k) {
     const double side = k % 2 == 0 ? 1 : -1, s = std::pow(random.uniform(), 0.9) * 1.04 - 0.02;
     const double across = random.normal_within(1.7) * 0.52;
@@ -107,7 +107,7 @@ void grow_brows(Grower& grower, const HeadField& field) {
     // Upwards at the root of the nose, then outwards, the upper ones down and the lower ones up.
     const double lift = mix(1.5, -0.55, smoothstep(0.0, 0.75, s)) - 0.55 * across;
     const Vec3 direction{side * mix(0.35, 1, smoothstep(-0.05, 0.3, s)), lift * 0.6 + 0.16 * random.normal(), -0.3 * s};
-    grower.grow(root, {random.uniform(5, 9) * mix(1, 0.75, s), random.uniform(0.04, 0.065), random.uniform(0.25, 0.6), direction,
+    grower.grow(root, {random.uniform(5, 9) * mix(1, 0.75, s), random.uniform(0.04, 0.075), random.uniform(0.25, 0.6), direction,
                        {0.3 * side, -0.25, 0}, 5, true});
   }
 }
@@ -130,12 +130,13 @@ void grow_lashes(Grower& grower, const HeadField& field) {
 }  // namespace
 
 double scalp_hair(const HeadTraits& t, Vec3 p) {
+  if (std::abs(p.x) > t.face_breadth / 2 + 3.5 && p.y < 24 && p.z < 12) return 0;    // the ear
   // Height of the hairline at each depth, from the nape round the ear to the forehead.
   static const Curve line{{-90, -75}, {-45, -70}, {-30, -40}, {-18, -4}, {-6, 22}, {3, 20}, {9, -4}, {14, -22}, {20, -8}, {27, 14}, {40, 36}, {58, 49}, {76, 57}, {90, 69}, {100, 76}};
   const double lift = (t.hairline_y - 76) * smoothstep(45, 95, p.z);
   const double recede = 7 * t.age * t.masculine * gauss((std::abs(p.x) - 38) / 16) * smoothstep(60, 75, p.z);
-  const double ragged = 2.2 * fractal_noise(p * 0.25, t.seed + 21, 2);
-  return smoothstep(-1.5, 7.0, p.y - line(p.z) - lift - recede + ragged);
+  const double ragged = 3.2 * fractal_noise(p * 0.25, t.seed + 21, 2);
+  return smoothstep(-4.0, 9.0, p.y - line(p.z) - lift - recede + ragged);
 }
 
 double brow_hair(const HeadField& field, Vec3 p) {

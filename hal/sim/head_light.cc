@@ -7,6 +7,8 @@
 namespace relievo::hal::sim {
 namespace {
 
+double fifth(double v) { return v * v * v * v * v; }
+
 constexpr double kReferenceMm = 640;    // where a panel's power is what it says
 
 Panel panel_at(const Mat3& head_from_world, Vec3 origin, Vec3 centre, Vec3 aim, double half, double power) {
@@ -19,8 +21,9 @@ Panel panel_at(const Mat3& head_from_world, Vec3 origin, Vec3 centre, Vec3 aim, 
 HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool) {
   const Mat3 head_from_world = pose.world_from_head().transposed();
   const Vec3 origin = pose.origin_mm(), aim{20, -10, 560};
-  panels_ = {panel_at(head_from_world, origin, {-330, -190, 40}, aim, 130, 0.62), panel_at(head_from_world, origin, {470, -200, 60}, aim, 130, 0.44),
+  panels_ = {panel_at(head_from_world, origin, {-330, -190, 40}, aim, 130, 0.80), panel_at(head_from_world, origin, {470, -200, 60}, aim, 130, 0.42),
              panel_at(head_from_world, origin, {80, 420, 60}, aim, 120, 0.10)};
+  eye_ = head_from_world * (Vec3{70, 0, 0} - origin);
   up_ = head_from_world * Vec3{0, -1, 0};
   for (std::size_t shell = 0; shell < HeadModel::BodyCount; ++shell)
     for (std::size_t panel = 0; panel < kPanels; ++panel) measure(model, shell, panel, pool);
@@ -37,6 +40,7 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
       const auto k = static_cast<std::size_t>(i);
       const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
       if (p.z < -35 || dot(n, panel.centre - p) < -0.3 * length(panel.centre - p)) continue;
+      if (dot(n, normalised(eye_ - p)) < -0.45) continue;      // turned away from both cameras
       const std::uint32_t h = hash_cell(i, static_cast<int>(panel_index), 1, 9);
       int open = 0;
       for (int r = 0; r < rays_a_side * rays_a_side; ++r) {
@@ -65,10 +69,10 @@ double HeadLight::seen_from(const HeadModel& model, Vec3 p, std::size_t panel) c
 
 Vec3 HeadLight::ambient(Vec3 normal, double openness, const Surface& s) const {
   const double sky = 0.5 + 0.5 * dot(normal, up_);
-  const Vec3 light = mix(Vec3{0.085, 0.08, 0.078}, Vec3{0.17, 0.172, 0.18}, sky);
+  const Vec3 light = mix(Vec3{0.065, 0.06, 0.058}, Vec3{0.13, 0.132, 0.14}, sky);
   // In hollows light has bounced off skin before it arrives, and comes red.
   const double o = std::max(openness, 0.02);
-  const Vec3 hollow = s.translucent > 0 ? Vec3{std::pow(o, 0.85), std::pow(o, 1.15), std::pow(o, 1.25)} : Vec3{o, o, o};
+  const Vec3 hollow = s.translucent > 0 ? Vec3{mix(o, std::sqrt(o), 0.3), mix(o, o * o, 0.15), mix(o, o * o, 0.25)} : Vec3{o, o, o};
   return s.colour * light * hollow;
 }
 
@@ -87,9 +91,9 @@ double HeadLight::highlight(const Panel& panel, const Point& p, double roughness
   const Vec3 l = normalised(aim - p.at), half = normalised(l + p.to_eye);
   const double ndl = dot(p.normal, l), ndh = std::max(dot(p.normal, half), 0.0);
   if (ndl <= 0) return 0;
-  const double a2 = std::pow(roughness, 4), q = ndh * ndh * (a2 - 1) + 1;
+  const double a2 = roughness * roughness * roughness * roughness, q = ndh * ndh * (a2 - 1) + 1;
   const double widened = std::min(1.0, a2 * 6);                      // an area light spreads and dims a sharp lobe
-  const double fresnel = 0.028 + 0.972 * std::pow(1 - std::max(dot(half, p.to_eye), 0.0), 5);
+  const double fresnel = 0.028 + 0.972 * fifth(1 - std::max(dot(half, p.to_eye), 0.0));
   return fresnel * widened * a2 / (3.14159 * q * q) / std::max(a2, 0.02) * 0.35 * std::min(1.0, ndl * 4) * 0.25;
 }
 
@@ -103,9 +107,9 @@ Vec3 HeadLight::on(const Point& p, const Surface& s) const {
     const double power = panels_[k].power * (kReferenceMm / d) * (kReferenceMm / d);
     const auto lit = [&](double w) { return std::max(0.0, (ndl + w) / ((1 + w) * (1 + w))); };
     const double v = p.seen[k];
-    const Vec3 shade = s.translucent > 0 ? Vec3{std::pow(v, 0.8), v, std::pow(v, 1.1)} : Vec3{v, v, v};
+    const Vec3 shade = s.translucent > 0 ? Vec3{mix(v, std::sqrt(v), 0.4), v, mix(v, v * v, 0.1)} : Vec3{v, v, v};
     out += s.colour * Vec3{lit(wrap.x), lit(wrap.y), lit(wrap.z)} * shade * power;
-    const double shine = s.gloss * highlight(panels_[k], p, s.roughness) * power * v * 3.2;
+    const double shine = s.gloss * highlight(panels_[k], p, s.roughness) * power * v * 2.9;
     out += Vec3{shine, shine, shine};
   }
   return out;

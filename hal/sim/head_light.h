@@ -41,7 +41,7 @@ class HeadLight {
   Vec3 ambient(Vec3 normal, double openness, const Surface& surface) const;
   double highlight(const Panel& panel, const Point& point, double roughness) const;
   std::array<Panel, kPanels> panels_;
-  Vec3 up_;
+  Vec3 up_, eye_;                       // the sky, and the place between the cameras
   std::array<std::array<std::vector<float>, kPanels>, HeadModel::BodyCount> seen_;
 };
 

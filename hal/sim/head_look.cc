@@ -15,7 +15,7 @@ double SkinLook::blood(Vec3 q) const {
   double b = 0.55 * bell({ax - 38, q.y + 30, q.z - 88}, {17, 15, 30}) + 0.65 * bell(q - tip, {15, 12, 16});
   b += 0.45 * smoothstep(66, 76, ax) + 0.22 * bell({ax, q.y - gnathion_y(t_) - 14, q.z - 100}, {20, 14, 20});
   b += 0.30 * bell(ax - field_.eye.centre().x, 17, q.y - 2, 9) * (q.z > 60 ? 1 : 0);
-  return b + 0.30 * fractal_noise(q * (1 / 9.0), t_.seed + 31, 3);
+  return b + 0.42 * fractal_noise(q * (1 / 9.0), t_.seed + 31, 4);
 }
 
 // Darkening: under the eyes, blotches, freckles, moles.
@@ -23,8 +23,8 @@ double SkinLook::melanin(Vec3 p, Vec3 q) const {
   const double ax = std::abs(q.x);
   double m = 0.10 * bell(ax - field_.eye.centre().x + 4, 13, q.y + 11, 5.5) * (q.z > 60 ? 1 : 0);
   m += 0.08 * bell(ax - 13, 6, q.y, 9) * (q.z > 60 ? 1 : 0);
-  m += 0.05 * value_noise(p * (1 / 18.0), t_.seed) + 0.035 * value_noise(p * (1 / 6.0), t_.seed + 1);
-  m += 0.032 * value_noise(p * (1 / 2.2), t_.seed + 2) + 0.026 * value_noise(p * (1 / 0.9), t_.seed + 3);
+  m += 0.08 * value_noise(p * (1 / 18.0), t_.seed) + 0.05 * value_noise(p * (1 / 6.0), t_.seed + 1);
+  m += 0.045 * value_noise(p * (1 / 2.2), t_.seed + 2) + 0.035 * value_noise(p * (1 / 0.9), t_.seed + 3);
   const NearestDot spot = nearest_dot(p * (1 / 2.4), t_.seed + 4);
   const double chosen = unit_from_hash(spot.hash * 2654435761U);
   const double zone = 0.35 + 0.65 * gauss((q.y + 18) / 30);
@@ -46,7 +46,7 @@ Surface SkinLook::surface(Vec3 p) const {
   c = c * Vec3{absorb(0.85), absorb(1.1), absorb(1.35)};
   const double pores = smoothstep(80, 95, q.z) * 0.7 + 0.5;
   const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
-  c = c * (1 - 0.12 * pores * smoothstep(0.30, 0.05, pore.distance));
+  c = c * (1 - 0.15 * pores * smoothstep(0.30, 0.05, pore.distance));
   const double beard = beard_area(t_, q) * t_.stubble;
   if (beard > 0.02) {
     const double stubble = smoothstep(0.36, 0.16, nearest_dot(p * (1 / 0.85), t_.seed + 7).distance);
@@ -56,8 +56,8 @@ Surface SkinLook::surface(Vec3 p) const {
   const double lip = field_.mouth.vermilion(q);
   if (lip > 0) {
     const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, t_.seed + 8);
-    const Vec3 tone = t_.skin * mix(Vec3{0.86, 0.55, 0.56}, Vec3{0.80, 0.66, 0.68}, smoothstep(0.35, 0.1, t_.skin.x));
-    c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.92);
+    const Vec3 tone = t_.skin * mix(Vec3{0.84, 0.62, 0.62}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
+    c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.85);
   }
   const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
   c = mix(c, t_.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
@@ -78,8 +78,8 @@ Surface SkinLook::surface(Vec3 p) const {
 
 double SkinLook::height(Vec3 p, double lip, double coarse) const {
   const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
-  double h = -0.030 * coarse * smoothstep(0.34, 0.05, pore.distance);
-  h += 0.020 * value_noise(p * (1 / 1.3), t_.seed + 51) + 0.010 * value_noise(p * (1 / 0.5), t_.seed + 52);
+  double h = -0.040 * coarse * smoothstep(0.34, 0.05, pore.distance);
+  h += 0.028 * value_noise(p * (1 / 1.3), t_.seed + 51) + 0.010 * value_noise(p * (1 / 0.5), t_.seed + 52);
   if (lip > 0) h = mix(h, 0.03 * value_noise({p.x * 1.1, p.y * 0.25, p.z * 0.25}, t_.seed + 8), lip);
   return h;
 }
@@ -102,8 +102,8 @@ EyeLook eye_look(const HeadTraits& t, Vec3 from, Vec3 gaze) {
   const Vec3 side = n - gaze * dot(n, gaze);
   const double spoke = std::atan2(side.y, side.x);
   const double veins = smoothstep(0.55, 0.9, value_noise({spoke * 5, off * 0.35, value_noise(n * 9, t.seed + 62) * 1.5}, t.seed + 61));
-  const Vec3 sclera = Vec3{0.62, 0.58, 0.55} * (1 - 0.03 * t.age) - Vec3{0, 0.10, 0.10} * (veins * smoothstep(6.5, 11, off)) -
-                      Vec3{0.02, 0.09, 0.10} * smoothstep(8, 14, off);
+  const Vec3 sclera = Vec3{0.52, 0.475, 0.445} * (1 - 0.03 * t.age) - Vec3{0, 0.10, 0.10} * (veins * smoothstep(6.5, 11, off)) -
+                      Vec3{0.0, 0.05, 0.06} * smoothstep(8, 14, off);
   const double fibres = 0.55 * value_noise({spoke * 9, off * 0.5, 1}, t.seed + 63) + 0.45 * value_noise({spoke * 22, off * 0.9, 2}, t.seed + 64);
   Vec3 iris = t.iris * (1.0 + 0.45 * fibres);
   iris = mix(iris, iris * Vec3{1.5, 1.1, 0.7}, 0.5 * smoothstep(3.4, 2.2, off));

@@ -104,7 +104,7 @@ void HeadModel::build_shirt(ThreadPool& pool) {
 }
 
 void HeadModel::measure_openness(ThreadPool& pool) {
-  constexpr int kRays = 14;
+  constexpr int kRays = 10;
   constexpr double kReachMm = 90;
   for (Shell& shell : shells) {
     shell.openness.assign(shell.mesh.points.size(), 0.8F);

@@ -96,7 +96,7 @@ Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
       break;
     }
     case HeadModel::Inner:
-      s = {Vec3{0.50, 0.22, 0.19} * (0.4 + head_->traits.skin.x), 1.4, 0.25, 0.6};
+      s = {Vec3{0.56, 0.34, 0.30} * (0.45 + head_->traits.skin.x), 1.4, 0.25, 0.6};
       break;
     case HeadModel::Shirt:
     case HeadModel::BodyCount:
@@ -121,7 +121,9 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
   p.normal = scalp ? normalised(at - Vec3{0, 30, 5}) : Vec3{0, 0.1, 1};
   const double along = mix(static_cast<double>(hair.along[first]), static_cast<double>(hair.along[first + 1]), hit.u);
   p.openness = scalp ? mix(0.25, 1, along) : 0.8;
-  for (std::size_t k = 0; k < HeadLight::kPanels; ++k) p.seen[k] = light_.seen_from(*head_, at, k) * (scalp ? mix(0.45, 1, along) : 0.9);
+  // Only the two main panels cast shadows on hair: rays are dear where every pixel takes many.
+  for (std::size_t k = 0; k < HeadLight::kPanels; ++k)
+    p.seen[k] = (k < 2 ? light_.seen_from(*head_, at, k) : 0.5) * (scalp ? mix(0.45, 1, along) : 0.9);
   const Vec3 colour = head_->traits.hair * static_cast<double>(hair.tint[first]) * (scalp ? 1.0 : 0.8);
   return light_.on_hair(p, normalised(b - a), colour);
 }

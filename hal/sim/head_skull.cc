@@ -9,10 +9,10 @@ SkullForm::SkullForm(const HeadTraits& traits) : t_(traits) {
   const HeadTraits& t = t_;
   const double eu = t.head_breadth / 2, zy = t.face_breadth / 2, go = t.jaw_breadth / 2;
   const double sn = subnasale_y(t), sto = stomion_y(t), gn = gnathion_y(t);
-  const double cb = 1.6 * t.chin_breadth;
+  const double cb = 2.2 * t.chin_breadth;
   breadth_ = {{gn - 6, 15 + cb}, {gn + 2, 27 + cb}, {gn + 13, 39 + cb}, {gn + 28, 0.45 * go + 27 + cb / 2}, {sto + 6, go + 6.5 + t.fullness * 1.2},
               {sn, 0.55 * zy + 0.45 * go + 2.5}, {-22, zy - 1.0}, {-4, zy - 1.2}, {22, 0.45 * zy + 0.55 * eu - 2.5}, {48, eu - 2}, {70, eu - 7}, {95, eu - 24}};
-  const double chin = 2.0 * t.chin;
+  const double chin = 2.5 * t.chin;
   front_ = {{gn - 6, 87 + chin}, {gn + 3, 99 + chin}, {gn + 14, 104.5 + chin}, {gn + 28, 102 + 0.4 * chin}, {sto, 105.5}, {sn - 6, 105.5},
             {sn, 104}, {-28, 100.5}, {-14, 98.5}, {0, 98}, {9, 101}, {21, 106.5 + 0.8 * t.brow_ridge}, {36, 107 + 0.5 * t.forehead}, {55, 103.5 + 1.2 * t.forehead},
             {75, 95 + 1.2 * t.forehead}, {95, 78 + t.forehead}};

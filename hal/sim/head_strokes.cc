@@ -26,9 +26,9 @@ double FaceStrokes::brow_and_orbit(double ax, Vec3 p) const {
 double FaceStrokes::cheek(double ax, Vec3 p) const {
   const double sn = subnasale_y(t_), sto = stomion_y(t_);
   double h = 0;
-  h += (2.4 + 0.9 * t_.cheekbone) * bell({ax - 50, p.y + 24, p.z - 72}, {17, 11, 24});
+  h += (2.6 + 1.2 * t_.cheekbone) * bell({ax - 50, p.y + 24, p.z - 72}, {17, 11, 24});
   h += (1.8 + 0.8 * t_.fullness) * bell(ax - 33, 15, p.y + 30, 14);
-  h += (0.5 + 1.6 * t_.fullness - 0.8 * t_.cheekbone) * bell({ax - 50, p.y - sto - 6, p.z - 68}, {18, 18, 24});
+  h += (0.3 + 2.4 * t_.fullness - 1.0 * t_.cheekbone) * bell({ax - 50, p.y - sto - 6, p.z - 68}, {18, 18, 24});
   h += 1.0 * bell({ax - 54, p.y - sto + 3, p.z - 26}, {14, 18, 20});  // masseter
   // The nasolabial fold: from beside the wing to beyond the corner of the mouth.
   const Vec3 top{t_.nose_width / 2 + 1.5, sn + 11, 0}, low{t_.mouth_width / 2 + 6, sto + 2, 0};

@@ -16,13 +16,13 @@ double measure(Random& r, const HeadTraits& t, double man, double woman, double 
 
 void draw_measures(Random& r, HeadTraits& t) {
   t.head_breadth = measure(r, t, 151, 145, 4.5);
-  t.face_breadth = measure(r, t, 138, 131, 4);
-  t.jaw_breadth = measure(r, t, 108, 99, 4);
+  t.face_breadth = measure(r, t, 138, 131, 4.6);
+  t.jaw_breadth = measure(r, t, 108, 98, 5);
   t.head_length = measure(r, t, 196, 187, 5);
   t.nose_height = measure(r, t, 53.5, 50, 2.4);
   t.upper_lip = measure(r, t, 22.3, 20.3, 1.6);
-  t.lower_face = measure(r, t, 49.5, 45, 2.3);
-  t.nose_width = measure(r, t, 36, 33, 2.6);
+  t.lower_face = measure(r, t, 49.5, 45, 3.0);
+  t.nose_width = measure(r, t, 36, 33, 3.0);
   t.nose_protrusion = measure(r, t, 19.8, 19.0, 1.4);
   t.intercanthal = measure(r, t, 33, 32, 1.9);
   t.eye_fissure = measure(r, t, 31.2, 30.4, 1.1);
@@ -46,7 +46,7 @@ void draw_looks(Random& r, HeadTraits& t) {
   static constexpr std::array<Vec3, 5> kIris{Vec3{0.16, 0.25, 0.34}, {0.15, 0.21, 0.15}, {0.20, 0.12, 0.05}, {0.10, 0.05, 0.025}, {0.05, 0.025, 0.015}};
   static constexpr std::array<Vec3, 5> kHair{Vec3{0.42, 0.29, 0.15}, {0.20, 0.115, 0.055}, {0.09, 0.05, 0.028}, {0.035, 0.022, 0.015}, {0.014, 0.011, 0.010}};
   // Light skin goes with any eyes and hair, dark skin with dark ones.
-  const double tone = std::pow(r.uniform(), 1.25) * 4.6;
+  const double tone = std::pow(r.uniform(), 1.3) * 4.6;
   const auto between = [](const auto& table, double at) {
     const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(table.size()) - 1.001));
     return mix(table[i], table[i + 1], at - static_cast<double>(i));
@@ -58,7 +58,7 @@ void draw_looks(Random& r, HeadTraits& t) {
   t.freckles = tone < 2 ? std::pow(r.uniform(), 2) : 0.15 * r.uniform();
   t.stubble = t.masculine > 0.55 ? r.uniform(0.2, 1) : 0;
   t.hairline_y = r.uniform(62, 76) + (t.masculine > 0.55 ? 9 * t.age : 0);
-  t.hair_length = r.uniform(9, 22);
+  t.hair_length = r.uniform(8, 34);
   t.brow_density = r.uniform(0.7, 1.25) * mix(0.85, 1.15, t.masculine);
   t.hair_part = r.uniform(-1, 1);
   t.shirt = static_cast<int>(r.next() % 6);

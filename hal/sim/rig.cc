@@ -67,6 +67,7 @@ Vec3 SimView::ray(double x_px, double y_px) const {
     const Bent b = distort(*this, x, y);
     x += xd - b.x;
     y += yd - b.y;
+    if (std::abs(xd - b.x) + std::abs(yd - b.y) < 1e-12) break;
   }
   return normalised(view_from_world.transposed() * Vec3{x, y, 1});
 }

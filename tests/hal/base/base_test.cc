@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The floor: results, arenas, mailboxes, threads.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/base/arena.h"
+#include "hal/base/mailbox.h"
+#include "hal/base/result.h"
+#include "hal/base/thread_pool.h"
+
+namespace relievo {
+namespace {
+
+Result<int> half(int n) {
+  if (n % 2 != 0) return Error{Errc::InvalidInput, "odd"}.at("n");
+  return n / 2;
+}
+Result<int> quarter(int n) {
+  RELIEVO_TRY_ASSIGN(const int once, half(n));
+  RELIEVO_TRY(half(once));
+  return half(once);
+}
+
+TEST(Result, HandsTheFirstErrorOnUnchanged) {
+  EXPECT_EQ(*quarter(12), 3);
+  const auto failed = quarter(6);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().code, Errc::InvalidInput);
+  EXPECT_EQ(failed.error().where(), "n");
+}
+
+TEST(Result, MovesOutWhatCannotBeCopied) {
+  Result<std::unique_ptr<int>> made = std::make_unique<int>(7);
+  const std::unique_ptr<int> taken = *std::move(made);
+  EXPECT_EQ(*taken, 7);
+}
+
+TEST(Error, KeepsTheEndOfALongPath) {
+  const std::string path = std::string(300, 'a') + "/end.png";
+  const Error error = Error{Errc::NotFound, "gone"}.at(path);
+  EXPECT_EQ(error.where().size(), 191U);
+  EXPECT_TRUE(error.where().ends_with("/end.png"));
+}
+
+TEST(Arena, GivesAlignedMemoryAndThrowsAtTheEnd) {
+  alignas(64) std::array<std::byte, 256> block{};
+  Arena arena(block);
+  (void)arena.allocate(1, 1);
+  void* aligned = arena.allocate(16, 32);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(aligned) % 32, 0U);
+  EXPECT_THROW((void)arena.allocate(300, 8), std::bad_alloc);
+  EXPECT_LE(arena.used(), arena.capacity());
+  const std::size_t high = arena.high_water();
+  arena.reset();
+  EXPECT_EQ(arena.used(), 0U);
+  EXPECT_EQ(arena.high_water(), high);
+}
+
+TEST(Arena, WipeLeavesNothingBehind) {
+  std::array<std::byte, 128> block{};
+  Arena arena(block);
+  auto* secret = static_cast<std::byte*>(arena.allocate(64, 1));
+  std::fill(secret, secret + 64, std::byte{0x5e});
+  arena.wipe();
+  for (const std::byte b : block) EXPECT_EQ(b, std::byte{0});
+}
+
+TEST(Mailbox, TheNewestReplacesWhatNobodyTook) {
+  Mailbox<int> box;
+  EXPECT_FALSE(box.put(1));
+  EXPECT_TRUE(box.put(2));
+  EXPECT_EQ(box.take(), 2);
+  EXPECT_EQ(box.take(), std::nullopt);
+  EXPECT_EQ(box.take_for(std::chrono::milliseconds(1)), std::nullopt);
+}
+
+TEST(Mailbox, WakesTheWaitingThread) {
+  Mailbox<int> box;
+  std::thread writer([&] { box.put(5); });
+  EXPECT_EQ(box.take_for(std::chrono::seconds(10)), 5);
+  writer.join();
+}
+
+TEST(ThreadPool, EveryIndexExactlyOnceWhateverTheThreads) {
+  for (const int threads : {1, 2, 4}) {
+    ThreadPool pool(threads);
+    for (const int count : {0, 1, 7, 1000}) {
+      std::vector<std::atomic<int>> hits(static_cast<std::size_t>(count));
+      pool.for_each_band(count, 13, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) ++hits[static_cast<std::size_t>(i)];
+      });
+      for (const auto& h : hits) EXPECT_EQ(h.load(), 1);
+    }
+  }
+}
+
+TEST(ThreadPool, BandsDoNotDependOnTheThreads) {
+  const auto edges = [](int threads) {
+    ThreadPool pool(threads);
+    std::vector<int> begins(9);
+    pool.for_each_band(100, 9, [&](int begin, int, int band) { begins[static_cast<std::size_t>(band)] = begin; });
+    return begins;
+  };
+  EXPECT_EQ(edges(1), edges(3));
+}
+
+TEST(ThreadPool, RethrowsAndStaysUsable) {
+  ThreadPool pool(2);
+  EXPECT_THROW(pool.for_each_band(8, 8, [](int begin, int, int) { if (begin == 5) throw std::runtime_error("x"); }), std::runtime_error);
+  std::atomic<int> sum{0};
+  pool.for_each_band(8, 8, [&](int begin, int, int) { sum += begin; });
+  EXPECT_EQ(sum.load(), 28);
+}
+
+}  // namespace
+}  // namespace relievo

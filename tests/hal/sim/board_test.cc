@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Boards without hardware: pairing, turn-taking of the camera's states, time, sticks.
+#include "hal/sim/board.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "hal/sim/capture_file.h"
+#include "hal/sim/folder_media.h"
+#include "hal/sim/manual_clock.h"
+#include "hal/sim/picture_pairs.h"
+#include "hal/sim/silent_trigger.h"
+#include "tests/hal/temporary_folder.h"
+
+namespace relievo::hal {
+namespace {
+
+void put_picture(const std::filesystem::path& file, int value, int width = 16) {
+  const Picture p{std::vector<std::byte>(static_cast<std::size_t>(width * 10), std::byte(static_cast<unsigned char>(value))), width, 10, PixelFormat::Grey8};
+  ASSERT_TRUE(write_picture(file, p.view()));
+}
+
+int first_pixel(const Frame& frame) { return frame.image().row(0)[0]; }
+Instant soon(Board& board) { return board.clock().now() + std::chrono::seconds(5); }
+
+TEST(FolderBoard, ReplaysPairsInNameOrderForEver) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left_000002.png", 2);
+  put_picture(folder / "right_000002.png", 12);
+  put_picture(folder / "left_000001.png", 1);
+  put_picture(folder / "right_000001.png", 11);
+  ASSERT_TRUE(write_capture_file(folder / "capture.json", {"A", "B", {{1, 1000, 181000, 4000, 1.0}, {2, 5000, 5000, 4000, 1.0}}}));
+  auto made = make_folder_board(folder.path());
+  ASSERT_TRUE(made) << made.error().what.view();
+  Board& board = **made;
+  EXPECT_EQ(board.name(), "folder");
+  EXPECT_EQ(board.preferred_mode().exposure, std::chrono::microseconds(4000));
+  for (Camera* camera : {&board.left(), &board.right()}) {
+    ASSERT_TRUE(camera->open(board.preferred_mode()));
+    ASSERT_TRUE(camera->start());
+  }
+  for (const int expected : {1, 2, 1}) {
+    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
+    const auto left = board.left().next_frame(soon(board));
+    const auto right = board.right().next_frame(soon(board));
+    ASSERT_TRUE(left && right);
+    EXPECT_EQ(first_pixel(*left), expected);
+    EXPECT_EQ(first_pixel(*right), expected + 10);
+    EXPECT_EQ(left->sequence(), right->sequence());
+    const auto skew = right->exposed_at() - left->exposed_at();
+    EXPECT_EQ(skew, expected == 1 ? std::chrono::nanoseconds(180000) : std::chrono::nanoseconds(0));
+  }
+}
+
+TEST(FolderBoard, PlainNamesWorkToo) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left.png", 1);
+  put_picture(folder / "right.jpg", 2);
+  EXPECT_TRUE(make_folder_board(folder.path()));
+}
+
+TEST(FolderBoard, ANameWithoutItsPartnerIsNamed) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left_01.png", 1);
+  put_picture(folder / "right_01.png", 1);
+  put_picture(folder / "right_02.png", 1);
+  const auto made = make_folder_board(folder.path());
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, Errc::InvalidInput);
+  EXPECT_NE(made.error().where().find("right_02.png"), std::string_view::npos);
+  EXPECT_NE(made.error().what.view().find("partner"), std::string_view::npos);
+}
+
+TEST(FolderBoard, MissingEmptyAndBrokenFoldersAreErrors) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(make_folder_board(folder / "none").error().code, Errc::NotFound);
+  EXPECT_EQ(make_folder_board(folder.path()).error().code, Errc::NotFound);
+  put_picture(folder / "left_1.png", 1);
+  put_picture(folder / "right_1.png", 1, 20);
+  EXPECT_EQ(make_folder_board(folder.path()).error().code, Errc::InvalidInput);
+  put_picture(folder / "right_1.png", 1);
+  for (const char* bad : {"{", "[]", "{\"frames\": 3}", "{\"frames\": [{\"number\": \"x\"}]}"}) {
+    std::ofstream(folder / "capture.json") << bad;
+    const auto made = make_folder_board(folder.path());
+    ASSERT_FALSE(made) << bad;
+    EXPECT_EQ(made.error().code, Errc::InvalidInput) << bad;
+    EXPECT_NE(made.error().where().find("capture.json"), std::string_view::npos);
+  }
+}
+
+TEST(Camera, ACallOutOfTurnNamesTheStateItNeeds) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left_1.png", 1);
+  put_picture(folder / "right_1.png", 1);
+  auto made = make_folder_board(folder.path());
+  ASSERT_TRUE(made);
+  Camera& camera = (*made)->left();
+  const Instant now = (*made)->clock().now();
+  EXPECT_EQ(camera.start().error().code, Errc::InvalidState);
+  EXPECT_EQ(camera.next_frame(now).error().code, Errc::InvalidState);
+  EXPECT_EQ(camera.open({640, 480, {}}).error().code, Errc::Unsupported);
+  EXPECT_EQ(camera.state(), Camera::State::Closed);
+  ASSERT_TRUE(camera.open((*made)->preferred_mode()));
+  EXPECT_EQ(camera.open((*made)->preferred_mode()).error().code, Errc::InvalidState);
+  EXPECT_EQ(camera.next_frame(now).error().code, Errc::InvalidState);
+  ASSERT_TRUE(camera.start());
+  EXPECT_EQ(camera.start().error().code, Errc::InvalidState);
+  EXPECT_EQ(camera.next_frame(now).error().code, Errc::Timeout) << "no pulse, no picture";
+  camera.stop();
+  EXPECT_EQ(camera.state(), Camera::State::Idle);
+  camera.stop();
+  EXPECT_TRUE(camera.start());
+}
+
+TEST(Camera, HoldingEveryFrameStopsItUntilOneIsGivenBack) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left_1.png", 1);
+  put_picture(folder / "right_1.png", 1);
+  auto made = make_folder_board(folder.path());
+  ASSERT_TRUE(made);
+  Board& board = **made;
+  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
+  std::vector<Frame> held;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
+    auto frame = board.left().next_frame(soon(board));
+    ASSERT_TRUE(frame);
+    held.push_back(*std::move(frame));
+  }
+  ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
+  EXPECT_EQ(board.left().next_frame(soon(board)).error().code, Errc::Timeout);
+  held.pop_back();
+  EXPECT_TRUE(board.left().next_frame(soon(board)));
+}
+
+TEST(SilentTrigger, ADeadlineComesByTheGivenClock) {
+  ManualClock clock;
+  SilentTrigger trigger(clock);
+  EXPECT_EQ(trigger.wait_after(0, clock.now()).error().code, Errc::Timeout);
+  EXPECT_EQ(trigger.pulse(std::chrono::microseconds(0)).error().code, Errc::InvalidInput);
+  ASSERT_TRUE(trigger.pulse(std::chrono::microseconds(5)));
+  clock.advance(std::chrono::seconds(9));
+  const auto pulse = trigger.wait_after(0, clock.now());
+  ASSERT_TRUE(pulse);
+  EXPECT_EQ(clock.now() - pulse->at, std::chrono::seconds(9));
+}
+
+TEST(FolderMedia, ComesAndGoes) {
+  const TemporaryFolder folder;
+  FolderMedia media;
+  EXPECT_FALSE(media.current());
+  EXPECT_EQ(media.flush_and_eject().error().code, Errc::MediaMissing);
+  media.plug(folder.path());
+  ASSERT_TRUE(media.current());
+  EXPECT_GT(media.current()->free_bytes, 0U);
+  EXPECT_TRUE(media.flush_and_eject());
+  EXPECT_FALSE(media.current());
+  media.plug(folder / "pulled out");
+  EXPECT_FALSE(media.current());
+}
+
+TEST(SimBoard, ShowsCalibrationBoardsOneAfterAnother) {
+  SimBoardOptions options;
+  options.simulation.scene = sim::SceneKind::Board;
+  options.simulation.rig.width_px = 240;
+  options.simulation.rig.height_px = 150;
+  options.simulation.board_poses = 3;
+  auto made = make_sim_board(options);
+  ASSERT_TRUE(made) << made.error().what.view();
+  Board& board = **made;
+  for (Camera* camera : {&board.left(), &board.right()}) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  std::vector<std::vector<std::uint8_t>> rows;
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
+    const auto left = board.left().next_frame(soon(board));
+    const auto right = board.right().next_frame(soon(board));
+    ASSERT_TRUE(left && right);
+    rows.emplace_back(left->image().row(75), left->image().row(75) + 240);
+  }
+  EXPECT_NE(rows[0], rows[1]);
+}
+
+TEST(SimBoard, RefusesNonsense) {
+  SimBoardOptions options;
+  options.simulation.pose.yaw_deg = 170;
+  EXPECT_EQ(make_sim_board(options).error().code, Errc::InvalidInput);
+  options = {};
+  options.simulation.rig.width_px = 3;
+  EXPECT_EQ(make_sim_board(options).error().code, Errc::InvalidInput);
+  options = {};
+  options.simulation.scene = sim::SceneKind::Board;
+  options.simulation.board.square_mm = 200;
+  EXPECT_EQ(make_sim_board(options).error().code, Errc::PoorGeometry);
+}
+
+}  // namespace
+}  // namespace relievo::hal
