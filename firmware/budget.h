@@ -23,13 +23,13 @@ inline constexpr std::size_t kStereoSlots = 1;   // the person's own pair, kept 
 
 // --- memory -------------------------------------------------------------------------------------
 inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
-inline constexpr std::size_t kOutputArenaBytes = 512 * kMiB;    // what the stages hand on
-inline constexpr std::size_t kScratchArenaBytes = 768 * kMiB;   // what one stage needs for itself
+inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;    // what the stages hand on
+inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;   // what one stage needs for itself
 inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
 
 inline constexpr std::size_t kLibraryBytes = 256 * kMiB;        // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;
-inline constexpr std::size_t kApplianceBytes = 2048 * kMiB;     // of the machine's memory, for the process
+inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;     // of the machine's memory, for the process
 static_assert(kBlockBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
               "the parts need more than the appliance has");
 
