@@ -31,7 +31,7 @@ std::string calibration_report_json(const CalibrationQuality& q) {
       {"coverage_left", q.coverage_left}, {"coverage_right", q.coverage_right}, {"holds_still", q.holds_still},
       {"slip_ratio", q.slip_ratio}, {"moved_after_view", q.moved_after}, {"distortion_terms", q.distortion_terms},
       {"baseline_mm", q.baseline_mm}, {"working_distance_mm", q.working_distance_mm},
-      {"depth_sigma_mm", q.depth_sigma_mm}, {"views", views}};
+      {"depth_sigma_mm", q.depth_sigma_mm}, {"shape_sigma_mm", q.shape_sigma_mm}, {"views", views}};
   // File names need not be UTF-8.
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

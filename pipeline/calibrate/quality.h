@@ -33,7 +33,7 @@ struct CalibrationQuality {
   double right_rms_px = 0;
   double pair_rms_px = 0;            // both together, used views
   double epipolar_rms_px = 0;
-  double held_out_epipolar_px = 0;   // of views that had no part in the fit (five-fold)
+  double held_out_epipolar_px = 0;   // of views that had no part in the fit (leave-out cross-validation)
   double coverage_left = 0;          // share of an 8 x 8 grid over the picture in which a corner was seen
   double coverage_right = 0;
   bool holds_still = true;           // left and right agree as well as each camera alone allows
@@ -42,7 +42,9 @@ struct CalibrationQuality {
   int distortion_terms = 0;          // of k1 k2 p1 p2 k3, from the left
   double baseline_mm = 0;
   double working_distance_mm = 0;    // median distance of the boards used
-  double depth_sigma_mm = 0;         // standard deviation there that this calibration adds, rms of the field
+  // One standard deviation of a head measured there, as far as this calibration is to blame (jackknife):
+  double depth_sigma_mm = 0;         // of its distance
+  double shape_sigma_mm = 0;         // of its shape and size: what stays when it is laid over the true one
 };
 
 std::string calibration_report_json(const CalibrationQuality& quality);

@@ -12,8 +12,8 @@ namespace {
 // camera_calibration; beyond 0.7 px matching along rows fails.
 constexpr double kGoodEpipolarPx = 0.15;
 constexpr double kWorstEpipolarPx = 0.7;
-constexpr double kGoodDepthMm = 0.3;
-constexpr double kWorstDepthMm = 3.0;
+constexpr double kGoodShapeMm = 0.3;
+constexpr double kWorstShapeMm = 3.0;
 constexpr double kGoodCoverage = 0.45;
 constexpr int kGoodViews = 10;
 
@@ -39,8 +39,9 @@ void judge_rig(const CalibrationQuality& q, Verdict& v) {
           "left and right do not hold still relative to each other: they disagree %.1f times more than the corners' noise "
           "explains; fasten the cameras and expose both at the same instant", q.slip_ratio);
   if (q.moved_after >= 0)
-    v.say(CalibrationVerdict::Usable, "a camera seems to have moved after view %d (%s); if it did, the earlier views are what counts here only if "
-          "they are the ones used: calibrate again", q.moved_after, q.views[static_cast<std::size_t>(q.moved_after)].name.c_str());
+    v.say(CalibrationVerdict::Usable, "a camera seems to have moved after view %d (%s): from there on most pairs disagree with the ones before; "
+          "this calibration holds for the pairs used, calibrate again to know the rig of today",
+          q.moved_after, q.views[static_cast<std::size_t>(q.moved_after)].name.c_str());
 }
 
 }  // namespace
@@ -50,22 +51,22 @@ void judge_quality(CalibrationQuality& q) {
   using enum CalibrationVerdict;
   if (q.held_out_epipolar_px > kWorstEpipolarPx)
     v.say(Refuse, "views not used for the fit miss their epipolar lines by %.2f px (%.2f is the most that can be used)", q.held_out_epipolar_px, kWorstEpipolarPx);
-  if (q.depth_sigma_mm > kWorstDepthMm)
-    v.say(Refuse, "depth at %.0f mm is uncertain by %.2f mm (%.1f is the most); tilt the board more, and take more views", q.working_distance_mm, q.depth_sigma_mm, kWorstDepthMm);
+  if (q.shape_sigma_mm > kWorstShapeMm)
+    v.say(Refuse, "the shape of a head at %.0f mm is uncertain by %.2f mm (%.1f is the most); tilt the board more, and take more views", q.working_distance_mm, q.shape_sigma_mm, kWorstShapeMm);
   judge_rig(q, v);
   const auto pairs = std::count_if(q.views.begin(), q.views.end(), [](const ViewQuality& view) { return view.distance_mm > 0; });
   if (2 * q.used <= pairs) v.say(Refuse, "only %d of %d pairs agree with each other", q.used, static_cast<int>(pairs));
   else if (4 * q.used < 3 * pairs) v.say(Usable, "only %d of %d pairs agree with each other", q.used, static_cast<int>(pairs));
   if (q.held_out_epipolar_px > kGoodEpipolarPx && q.held_out_epipolar_px <= kWorstEpipolarPx)
     v.say(Usable, "views not used for the fit miss their epipolar lines by %.2f px (%.2f is good)", q.held_out_epipolar_px, kGoodEpipolarPx);
-  if (q.depth_sigma_mm > kGoodDepthMm && q.depth_sigma_mm <= kWorstDepthMm)
-    v.say(Usable, "depth at %.0f mm is uncertain by %.2f mm (%.1f is good)", q.working_distance_mm, q.depth_sigma_mm, kGoodDepthMm);
+  if (q.shape_sigma_mm > kGoodShapeMm && q.shape_sigma_mm <= kWorstShapeMm)
+    v.say(Usable, "the shape of a head at %.0f mm is uncertain by %.2f mm (%.1f is good)", q.working_distance_mm, q.shape_sigma_mm, kGoodShapeMm);
   if (q.used < kGoodViews) v.say(Usable, "%d pairs are few; take %d or more", q.used, kGoodViews);
   const double coverage = std::min(q.coverage_left, q.coverage_right);
   if (coverage < kGoodCoverage)
     v.say(Usable, "the boards cover %.0f %% of the picture; bring them to the edges, too", 100 * coverage);
   if (q.reasons.empty())
-    v.say(Pass, "all figures are good: epipolar error %.2f px on views not used, depth uncertain by %.2f mm at %.0f mm", q.held_out_epipolar_px, q.depth_sigma_mm, q.working_distance_mm);
+    v.say(Pass, "all figures are good: epipolar error %.2f px on views not used, a head's shape uncertain by %.2f mm at %.0f mm", q.held_out_epipolar_px, q.shape_sigma_mm, q.working_distance_mm);
 }
 
 }  // namespace relievo::pipeline
