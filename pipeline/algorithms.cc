@@ -51,6 +51,7 @@ void for_each_options(Visit&& visit) {
   visit("similarity", SimilarityConstraintOptions{});
   visit("uniqueness", UniquenessConstraintOptions{});
   visit("continuity", ContinuityConstraintOptions{});
+  visit("face", FaceCropOptions{});
   visit("local", OutlierFilterOptions{});
   visit("grid", GridMesherOptions{});
   visit("delaunay", DelaunayMesherOptions{});
@@ -207,6 +208,10 @@ Result<std::optional<OutlierFilterOptions>> make_outlier_options(const Algorithm
   if (name != "local") return kUnknown.at(name);
   RELIEVO_TRY_ASSIGN(const OutlierFilterOptions options, AlgorithmMaker::options<OutlierFilterOptions>(set, name));
   return std::optional<OutlierFilterOptions>(options);
+}
+
+Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set) {
+  return AlgorithmMaker::options<FaceCropOptions>(set, "face");
 }
 
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set) {

@@ -19,6 +19,7 @@
 #include "pipeline/match/match_constraint.h"
 #include "pipeline/match/matcher.h"
 #include "pipeline/mesh/mesher.h"
+#include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/outlier_filter.h"
 #include "pipeline/reconstruct/triangulator.h"
 #include "pipeline/texture/texturer.h"
@@ -56,6 +57,7 @@ Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
 Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);
 Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set);
 Result<std::optional<OutlierFilterOptions>> make_outlier_options(const AlgorithmSet& set);  // none: keep all points
+Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
 

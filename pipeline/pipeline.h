@@ -59,6 +59,7 @@ class Pipeline {
   std::shared_ptr<const Matcher> matcher_;
   std::vector<std::shared_ptr<const MatchConstraint>> constraints_;
   std::shared_ptr<const Triangulator> triangulator_;
+  FaceCropOptions crop_;
   std::optional<OutlierFilterOptions> outliers_;  // none: every point is kept
   std::shared_ptr<const Mesher> mesher_;
   std::shared_ptr<const Texturer> texturer_;

@@ -28,6 +28,8 @@ Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageCon
   if (pair.width_px <= 0 || pair.height_px <= 0 || !(face.width_px > 0) || !std::isfinite(face.width_px) ||
       !std::isfinite(face.centre_px.x) || !std::isfinite(face.centre_px.y))
     return Error{Errc::InvalidInput, "a face region needs a picture and a face of some size"};
+  pair.face_centre_px = face.centre_px;
+  pair.face_width_px = face.width_px;
   const std::size_t width = static_cast<std::size_t>(pair.width_px);
   pair.region.assign(width * static_cast<std::size_t>(pair.height_px), 0);
   const double centre_y = face.centre_px.y + kDown * face.width_px;

@@ -21,7 +21,7 @@ namespace relievo::pipeline {
 
 struct GridMesherOptions {
   int max_triangles = 320'000;        // the lattice is thinned until twice its points fit
-  double max_incidence_deg = 80;      // steepest triangle, between its normal and the line of sight
+  double max_incidence_deg = 77;      // steepest triangle, between its normal and the line of sight
   double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
   double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/reconstruct/face_crop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// A dome of 70 mm radius with its top at 500 mm, on a wall at 570 mm; 0.5 mm a pixel.
+PointCloud dome_on_a_wall(std::pmr::memory_resource* memory) {
+  PointCloud cloud(memory);
+  cloud.lattice_step_px = 4;
+  for (int y = 0; y < 1000; y += 4)
+    for (int x = 0; x < 1000; x += 4) {
+      const double u = 0.5 * (x - 500);
+      const double v = 0.5 * (y - 500);
+      const double r2 = u * u + v * v;
+      const double z = r2 < 4900 ? 570 - std::sqrt(4900 - r2) : 570;
+      cloud.points.push_back({{static_cast<float>(u), static_cast<float>(v), static_cast<float>(z)},
+                              {static_cast<float>(x), static_cast<float>(y)}, 0.1F});
+    }
+  return cloud;
+}
+
+RectifiedPair pair_with_face(double width_px) {
+  RectifiedPair pair(std::pmr::get_default_resource());
+  pair.face_centre_px = {510, 490};
+  pair.face_width_px = width_px;
+  return pair;
+}
+
+TEST(FaceCrop, KeepsTheBallAroundTheNearestPoint) {
+  test::StageBench bench(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&bench.output);
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 110}, bench.context));
+  double farthest = 0;
+  for (const CloudPoint& p : cloud.points)
+    farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y + (p.at_mm.z - 500.0) * (p.at_mm.z - 500.0)));
+  EXPECT_GT(farthest, 107);
+  EXPECT_LT(farthest, 113);
+}
+
+TEST(FaceCrop, OneStrayPointDoesNotMoveTheBall) {
+  test::StageBench bench(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&bench.output);
+  cloud.points.push_back({{30, 30, 420}, {560, 560}, 0.1F});
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 60}, bench.context));
+  for (const CloudPoint& p : cloud.points) EXPECT_GT(p.at_mm.z, 450);
+}
+
+TEST(FaceCrop, LeavesEverythingWhereNoFaceWasLookedFor) {
+  test::StageBench bench(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&bench.output);
+  const std::size_t before = cloud.points.size();
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(0), {}, bench.context));
+  EXPECT_EQ(cloud.points.size(), before);
+}
+
+TEST(FaceCrop, NothingInTheMiddleIsNoFace) {
+  test::StageBench bench(1 << 20, 1 << 20, 1);
+  PointCloud cloud(&bench.output);
+  const auto cropped = crop_to_face(cloud, pair_with_face(300), {}, bench.context);
+  ASSERT_FALSE(cropped);
+  EXPECT_EQ(cropped.error().code, Errc::NoFace);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
