@@ -40,7 +40,7 @@ double EyeForm::add_to(double field, Vec3 p) const {
   // The fold above the upper lid, and the fullness that hangs over it.
   const double fold = q.y - upper_lid(s) - (3.2 + 0.9 * t_.lid_fold) * (0.45 + 0.55 * middle) - 0.8;
   const double reach = smoothstep(1.35, 0.75, std::abs(s + 0.05));
-  d += reach * (0.85 * gauss(fold / 1.3) - (0.9 + 0.5 * t_.age) * gauss((fold - 3.9) / 3.2));
+  d += reach * (1.05 * gauss(fold / 1.3) - (0.9 + 0.5 * t_.age) * gauss((fold - 3.9) / 3.2));
   const double bag = q.y - lower_lid(s) + 5.0;
   d += reach * (0.18 + 0.25 * t_.age) * gauss(bag / 1.8);
   // The opening.

@@ -10,11 +10,14 @@ namespace {
 
 struct Brow {
   double inner, outer;              // |x|
-  double middle_y(double s) const { return 16.8 + 6.5 * s - 6.5 * s * s * s * s + 1.5 * std::sin(3.1 * s); }
-  double half_height(double s) const { return 3.9 * smoothstep(-0.12, 0.12, s) * (1 - 0.72 * smoothstep(0.25, 1.0, s)); }
+  double base_y, arch, thickness;
+  double middle_y(double s) const { return base_y + 6.5 * s - 6.5 * s * s * s * s + arch * std::sin(3.1 * s); }
+  double half_height(double s) const { return thickness * smoothstep(-0.12, 0.12, s) * (1 - 0.72 * smoothstep(0.25, 1.0, s)); }
 };
 Brow brow_of(const HeadTraits& t) {
-  return {t.intercanthal / 2 - 3.5, t.intercanthal / 2 + t.eye_fissure + 4.0};
+  const double drawn = unit_from_hash(hash_cell(3, 1, 4, t.seed)), bent = unit_from_hash(hash_cell(1, 5, 9, t.seed));
+  return {t.intercanthal / 2 - 4.5 + 3 * drawn, t.intercanthal / 2 + t.eye_fissure + 4.0, 14.8 - 0.9 * t.brow_ridge + 0.6 * t.lid_fold, 0.2 + 2.6 * bent,
+          mix(3.2, 4.6, t.masculine) * mix(0.85, 1.15, drawn)};
 }
 
 // A strand that starts at the root and grows along its direction, drawn to a height over the skin.
@@ -114,16 +117,16 @@ void grow_brows(Grower& grower, const HeadField& field) {
 
 void grow_lashes(Grower& grower, const HeadField& field) {
   Random& random = grower.random();
-  for (int k = 0; k < 2 * 130; ++k) {
+  for (int k = 0; k < 2 * 215; ++k) {
     const double side = k % 2 == 0 ? 1 : -1;
-    const bool upper = k < 2 * 85;
+    const bool upper = k < 2 * 150;
     const double s = random.uniform(-0.82, 0.97);
     Vec3 root = field.eye.lid_point(s, upper);
     root.x *= side;
     root = root - (field.warped(root) - root) + Vec3{0, upper ? 0.1 : -0.1, -0.35};
     const Vec3 out{side * (0.55 * s + 0.12 * random.normal()), upper ? -0.15 : -0.35, 1};
     const Vec3 bend{side * 0.3 * s, upper ? 1.5 : -0.5, 0};
-    grower.grow(root, {upper ? random.uniform(5.5, 8) * (0.75 + 0.25 * s) : random.uniform(2.5, 4.5), random.uniform(0.035, 0.05), 0, out, bend, 5, false});
+    grower.grow(root, {upper ? random.uniform(5.5, 8) * (0.75 + 0.25 * s) : random.uniform(2.5, 4.5), random.uniform(0.045, 0.07), 0, out, bend, 5, false});
   }
 }
 
@@ -132,7 +135,7 @@ void grow_lashes(Grower& grower, const HeadField& field) {
 double scalp_hair(const HeadTraits& t, Vec3 p) {
   if (std::abs(p.x) > t.face_breadth / 2 + 3.5 && p.y < 24 && p.z < 12) return 0;    // the ear
   // Height of the hairline at each depth, from the nape round the ear to the forehead.
-  static const Curve line{{-90, -75}, {-45, -70}, {-30, -40}, {-18, -4}, {-6, 22}, {3, 20}, {9, -4}, {14, -22}, {20, -8}, {27, 14}, {40, 36}, {58, 49}, {76, 57}, {90, 69}, {100, 76}};
+  static const Curve line{{-90, -75}, {-45, -70}, {-30, -40}, {-18, -4}, {-6, 22}, {3, 20}, {9, -4}, {14, -22}, {20, -12}, {27, 5}, {40, 24}, {52, 38}, {63, 52}, {76, 63}, {90, 71}, {100, 76}};
   const double lift = (t.hairline_y - 76) * smoothstep(45, 95, p.z);
   const double recede = 7 * t.age * t.masculine * gauss((std::abs(p.x) - 38) / 16) * smoothstep(60, 75, p.z);
   const double ragged = 3.2 * fractal_noise(p * 0.25, t.seed + 21, 2);

@@ -56,9 +56,11 @@ Surface SkinLook::surface(Vec3 p) const {
   const double lip = field_.mouth.vermilion(q);
   if (lip > 0) {
     const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, t_.seed + 8);
-    const Vec3 tone = t_.skin * mix(Vec3{0.84, 0.62, 0.62}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
+    const Vec3 tone = t_.skin * mix(Vec3{0.82, 0.56, 0.57}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
     c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.85);
   }
+  const double line = q.z > 75 && std::abs(q.x) < field_.mouth.half_width() + 1 ? gauss((q.y - field_.mouth.line_y(q.x)) / 0.55) : 0;
+  c = c * (1 - 0.6 * line);
   const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
   c = mix(c, t_.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
   c = mix(c, t_.hair + c * 0.3, 0.30 * brow * t_.brow_density);
@@ -66,11 +68,14 @@ Surface SkinLook::surface(Vec3 p) const {
   const double eye_s = field_.eye.along(std::abs(q.x));
   if (std::abs(eye_s) < 1.05 && q.z > 70) {
     const double edge = std::max(q.y - field_.eye.upper_lid(eye_s), field_.eye.lower_lid(eye_s) - q.y);
-    c = mix(c, c * Vec3{1.0, 0.66, 0.64}, smoothstep(0.75, 0.2, edge));
+    c = mix(c, c * Vec3{0.95, 0.62, 0.60}, smoothstep(0.75, 0.2, edge));
+    // Roots of the lashes draw a dark line.
+    c = mix(c, c * 0.35 + t_.hair * 0.3, (q.y > -1 ? 0.75 : 0.35) * gauss((edge - 0.75) / 0.6) * smoothstep(1.02, 0.8, std::abs(eye_s)));
+    c = c * (1 - 0.16 * smoothstep(6, 1, edge));
   }
   s.colour = c;
   const double oily = 0.5 + 0.5 * bell(q.x, 26, q.y - 40, 28) + 0.7 * bell(q.x, 12, q.y + 20, 26) + 0.25 * value_noise(q * 0.12, t_.seed + 41);
-  s.gloss = mix(0.75 * oily, 0.9, lip) * (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed)));
+  s.gloss = mix(0.75 * oily, 0.5, lip) * (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed)));
   s.roughness = mix(0.44, 0.40, lip);
   s.translucent = 1;
   return s;

@@ -156,7 +156,7 @@ Mesh HeadScene::solid_mesh() const {
 Mat3 HeadPose::world_from_head() const {
   const Mat3 facing{{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}};
   // In camera axes a positive turn about y takes -z towards -x, hence the sign.
-  return rotation(radians(-pitch_deg), radians(-yaw_deg), radians(roll_deg)) * facing;
+  return rotation(radians(pitch_deg), radians(-yaw_deg), radians(roll_deg)) * facing;
 }
 Vec3 HeadPose::origin_mm() const { return Vec3{right_mm, down_mm, distance_mm} - world_from_head() * kMiddleOfFace; }
 

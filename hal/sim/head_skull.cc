@@ -45,7 +45,7 @@ double SkullForm::loft(Vec3 p) const {
 
 double SkullForm::neck(Vec3 p) const {
   const double gn = gnathion_y(t_);
-  const double r = mix(50, 57, t_.masculine);
+  const double r = mix(46, 53, t_.masculine);
   const Bead top{{0, gn + 55, 2}, r * 0.98}, bottom{{0, gn - 90, -28}, r * 1.06};
   Vec3 q = p;
   q.x *= 1.02;
@@ -65,7 +65,7 @@ double SkullForm::distance(Vec3 p) const {
   const Vec3 cranium{0, 40, 106 - half_length};
   double d = ellipsoid(p - cranium, {t_.head_breadth / 2 - 0.5, 80, half_length - 1});
   if (p.y < 112) d = join(d, loft(p), 16);
-  if (p.y < -20) d = join(d, neck(p), 24);
+  if (p.y < -20) d = join(d, neck(p), 30);
   return d;
 }
 

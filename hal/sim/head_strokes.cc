@@ -10,7 +10,7 @@ double FaceStrokes::brow_and_orbit(double ax, Vec3 p) const {
   const double eye_x = t_.intercanthal / 2 + t_.eye_fissure / 2;
   double h = 0;
   h -= (6.2 + 0.8 * t_.eye_depth) * bell(ax - (eye_x - 2), 16, p.y - 0.5, 10.5);
-  h -= 4.6 * bell(ax - 14.5, 7, p.y - 2, 9);                        // beside the root of the nose
+  h -= 5.2 * bell(ax - 15, 7.5, p.y - 3.5, 9.5);                        // beside the root of the nose
   h += (1.8 + 0.9 * t_.brow_ridge) * bell(ax - 22, 17, p.y - (16.5 + 0.12 * ax), 7);
   h += (0.8 + 0.3 * t_.brow_ridge) * bell(ax - 44, 9, p.y - 15, 9);   // outer end of the brow
   h += 0.8 * bell(p.x, 11, p.y - 21, 9);
