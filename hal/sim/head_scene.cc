@@ -135,7 +135,7 @@ Mesh HeadScene::solid_mesh() const {
     const Mesh& mesh = head_->shells[static_cast<std::size_t>(body)].mesh;
     std::vector<std::uint32_t> moved(mesh.points.size(), ~0U);
     for (const auto& t : mesh.triangles) {
-      if (point_of(mesh, t[0]).z < (body == HeadModel::Skin ? 0 : 70)) continue;
+      if (point_of(mesh, t[0]).z < (body == HeadModel::Skin ? -30 : 70)) continue;
       std::array<std::uint32_t, 3> corner{};
       for (std::size_t k = 0; k < 3; ++k) {
         if (moved[t[k]] == ~0U) {
