@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pipeline/reconstruct/neighbourhood.h"
@@ -95,27 +96,38 @@ class Filter {
     return options_.spike_sigmas > 0 && off_plane({near, static_cast<std::size_t>(support)}, p.sigma_mm) ? Verdict::Spike : Verdict::Kept;
   }
 
-  // Least-squares plane of the neighbours (the point itself has no vote), and their scatter about it.
-  bool off_plane(std::span<const Offset> near, float sigma) const {
-    if (near.size() < 6) return false;
-    float n = 0, u = 0, v = 0, d = 0, uu = 0, uv = 0, vv = 0, ud = 0, vd = 0;
+  struct Plane { float slope_u = 0, slope_v = 0, base = 0, scatter = 0; bool known = false; };
+
+  // Least-squares plane of the neighbours within `limit` of `first`; base is its depth at the point.
+  static Plane fit(std::span<const Offset> near, const Plane& first, float limit) {
+    float n = 0, u = 0, v = 0, d = 0, uu = 0, uv = 0, vv = 0, ud = 0, vd = 0, dd = 0;
     for (const Offset& o : near) {
+      if (std::abs(o.depth - first.base - first.slope_u * o.u - first.slope_v * o.v) > limit) continue;
       n += 1; u += o.u; v += o.v; d += o.depth;
-      uu += o.u * o.u; uv += o.u * o.v; vv += o.v * o.v; ud += o.u * o.depth; vd += o.v * o.depth;
+      uu += o.u * o.u; uv += o.u * o.v; vv += o.v * o.v;
+      ud += o.u * o.depth; vd += o.v * o.depth; dd += o.depth * o.depth;
     }
-    uu -= u * u / n; uv -= u * v / n; vv -= v * v / n; ud -= u * d / n; vd -= v * d / n;
+    if (n < 6) return {};
+    uu -= u * u / n; uv -= u * v / n; vv -= v * v / n; ud -= u * d / n; vd -= v * d / n; dd -= d * d / n;
     const float det = uu * vv - uv * uv;
-    if (!(det > 1e-6F * uu * vv)) return false;
-    const float a = (ud * vv - vd * uv) / det;
-    const float b = (vd * uu - ud * uv) / det;
-    const float base = (d - a * u - b * v) / n;  // the plane's depth at the point; the point's own is 0
-    float scatter = 0;
-    for (const Offset& o : near) {
-      const float r = o.depth - base - a * o.u - b * o.v;
-      scatter += r * r;
-    }
-    const float usual = std::max(std::sqrt(scatter / n), sigma);
-    return std::abs(base) > static_cast<float>(options_.spike_sigmas) * usual;
+    if (!(det > 1e-6F * uu * vv)) return {};
+    Plane plane;
+    plane.slope_u = (ud * vv - vd * uv) / det;
+    plane.slope_v = (vd * uu - ud * uv) / det;
+    plane.base = (d - plane.slope_u * u - plane.slope_v * v) / n;
+    plane.scatter = std::sqrt(std::max(0.0F, dd - plane.slope_u * ud - plane.slope_v * vd) / n);
+    plane.known = true;
+    return plane;
+  }
+
+  // The point itself has no vote. A second fit without the worst neighbours, where they scatter more
+  // than they should: another spike next to this one must not hide it.
+  bool off_plane(std::span<const Offset> near, float sigma) const {
+    Plane plane = fit(near, {}, std::numeric_limits<float>::infinity());
+    if (!plane.known) return false;
+    if (plane.scatter > 1.5F * sigma)
+      if (const Plane again = fit(near, plane, 1.5F * plane.scatter); again.known) plane = again;
+    return std::abs(plane.base) > static_cast<float>(options_.spike_sigmas) * std::max(plane.scatter, sigma);
   }
 
   void flood(std::uint32_t seed, std::uint32_t label, const std::pmr::vector<std::uint64_t>& at) {

@@ -27,12 +27,14 @@ void for_each_texel(const Chart& chart, const std::array<std::uint32_t, 3>& t, P
   const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(area) > 1e-6F)) return;
   const float to_unit = 1 / area;
-  const int top = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
-  const int bottom = std::min(chart.height_px - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
-  const int left = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
-  const int right = std::min(chart.width_px - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
-  // A hair beyond the edges, so that rounding opens no crack between neighbours.
-  constexpr float kEdge = -1e-4F;
+  // A hair beyond the edges, so that rounding opens no crack between neighbours and takes no texel
+  // from a vertex that lies on its centre.
+  constexpr float kHair = 0.01F;
+  constexpr float kEdge = -1e-3F;
+  const int top = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kHair)));
+  const int bottom = std::min(chart.height_px - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kHair)));
+  const int left = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}) - kHair)));
+  const int right = std::min(chart.width_px - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}) + kHair)));
   for (int y = top; y <= bottom; ++y) {
     const float dy = static_cast<float>(y) - a.y;
     std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(chart.width_px) + static_cast<std::size_t>(left);
