@@ -67,8 +67,7 @@ Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const 
   }
   RELIEVO_TRY(batch.add("model.mtl", bytes_of(mtl_text(mesh, "model.png"))));
   RELIEVO_TRY(batch.add("model.obj", bytes_of(obj_text(mesh, "model.mtl"))));
-  RELIEVO_TRY_ASSIGN(const auto glb, glb_bytes(mesh, png));
-  RELIEVO_TRY(batch.add("model.glb", glb));
+  RELIEVO_TRY(batch.add("model.glb", glb_bytes(mesh, png)));
   return batch.publish();
 }
 

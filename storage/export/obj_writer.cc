@@ -2,25 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/export/obj_writer.h"
 
-#include <charconv>
-
+#include "storage/export/number_text.h"
 #include "storage/export/seam_split.h"
 
 namespace relievo::storage {
 namespace {
 
-// Not printf: it writes a comma where the locale does.
-template <typename Number>
-void add(std::string& text, Number value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  text.append(digits, end);
-}
-
 template <typename... Numbers>
 void add_line(std::string& text, const char* word, Numbers... values) {
   text += word;
-  ((text += ' ', add(text, values)), ...);
+  ((text += ' ', append_number(text, values)), ...);
   text += '\n';
 }
 
@@ -45,11 +36,11 @@ std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
     for (const std::uint32_t entry : triangle) {
       const std::uint32_t vertex = split.entries[entry].vertex + 1;
       text += ' ';
-      add(text, vertex);
+      append_number(text, vertex);
       text += '/';
-      if (mesh.textured()) add(text, entry + 1);
+      if (mesh.textured()) append_number(text, entry + 1);
       text += '/';
-      add(text, vertex);
+      append_number(text, vertex);
     }
     text += '\n';
   }

@@ -37,13 +37,17 @@ void* sqlite_realloc(void* old, int bytes) { return must_fail() ? nullptr : g_re
 
 }  // namespace
 
-void* operator new(std::size_t bytes) {
+// Not inlined: the compiler would see free() of what a new made, and object.
+[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return must_fail() ? nullptr : std::malloc(bytes == 0 ? 1 : bytes);
+}
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
   void* block = must_fail() ? nullptr : std::malloc(bytes == 0 ? 1 : bytes);
   if (block == nullptr) throw std::bad_alloc();
   return block;
 }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace relievo::storage {
 namespace {
@@ -70,15 +74,15 @@ class FailingMemory {
 };
 
 // One life; the error of the first verb that has one. `acknowledged` counts enrolments said to be safe.
-Result<void> live(const std::filesystem::path& dir, const pipeline::FaceModel& model, int& acknowledged) {
+Result<void> live(const std::filesystem::path& dir, const std::filesystem::path& out,
+                  const NewEnrolment& enrolment, const SubjectChoice& ada, int& acknowledged) {
   static const test::StillClock clock;
   RELIEVO_TRY_ASSIGN(const auto store, open_sqlite_store(dir, clock));
   RELIEVO_TRY_ASSIGN(const auto bob, store->add_subject({"Bob"}));
-  const auto enrolment = test::sample_enrolment(model);
-  RELIEVO_TRY_ASSIGN(const auto id, store->add_enrolment(NewSubject{"Ada"}, enrolment));
+  RELIEVO_TRY_ASSIGN(const auto id, store->add_enrolment(ada, enrolment));
   ++acknowledged;
   RELIEVO_TRY_ASSIGN(const auto back, store->load_model(id, std::pmr::new_delete_resource()));
-  RELIEVO_TRY_ASSIGN(const auto files, write_model_files(back, dir / "out", ExportFrame::Head));
+  RELIEVO_TRY_ASSIGN(const auto files, write_model_files(back, out, ExportFrame::Head));
   RELIEVO_TRY_ASSIGN(const auto found, store->subjects({.name = "Ada"}));
   return store->erase_subject(bob);
 }
@@ -105,15 +109,18 @@ void judge(const std::filesystem::path& dir, const pipeline::FaceModel& model, i
 long try_every_point(bool for_good, long step) {
   const FailingMemory memory;
   const auto model = test::sample_model(12);
+  const auto enrolment = test::sample_enrolment(model);
+  const SubjectChoice ada = NewSubject{"Ada"};
   long points = 0;
   for (long point = 0;; point += step) {
     const TemporaryFolder folder;
     const auto dir = folder / "store";
+    const auto out = dir / "out";
     int acknowledged = 0;
     g_for_good = for_good;
     g_failed = 0;
     g_left = point;
-    const auto lived = live(dir, model, acknowledged);
+    const auto lived = live(dir, out, enrolment, ada, acknowledged);
     g_left = -1;
     if (g_failed == 0) {
       EXPECT_TRUE(lived);
