@@ -104,8 +104,8 @@ TEST_F(BadInput, ACalibrationThatIsNone) {
 
 TEST_F(BadInput, ACalibrationWithImpossibleNumbers) {
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"480", "-480"}, {"480", ".Nan"}, {"480", "1e300"}, {"-100", "0"}, {"-100", "-1e9"},
-           {"image_width: 320", "image_width: 0"}, {"image_width: 320", "image_width: -320"}}) {
+           {"4.8000000000000000e+02", "-480."}, {"4.8000000000000000e+02", ".Nan"}, {"4.8000000000000000e+02", "1e300"},
+           {"-1.0000000000000000e+02", "0."}, {"-1.0000000000000000e+02", "-1e9"}, {"image_width: 320", "image_width: 0"}, {"image_width: 320", "image_width: -320"}}) {
     edit_rig(from, to);
     reconstruct_refused("left.png", "right.png", "bad.yml", "", "bad.yml");
   }
