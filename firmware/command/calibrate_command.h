@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// relievo calibrate DIR --corners 10x7 --square-mm 20 -o rig.yml [--report DIR]
+//
+// Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
+// rig.yml and, where asked for, a folder with report.json and pictures to look at. One line a pair
+// and the reasons of the verdict go to `out`. Nothing half-written stays; a calibration that is
+// refused is not written, its report is.
+// Errors: NotFound (folder, pictures), InvalidInput (a name without its partner, pictures of
+// different sizes, no board in any pair), PoorGeometry (too few pairs, refused), the files' own.
+// args.store is the caller's business: the calibration comes back. Thread: main.
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "firmware/command/command_line.h"
+#include "hal/base/result.h"
+#include "pipeline/calibrate/calibrator.h"
+
+namespace relievo::firmware {
+
+struct PicturePairFiles {
+  std::string name;  // what follows left and right, without _ or - before it
+  Path left;
+  Path right;
+};
+
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder);
+
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out);
+
+}  // namespace relievo::firmware
