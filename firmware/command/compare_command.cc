@@ -7,6 +7,7 @@
 #include "firmware/command/output_folder.h"
 #include "firmware/command/reconstruction.h"
 #include "firmware/command/watched_job.h"
+#include "firmware/measure/true_surface.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -14,10 +15,11 @@ namespace {
 
 class MeasureJob final : public Job {
  public:
-  MeasureJob(const pipeline::FaceMesh& mesh, const measure::TruthView& truth) : mesh_(mesh), truth_(truth) {}
+  MeasureJob(const pipeline::FaceMesh& mesh, const measure::TruthView& truth, const measure::Surface& head)
+      : mesh_(mesh), truth_(truth), head_(head) {}
   const measure::Measurement& measurement() const { return measurement_; }
   Result<void> run(JobControl& control) override {
-    measurement_ = measure::measure(mesh_, truth_);
+    measurement_ = measure::measure(mesh_, truth_, head_);
     if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
     return {};
   }
@@ -25,6 +27,7 @@ class MeasureJob final : public Job {
  private:
   const pipeline::FaceMesh& mesh_;
   const measure::TruthView& truth_;
+  const measure::Surface& head_;
   measure::Measurement measurement_;
 };
 
@@ -32,9 +35,10 @@ class MeasureJob final : public Job {
 
 Result<void> run_compare(const CompareArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto truth, measure::TruthView::read(args.truth));
+  RELIEVO_TRY_ASSIGN(const auto head, measure::read_true_surface(args.truth / "head.ply"));
   Reconstruction reconstruction;
   RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console));
-  MeasureJob job(reconstruction.model().mesh, truth);
+  MeasureJob job(reconstruction.model().mesh, truth, head);
   RELIEVO_TRY(run_watched(job, services.console, [] { return "Measure"; }));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));

@@ -113,7 +113,7 @@ void measure_sigma(const pipeline::FaceMesh& mesh, const Surface& moved, const T
 
 }  // namespace
 
-Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth) {
+Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth, const Surface& true_head) {
   Measurement m;
   Surface model = measured_part(mesh);
   const std::vector<Vec3d> asked = truth.judged_points(50'000);
@@ -131,8 +131,7 @@ Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth) {
     m.moved_mm = fit.moved_mm;
     m.turned_deg = fit.turned_deg;
   }
-  const Surface visible = truth.surface();
-  const TriangleGrid true_surface(visible);
+  const TriangleGrid true_surface(true_head);
   measure_surface(model, truth, true_surface, m);
   measure_sigma(mesh, model, truth, true_surface, m);
   const TriangleGrid model_surface(model);

@@ -5,7 +5,7 @@
 //   accuracy  from points spread evenly over the model's measured surface, where it is judged face
 //   interior  the same, where the whole 23 pixel window around is judged face
 //   complete  share of the judged true face with model surface within the distance
-//   outliers  share of the model's measured surface further than 3 mm from anything true
+//   outliers  share of the model's measured surface further than 3 mm from the true head
 //   sigma     share of vertices whose error is within one, and 1.96, of their own sigma_mm: honest
 //             models say 0.68 and 0.95
 // The model is first moved rigidly onto the truth (its calibration is an estimate); never scaled.
@@ -30,6 +30,6 @@ struct Measurement {
   double moved_mm = 0, turned_deg = 0;
 };
 
-Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth);
+Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth, const Surface& true_surface);
 
 }  // namespace relievo::firmware::measure

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kNoseRadiusMm = 95;      // the crop of 3D face recognition
 constexpr int kInteriorHalfWindowPx = 11;
-constexpr float kTearMm = 2;              // neighbouring pixels further apart are two surfaces
 
 // Brown-Conrady, as pipeline/model/calibration.h names it.
 Vec3d bent(const double d[5], double x, double y) {
@@ -134,28 +133,6 @@ std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {
     }
   }
   return points;
-}
-
-Surface TruthView::surface() const {
-  Surface surface;
-  surface.vertices_mm = points_mm_;
-  const auto whole = [&](std::size_t a, std::size_t b, std::size_t c) {
-    const float za = points_mm_[a].z;
-    const float zb = points_mm_[b].z;
-    const float zc = points_mm_[c].z;
-    return std::max({za, zb, zc}) - std::min({za, zb, zc}) < kTearMm && za > 0 && zb > 0 && zc > 0;
-  };
-  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-    if (!whole(a, b, c)) return;
-    surface.triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
-  };
-  for (int y = 0; y + 1 < height_px_; ++y) {
-    for (int x = 0; x + 1 < width_px_; ++x) {
-      add(at(x, y), at(x, y + 1), at(x + 1, y));
-      add(at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-    }
-  }
-  return surface;
 }
 
 }  // namespace relievo::firmware::measure

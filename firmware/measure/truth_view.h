@@ -33,8 +33,6 @@ class TruthView {
   std::uint8_t flags_at(const Vec3d& point_mm) const;
   // Points of the judged face, about `count` of them, evenly over the picture.
   std::vector<Vec3d> judged_points(std::size_t count) const;
-  // The visible surface as triangles between neighbouring pixels; torn where the depth jumps.
-  Surface surface() const;
 
  private:
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(x); }

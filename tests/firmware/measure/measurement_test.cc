@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "firmware/measure/rigid_fit.h"
+#include "firmware/measure/true_surface.h"
 #include "pipeline/calibrate/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -149,17 +150,17 @@ TEST(Measurement, APerfectModelIsPerfectAndAKnownErrorIsFound) {
   const auto truth = TruthView::read(folder.path());
   ASSERT_TRUE(truth);
   const Surface s = bumps(1);
-  const Measurement perfect = measure(mesh_of(s, 0, 0.01F), *truth);
+  const Measurement perfect = measure(mesh_of(s, 0, 0.01F), *truth, bumps(1));
   EXPECT_LT(perfect.interior_median_mm, 0.002);
   EXPECT_LT(perfect.accuracy_p95_mm, 0.01);
   EXPECT_GT(perfect.complete_quarter_mm, 0.98);
-  EXPECT_LT(perfect.outliers_3mm, 1e-3);  // at the corner the bumps are torn
-  const Measurement rough = measure(mesh_of(s, 0.3, 0.31F), *truth);
+  EXPECT_EQ(perfect.outliers_3mm, 0);
+  const Measurement rough = measure(mesh_of(s, 0.3, 0.31F), *truth, bumps(1));
   EXPECT_GT(rough.interior_median_mm, 0.06);
   EXPECT_LT(rough.moved_mm, 0.05);
   EXPECT_LT(rough.interior_median_mm, 0.3);
   EXPECT_GT(rough.within_sigma, 0.95);
-  EXPECT_LT(measure(mesh_of(s, 0.3, 0.03F), *truth).within_sigma, 0.35);
+  EXPECT_LT(measure(mesh_of(s, 0.3, 0.03F), *truth, bumps(1)).within_sigma, 0.35);
 }
 
 TEST(Measurement, HalfAModelIsHalfComplete) {
@@ -169,9 +170,26 @@ TEST(Measurement, HalfAModelIsHalfComplete) {
   ASSERT_TRUE(truth);
   Surface s = bumps(1);
   std::erase_if(s.triangles, [&](const auto& t) { return s.vertices_mm[t[0]].x > 0; });
-  const Measurement half = measure(mesh_of(s, 0, 0.01F), *truth);
+  const Measurement half = measure(mesh_of(s, 0, 0.01F), *truth, bumps(1));
   EXPECT_NEAR(half.complete_half_mm, 0.5, 0.06);
   EXPECT_LT(half.accuracy_p95_mm, 0.01);
+}
+
+TEST(TrueSurface, ReadsOneFormOfPlyAndNothingElse) {
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 5};
+  text.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  text.append("\x03\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+  const auto surface = parse_true_surface(text);
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->vertices_mm[2].z, 5);
+  EXPECT_EQ(surface->triangles[0][2], 2U);
+  for (std::size_t length = 0; length < text.size(); ++length) EXPECT_FALSE(parse_true_surface(text.substr(0, length)));
+  EXPECT_FALSE(parse_true_surface(text + "x"));
+  text[text.size() - 4] = '\x03';  // a corner that is not there
+  EXPECT_FALSE(parse_true_surface(text));
 }
 
 TEST(TruthView, RefusesWhatIsNone) {
