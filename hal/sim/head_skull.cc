@@ -65,7 +65,7 @@ double SkullForm::distance(Vec3 p) const {
   const Vec3 cranium{0, 40, 106 - half_length};
   double d = ellipsoid(p - cranium, {t_.head_breadth / 2 - 0.5, 80, half_length - 1});
   if (p.y < 112) d = join(d, loft(p), 16);
-  if (p.y < -20) d = join(d, neck(p), 30);
+  if (p.y < -20) d = join(d, neck(p), mix(30, 46, smoothstep(35, 0, p.z)));   // softest below the ear
   return d;
 }
 
