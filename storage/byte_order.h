@@ -34,7 +34,12 @@ class ByteWriter {
     std::memcpy(raw, &value, sizeof(T));
     put_element(raw, sizeof(T));
   }
-  void put(std::span<const std::byte> bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
+  void put(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;
+    const std::size_t at = out_.size();
+    out_.resize(at + bytes.size());
+    std::memcpy(out_.data() + at, bytes.data(), bytes.size());
+  }
 
   template <typename Element, RunOf<Element> Item>
   void put_run(std::span<const Item> items) {

@@ -24,7 +24,8 @@ constexpr std::size_t kRecordBytes = 8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 8 +
 constexpr int kMaxSidePx = 65'536;
 
 void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
-  for (const double v : {camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y}) to.put(v);
+  for (const double v : {camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y})
+    to.put(v);
   for (const double v : camera.distortion) to.put(v);
   to.put(static_cast<std::int32_t>(camera.width_px));
   to.put(static_cast<std::int32_t>(camera.height_px));
@@ -43,10 +44,10 @@ CameraIntrinsics get_camera(ByteReader& from) {
 
 bool usable(const CameraIntrinsics& camera) {
   const auto finite = [](double v) { return std::isfinite(v); };
-  return finite(camera.focal_px.x) && finite(camera.focal_px.y) && camera.focal_px.x > 0 && camera.focal_px.y > 0 &&
-         finite(camera.centre_px.x) && finite(camera.centre_px.y) && std::ranges::all_of(camera.distortion, finite) &&
-         camera.width_px > 0 && camera.width_px <= kMaxSidePx && camera.height_px > 0 &&
-         camera.height_px <= kMaxSidePx;
+  return finite(camera.focal_px.x) && finite(camera.focal_px.y) && camera.focal_px.x > 0 &&
+         camera.focal_px.y > 0 && finite(camera.centre_px.x) && finite(camera.centre_px.y) &&
+         std::ranges::all_of(camera.distortion, finite) && camera.width_px > 0 &&
+         camera.width_px <= kMaxSidePx && camera.height_px > 0 && camera.height_px <= kMaxSidePx;
 }
 
 // R R^T = 1 and no mirror, as far as a calibration file with six decimals can say so.
@@ -54,7 +55,8 @@ bool is_rotation(const pipeline::Rotation& r) {
   constexpr double kTolerance = 1e-4;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      const double dot = r.m[3 * i] * r.m[3 * j] + r.m[3 * i + 1] * r.m[3 * j + 1] + r.m[3 * i + 2] * r.m[3 * j + 2];
+      const double dot =
+          r.m[3 * i] * r.m[3 * j] + r.m[3 * i + 1] * r.m[3 * j + 1] + r.m[3 * i + 2] * r.m[3 * j + 2];
       if (!(std::abs(dot - (i == j ? 1 : 0)) < kTolerance)) return false;
     }
   }
@@ -67,12 +69,14 @@ bool is_rotation(const pipeline::Rotation& r) {
 }  // namespace
 
 Result<void> check_calibration(const StereoCalibration& calibration) {
-  if (!usable(calibration.left)) return Error{Errc::InvalidInput, "the left camera's calibration cannot be right"};
-  if (!usable(calibration.right)) return Error{Errc::InvalidInput, "the right camera's calibration cannot be right"};
+  if (!usable(calibration.left))
+    return Error{Errc::InvalidInput, "the left camera's calibration cannot be right"};
+  if (!usable(calibration.right))
+    return Error{Errc::InvalidInput, "the right camera's calibration cannot be right"};
   const auto& t = calibration.right_from_left.translation_mm;
   const double baseline_mm = std::hypot(t.x, t.y, t.z);
-  if (!is_rotation(calibration.right_from_left.rotation) || !std::isfinite(baseline_mm) || !(baseline_mm > 0) ||
-      !std::isfinite(calibration.rms_px) || calibration.rms_px < 0) {
+  if (!is_rotation(calibration.right_from_left.rotation) || !std::isfinite(baseline_mm) ||
+      !(baseline_mm > 0) || !std::isfinite(calibration.rms_px) || calibration.rms_px < 0) {
     return Error{Errc::InvalidInput, "the position of the right camera to the left one cannot be right"};
   }
   return {};
@@ -90,7 +94,7 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration) 
   for (const double v : calibration.right_from_left.rotation.m) to.put(v);
   const auto& t = calibration.right_from_left.translation_mm;
   for (const double v : {t.x, t.y, t.z, calibration.rms_px}) to.put(v);
-  const Sha256 digest = sha256(out);  // before out grows
+  const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
 }
@@ -105,7 +109,8 @@ Result<StereoCalibration> decode_calibration(std::span<const std::byte> bytes) {
   }
   if (bytes.size() != kRecordBytes ||
       !std::ranges::equal(sha256(bytes.first(kRecordBytes - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
-    return Error{Errc::StoreCorrupt, "a stored calibration is damaged: calibrate again, or activate an earlier one"};
+    return Error{Errc::StoreCorrupt,
+                 "a stored calibration is damaged: calibrate again, or activate an earlier one"};
   }
   StereoCalibration calibration;
   calibration.revision = from.get<std::uint32_t>();

@@ -20,10 +20,13 @@ constexpr std::string_view kMagic{"RFACE\0", 6};
 constexpr std::uint16_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 6 + 2 + 5 * 4;
 constexpr std::size_t kNumbersBytes = (12 + 7) * 8;
-constexpr double ModelQuality::*kQuality[] = {
-    &ModelQuality::median_sigma_mm, &ModelQuality::measured_area_mm2, &ModelQuality::coverage,
-    &ModelQuality::width_mm,        &ModelQuality::height_mm,         &ModelQuality::nose_relief_mm,
-    &ModelQuality::epipolar_residual_px};
+constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
+                                              &ModelQuality::measured_area_mm2,
+                                              &ModelQuality::coverage,
+                                              &ModelQuality::width_mm,
+                                              &ModelQuality::height_mm,
+                                              &ModelQuality::nose_relief_mm,
+                                              &ModelQuality::epipolar_residual_px};
 
 // What the header says; everything else follows from it.
 struct Shape {
@@ -36,8 +39,8 @@ struct Shape {
 
   bool within_limits() const {
     return vertices <= kMaxModelVertices && triangles <= kMaxModelTriangles &&
-           width_px <= kMaxTextureSidePx && height_px <= kMaxTextureSidePx && (flags & ~std::uint32_t{All}) == 0 &&
-           (width_px == 0) == (height_px == 0);
+           width_px <= kMaxTextureSidePx && height_px <= kMaxTextureSidePx &&
+           (flags & ~std::uint32_t{All}) == 0 && (width_px == 0) == (height_px == 0);
   }
   // Cannot overflow within the limits: at most 0.9 GB.
   std::size_t total_bytes() const {
@@ -80,7 +83,8 @@ Result<Shape> shape_of(const FaceModel& model) {
   if (!lengths_fit || texture.rgb.size() != std::size_t{shape.width_px} * shape.height_px * 3) {
     return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
   }
-  if (!indices_fit(mesh)) return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
+  if (!indices_fit(mesh))
+    return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
   return shape;
 }
 
@@ -113,8 +117,7 @@ void get_all(ByteReader& from, std::pmr::vector<Item>& items, std::size_t count)
 
 Result<Shape> read_header(std::span<const std::byte> bytes) {
   constexpr Literal kNoModel = "these bytes are no stored face model, or are damaged";
-  if (bytes.size() < kHeaderBytes ||
-      !std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic))) {
+  if (bytes.size() < kHeaderBytes || !std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic))) {
     return Error{Errc::StoreCorrupt, kNoModel};
   }
   ByteReader from(bytes.subspan(kMagic.size()));
@@ -125,7 +128,8 @@ Result<Shape> read_header(std::span<const std::byte> bytes) {
   for (auto* field : {&shape.vertices, &shape.triangles, &shape.width_px, &shape.height_px, &shape.flags}) {
     *field = from.get<std::uint32_t>();
   }
-  if (!shape.within_limits() || shape.total_bytes() != bytes.size()) return Error{Errc::StoreCorrupt, kNoModel};
+  if (!shape.within_limits() || shape.total_bytes() != bytes.size())
+    return Error{Errc::StoreCorrupt, kNoModel};
   return shape;
 }
 
@@ -138,7 +142,8 @@ Result<std::vector<std::byte>> encode_model(const FaceModel& model) {
   ByteWriter to(out);
   to.put(bytes_of(kMagic));
   to.put(kVersion);
-  for (const auto field : {shape.vertices, shape.triangles, shape.width_px, shape.height_px, shape.flags}) to.put(field);
+  for (const auto field : {shape.vertices, shape.triangles, shape.width_px, shape.height_px, shape.flags})
+    to.put(field);
   put_numbers(to, model);
   put_all<float>(to, model.mesh.vertices_mm);
   put_all<float>(to, model.mesh.normals);

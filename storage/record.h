@@ -38,16 +38,16 @@ struct Subject {
 };
 
 struct SubjectFilter {
-  std::string name{};               // empty: everyone
-  bool whole_name = false;          // false: `name` anywhere in the name, ASCII letters in either case
-  std::int64_t skip = 0;            // for paging; the newest come first
+  std::string name{};       // empty: everyone
+  bool whole_name = false;  // false: `name` anywhere in the name, ASCII letters in either case
+  std::int64_t skip = 0;    // for paging; the newest come first
   std::int64_t limit = 1000;
 };
 
 // What a person agreed to, when, and to which wording.
 struct Consent {
-  std::string wording;              // version of the text that was shown, as "2026-03"
-  std::string language;             // as "en"
+  std::string wording;   // version of the text that was shown, as "2026-03"
+  std::string language;  // as "en"
   WallTime given_at;
 };
 
@@ -74,7 +74,7 @@ struct Enrolment {
 struct CalibrationInfo {
   std::uint32_t revision = 0;
   WallTime created_at;
-  std::string note;                 // where it came from, as a person would say it
+  std::string note;  // where it came from, as a person would say it
   double rms_px = 0;
   int width_px = 0;
   int height_px = 0;
@@ -83,13 +83,13 @@ struct CalibrationInfo {
 
 // Nobody's name goes into the audit log: `subject` is a number that means nothing after an erasure.
 struct AuditEvent {
-  std::string what;                 // as "subject.erased"
-  SubjectId subject{};              // 0: nobody's
+  std::string what;     // as "subject.erased"
+  SubjectId subject{};  // 0: nobody's
   std::string detail;
 };
 
 struct AuditRecord {
-  std::int64_t number = 0;          // 1, 2, 3 ... without a gap
+  std::int64_t number = 0;  // 1, 2, 3 ... without a gap
   WallTime at;
   AuditEvent event;
 };

@@ -41,24 +41,22 @@ class Store {
   virtual Result<void> erase_subject(SubjectId id) = 0;
 
   // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.
-  virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject,
-                                            const NewEnrolment& enrolment) = 0;
+  virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) = 0;
   virtual Result<std::vector<Enrolment>> enrolments(SubjectId subject) = 0;  // oldest first
   virtual Result<Enrolment> enrolment(EnrolmentId id) = 0;                   // NotFound
   // The model, bit for bit as it was stored, in `memory`. NotFound.
-  virtual Result<pipeline::FaceModel> load_model(EnrolmentId id,
-                                                 std::pmr::memory_resource* memory) = 0;
+  virtual Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) = 0;
 
   // Stores a calibration under the next revision, which it returns, and makes it the active one.
   // InvalidInput: not finite, or without a focal length or a size.
   virtual Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
                                                  std::string_view note) = 0;
-  virtual Result<std::vector<CalibrationInfo>> calibrations() = 0;                     // newest first
-  virtual Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) = 0; // NotFound
-  virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                // NotCalibrated
-  virtual Result<void> activate_calibration(std::uint32_t revision) = 0;               // NotFound
+  virtual Result<std::vector<CalibrationInfo>> calibrations() = 0;                      // newest first
+  virtual Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) = 0;  // NotFound
+  virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                 // NotCalibrated
+  virtual Result<void> activate_calibration(std::uint32_t revision) = 0;                // NotFound
 
-  virtual Result<std::string> setting(std::string_view key) = 0;                       // NotFound
+  virtual Result<std::string> setting(std::string_view key) = 0;  // NotFound
   virtual Result<void> set_setting(std::string_view key, std::string_view value) = 0;
 
   virtual Result<void> append_audit(const AuditEvent& event) = 0;

@@ -21,7 +21,8 @@ std::size_t character_bytes(std::string_view text) {
     return in(byte(1), first == 0xE0 ? 0xA0 : 0x80, first == 0xED ? 0x9F : 0xBF) && tail(2) ? 3 : 0;
   }
   if (in(first, 0xF0, 0xF4)) {
-    return in(byte(1), first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF) && tail(2) && tail(3) ? 4 : 0;
+    return in(byte(1), first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF) && tail(2) && tail(3) ? 4
+                                                                                                       : 0;
   }
   return 0;
 }

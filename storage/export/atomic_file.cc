@@ -25,14 +25,17 @@ Error failed(const fs::path& file, int cause) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return made(Errc::IoFailed, "not written, this place may not be written to: choose another, or change its permissions");
+      return made(Errc::IoFailed,
+                  "not written, this place may not be written to: choose another, or change its permissions");
     case ENOENT:
     case ENOTDIR:
       return made(Errc::IoFailed, "not written, there is no such directory: check the path");
     case EISDIR:
-      return made(Errc::IoFailed, "not written, a directory has this name: remove it or choose another place");
+      return made(Errc::IoFailed,
+                  "not written, a directory has this name: remove it or choose another place");
     default:
-      return made(Errc::IoFailed, "not written, the disk failed: check it, and write to another if this happens again");
+      return made(Errc::IoFailed,
+                  "not written, the disk failed: check it, and write to another if this happens again");
   }
 }
 

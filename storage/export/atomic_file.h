@@ -21,7 +21,9 @@ class PendingFile {
   static Result<PendingFile> create(const std::filesystem::path& target);
   ~PendingFile();  // an unpublished file is removed
   PendingFile(PendingFile&& other) noexcept
-      : target_(std::move(other.target_)), temporary_(std::move(other.temporary_)), fd_(std::exchange(other.fd_, -1)) {
+      : target_(std::move(other.target_)),
+        temporary_(std::move(other.temporary_)),
+        fd_(std::exchange(other.fd_, -1)) {
     other.temporary_.clear();
   }
   PendingFile& operator=(PendingFile&&) = delete;

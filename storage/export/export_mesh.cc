@@ -13,7 +13,9 @@ using pipeline::Vec3d;
 using pipeline::Vec3f;
 
 Vec3d wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
-Vec3f narrow(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vec3f narrow(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Lengths and numbers; what a writer below relies on.
@@ -22,11 +24,12 @@ Result<void> check(const FaceModel& model) {
   const auto& texture = model.texture;
   const std::size_t v = mesh.vertices_mm.size();
   const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
-  const bool texture_fits =
-      texture.width_px >= 0 && texture.height_px >= 0 &&
-      texture.rgb.size() == static_cast<std::size_t>(texture.width_px) * static_cast<std::size_t>(texture.height_px) * 3 &&
-      fits(texture.uv.size(), mesh.triangles.size() * 3) && (texture.uv.empty() || !texture.rgb.empty()) &&
-      fits(texture.vertex_rgb.size(), v * 3);
+  const bool texture_fits = texture.width_px >= 0 && texture.height_px >= 0 &&
+                            texture.rgb.size() == static_cast<std::size_t>(texture.width_px) *
+                                                      static_cast<std::size_t>(texture.height_px) * 3 &&
+                            fits(texture.uv.size(), mesh.triangles.size() * 3) &&
+                            (texture.uv.empty() || !texture.rgb.empty()) &&
+                            fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
   if (v > 0x7fffffff || !fits(mesh.normals.size(), v) || !fits(mesh.sigma_mm.size(), v) ||
       !fits(mesh.measured.size(), v) || !texture_fits) {
@@ -35,9 +38,11 @@ Result<void> check(const FaceModel& model) {
   const bool indices_fit = std::ranges::all_of(mesh.triangles, [v](const auto& triangle) {
     return std::ranges::all_of(triangle, [v](std::uint32_t i) { return i < v; });
   });
-  if (!indices_fit) return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
-  if (!std::ranges::all_of(mesh.vertices_mm, finite) ||
-      !std::ranges::all_of(texture.uv, [](const auto& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); })) {
+  if (!indices_fit)
+    return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
+  if (!std::ranges::all_of(mesh.vertices_mm, finite) || !std::ranges::all_of(texture.uv, [](const auto& uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y);
+      })) {
     return Error{Errc::InvalidInput, "the model has vertices that are nowhere"};
   }
   return {};
@@ -51,7 +56,8 @@ std::vector<Vec3d> normals_of(const pipeline::FaceMesh& mesh) {
     return normals;
   }
   for (const auto& t : mesh.triangles) {
-    const Vec3d a = wide(mesh.vertices_mm[t[0]]), b = wide(mesh.vertices_mm[t[1]]), c = wide(mesh.vertices_mm[t[2]]);
+    const Vec3d a = wide(mesh.vertices_mm[t[0]]), b = wide(mesh.vertices_mm[t[1]]),
+                c = wide(mesh.vertices_mm[t[2]]);
     const Vec3d u{b.x - a.x, b.y - a.y, b.z - a.z}, w{c.x - a.x, c.y - a.y, c.z - a.z};
     const Vec3d n{u.y * w.z - u.z * w.y, u.z * w.x - u.x * w.z, u.x * w.y - u.y * w.x};
     for (const std::uint32_t i : t) normals[i] = {normals[i].x + n.x, normals[i].y + n.y, normals[i].z + n.z};
@@ -81,8 +87,10 @@ Result<ExportMesh> make_export_mesh(const FaceModel& model, ExportFrame frame) {
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3f& at = model.mesh.vertices_mm[i];
     mesh.vertices_mm.push_back(head ? narrow(apply(model.head_from_camera, wide(at))) : at);
-    mesh.normals.push_back(unit(head ? apply(model.head_from_camera.rotation, normals[i]) : normals[i], out_of_the_face));
-    const std::uint8_t* rgb = model.texture.vertex_rgb.empty() ? nullptr : model.texture.vertex_rgb.data() + 3 * i;
+    mesh.normals.push_back(
+        unit(head ? apply(model.head_from_camera.rotation, normals[i]) : normals[i], out_of_the_face));
+    const std::uint8_t* rgb =
+        model.texture.vertex_rgb.empty() ? nullptr : model.texture.vertex_rgb.data() + 3 * i;
     mesh.colours.push_back(rgb == nullptr ? std::array<std::uint8_t, 3>{255, 255, 255}
                                           : std::array<std::uint8_t, 3>{rgb[0], rgb[1], rgb[2]});
   }

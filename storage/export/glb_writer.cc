@@ -26,7 +26,8 @@ class Buffer {
   int add_view(std::span<const std::byte> bytes, Target target) {
     data_.resize((data_.size() + 3) / 4 * 4);
     views_ += views_.empty() ? "" : ",";
-    views_ += "{\"buffer\":0,\"byteOffset\":" + number_text(data_.size()) + ",\"byteLength\":" + number_text(bytes.size());
+    views_ += "{\"buffer\":0,\"byteOffset\":" + number_text(data_.size()) +
+              ",\"byteLength\":" + number_text(bytes.size());
     if (target != kNoTarget) views_ += ",\"target\":" + number_text(static_cast<int>(target));
     views_ += "}";
     data_.insert(data_.end(), bytes.begin(), bytes.end());
@@ -42,8 +43,9 @@ class Buffer {
     const int view = add_view(bytes, target);
     constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
     accessors_ += accessors_.empty() ? "" : ",";
-    accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(static_cast<int>(type)) +
-                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" + kNames[components] + "\"";
+    accessors_ +=
+        "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(static_cast<int>(type)) +
+        ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" + kNames[components] + "\"";
     return accessor_count_++;
   }
   int add_floats(const std::vector<float>& values, std::size_t components) {
@@ -75,8 +77,8 @@ class Buffer {
 
   const std::vector<std::byte>& data() const { return data_; }
   std::string json() const {
-    return "\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ + "],\"buffers\":[{\"byteLength\":" +
-           number_text(data_.size()) + "}]";
+    return "\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ +
+           "],\"buffers\":[{\"byteLength\":" + number_text(data_.size()) + "}]";
   }
 
  private:
@@ -111,7 +113,8 @@ Arrays arrays_of(const ExportMesh& mesh, const SeamSplit& split) {
     } else {
       for (const std::uint8_t c : mesh.colours[vertex]) out.colours.push_back(linear(c));
     }
-    if (!source.sigma_mm.empty()) out.sigmas.push_back(std::isfinite(source.sigma_mm[vertex]) ? source.sigma_mm[vertex] : 0.0f);
+    if (!source.sigma_mm.empty())
+      out.sigmas.push_back(std::isfinite(source.sigma_mm[vertex]) ? source.sigma_mm[vertex] : 0.0f);
     if (!source.measured.empty()) out.measured.push_back(source.measured[vertex] != 0 ? 1.0f : 0.0f);
   }
   return out;
@@ -123,7 +126,8 @@ std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
   const Arrays arrays = arrays_of(mesh, split);
   std::string attributes = "\"POSITION\":" + number_text(to.add_positions(arrays.positions));
   const auto add = [&](const char* name, const std::vector<float>& values, std::size_t components) {
-    if (!values.empty()) attributes += std::string(",\"") + name + "\":" + number_text(to.add_floats(values, components));
+    if (!values.empty())
+      attributes += std::string(",\"") + name + "\":" + number_text(to.add_floats(values, components));
   };
   add("NORMAL", arrays.normals, 3);
   add("TEXCOORD_0", arrays.uvs, 2);
@@ -132,7 +136,8 @@ std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
   add("_MEASURED", arrays.measured, 1);
   std::vector<std::uint32_t> indices;
   indices.reserve(split.triangles.size() * 3);
-  for (const auto& triangle : split.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+  for (const auto& triangle : split.triangles)
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
   return "\"meshes\":[{\"name\":\"face\",\"primitives\":[{\"attributes\":{" + attributes +
          "},\"indices\":" + number_text(to.add_indices(indices)) + ",\"material\":0,\"mode\":4}]}],";
 }
@@ -152,7 +157,9 @@ std::string add_material(Buffer& to, std::span<const std::byte> png) {
 }
 
 std::string about(const ExportMesh& mesh) {
-  return std::string("\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo\",\"extras\":{\"units\":\"metres\",\"frame\":\"") +
+  return std::string(
+             "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo\",\"extras\":{\"units\":\"metres\","
+             "\"frame\":\"") +
          (mesh.frame == ExportFrame::Head
               ? "head: origin at the tip of the nose, x to the person's left, y up, z out of the face"
               : "camera: origin at the left camera, x right, y up, z towards the camera") +

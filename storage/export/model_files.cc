@@ -25,7 +25,8 @@ Result<void> make_directory(const fs::path& dir) {
   if (fs::is_directory(dir, failed)) return {};
   const bool full = failed.value() == ENOSPC || failed.value() == EDQUOT;
   return Error{full ? Errc::MediaFull : Errc::IoFailed,
-               "this directory cannot be made: check the path, its permissions and the room on the disk", failed.value()}
+               "this directory cannot be made: check the path, its permissions and the room on the disk",
+               failed.value()}
       .at(dir.string());
 }
 
@@ -55,7 +56,8 @@ class Batch {
   std::vector<PendingFile> files_;
 };
 
-Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir, ExportFrame frame) {
+Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
+                                        ExportFrame frame) {
   RELIEVO_TRY_ASSIGN(const ExportMesh mesh, make_export_mesh(model, frame));
   RELIEVO_TRY(make_directory(dir));
   Batch batch(dir);

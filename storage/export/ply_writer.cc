@@ -15,11 +15,14 @@ constexpr std::size_t kFaceBytes = 1 + 3 * 4;
 std::string header(const ExportMesh& mesh) {
   const bool head = mesh.frame == ExportFrame::Head;
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment Relievo face model, millimetres\n";
-  text += head ? "comment frame head: origin at the tip of the nose, x to the person's left, y up, z out of the face\n"
+  text += head ? "comment frame head: origin at the tip of the nose, x to the person's left, y up, z out of "
+                 "the face\n"
                : "comment frame camera: the left camera, x right, y down, z forward\n";
   text += "element vertex " + std::to_string(mesh.vertices_mm.size()) + "\n";
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "sigma_mm"}) text += std::string("property float ") + name + "\n";
-  for (const char* name : {"red", "green", "blue", "measured"}) text += std::string("property uchar ") + name + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "sigma_mm"})
+    text += std::string("property float ") + name + "\n";
+  for (const char* name : {"red", "green", "blue", "measured"})
+    text += std::string("property uchar ") + name + "\n";
   text += "element face " + std::to_string(mesh.model.mesh.triangles.size()) + "\n";
   return text + "property list uchar int vertex_indices\nend_header\n";
 }

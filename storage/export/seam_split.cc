@@ -24,7 +24,8 @@ SeamSplit split_at_seams(const ExportMesh& mesh) {
       const std::uint32_t vertex = triangles[t][c];
       const pipeline::Vec2f uv = mesh.textured() ? uvs[3 * t + c] : pipeline::Vec2f{};
       std::uint32_t entry = first[vertex];
-      while (entry != kNone && !(std::bit_cast<std::uint64_t>(split.entries[entry].uv) == std::bit_cast<std::uint64_t>(uv))) {
+      while (entry != kNone &&
+             !(std::bit_cast<std::uint64_t>(split.entries[entry].uv) == std::bit_cast<std::uint64_t>(uv))) {
         entry = next[entry];
       }
       if (entry == kNone) {

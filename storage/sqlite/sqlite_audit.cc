@@ -63,8 +63,9 @@ Result<void> append_audit_line(Database& database, const AuditEvent& event, Wall
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   const Line line{end.number + 1, to_ms(at), number(event.subject), event.what, event.detail};
   const Sha256 hash = chained(end.hash, line);
-  RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) "
-                                                   "VALUES (?, ?, ?, ?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(auto insert,
+                     database.prepare("INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) "
+                                      "VALUES (?, ?, ?, ?, ?, ?)"));
   insert.bind(line.number).bind(line.at_ms).bind(line.what).bind(line.subject).bind(line.detail).bind(hash);
   RELIEVO_TRY(insert.run());
   RELIEVO_TRY_ASSIGN(auto move, database.prepare("UPDATE audit_end SET number = ?, hash = ?"));
@@ -94,15 +95,18 @@ Result<void> SqliteStore::append_audit(const AuditEvent& event) {
 
 Result<std::vector<AuditRecord>> SqliteStore::audit(std::int64_t after_number, std::int64_t limit) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<AuditRecord>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT number, at_ms, what, subject_id, detail FROM audit "
-                                                      "WHERE number > ? ORDER BY number LIMIT ?"));
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare("SELECT number, at_ms, what, subject_id, detail FROM audit "
+                                          "WHERE number > ? ORDER BY number LIMIT ?"));
     query.bind(after_number).bind(limit);
     std::vector<AuditRecord> records;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return records;
-      records.push_back({query.integer(0), from_ms(query.integer(1)),
-                         {std::string(query.text(2)), SubjectId{query.integer(3)}, std::string(query.text(4))}});
+      records.push_back(
+          {query.integer(0),
+           from_ms(query.integer(1)),
+           {std::string(query.text(2)), SubjectId{query.integer(3)}, std::string(query.text(4))}});
     }
   });
 }

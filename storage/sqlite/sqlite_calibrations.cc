@@ -19,10 +19,12 @@ Result<void> SqliteStore::make_active(std::uint32_t revision) {
 Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
                                                     std::string_view note) {
   RELIEVO_TRY(check_calibration(calibration));
-  if (note.size() > kMaxTextBytes) return Error{Errc::InvalidInput, "the note is longer than the store takes"};
+  if (note.size() > kMaxTextBytes)
+    return Error{Errc::InvalidInput, "the note is longer than the store takes"};
   return change([&](WallTime at) -> Result<std::uint32_t> {
-    RELIEVO_TRY_ASSIGN(auto insert, database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
-                                                       "VALUES (?, ?, zeroblob(0), 0)"));
+    RELIEVO_TRY_ASSIGN(auto insert,
+                       database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
+                                          "VALUES (?, ?, zeroblob(0), 0)"));
     RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
     pipeline::StereoCalibration numbered = calibration;
     numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
@@ -30,7 +32,8 @@ Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibr
     RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
     RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
     RELIEVO_TRY(make_active(numbered.revision));
-    RELIEVO_TRY(append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+    RELIEVO_TRY(
+        append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
     return numbered.revision;
   });
 }
@@ -70,7 +73,8 @@ Result<pipeline::StereoCalibration> record_in(const Statement& query) {
 
 Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revision) {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?"));
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?"));
     RELIEVO_TRY_ASSIGN(const bool row, query.bind(std::int64_t{revision}).step());
     if (!row) return not_found("there is no calibration of this revision", revision);
     return record_in(query);
@@ -79,9 +83,12 @@ Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revis
 
 Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, record FROM calibration WHERE active = 1"));
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare("SELECT revision, record FROM calibration WHERE active = 1"));
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(database_->where());
+    if (!row)
+      return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(
+          database_->where());
     return record_in(query);
   });
 }
@@ -104,12 +111,14 @@ Result<std::string> SqliteStore::setting(std::string_view key) {
 
 Result<void> SqliteStore::set_setting(std::string_view key, std::string_view value) {
   if (!is_name(key) || value.size() > kMaxTextBytes) {
-    return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}.at(key);
+    return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}
+        .at(key);
   }
   return change([&](WallTime at) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(auto insert, database_->prepare("INSERT INTO setting (key, value, changed_at_ms) VALUES (?, ?, ?) "
-                                                       "ON CONFLICT (key) DO UPDATE SET value = excluded.value, "
-                                                       "changed_at_ms = excluded.changed_at_ms"));
+    RELIEVO_TRY_ASSIGN(auto insert,
+                       database_->prepare("INSERT INTO setting (key, value, changed_at_ms) VALUES (?, ?, ?) "
+                                          "ON CONFLICT (key) DO UPDATE SET value = excluded.value, "
+                                          "changed_at_ms = excluded.changed_at_ms"));
     RELIEVO_TRY(insert.bind(key).bind(value).bind(to_ms(at)).run());
     // The key only: a value may be a secret.
     return append_audit_line(*database_, {"setting.changed", {}, std::string(key)}, at);

@@ -21,15 +21,19 @@ Result<void> SqliteStore::check_pages() {
   RELIEVO_TRY_ASSIGN(auto pages, database_->prepare("PRAGMA integrity_check(1)"));
   RELIEVO_TRY_ASSIGN(const bool row, pages.step());
   if (!row || pages.text(0) != "ok") {
-    return Error{Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy"}.at(database_->where());
+    return Error{Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy"}.at(
+        database_->where());
   }
   RELIEVO_TRY_ASSIGN(auto owners, database_->prepare("PRAGMA foreign_key_check"));
   RELIEVO_TRY_ASSIGN(const bool orphan, owners.step());
-  RELIEVO_TRY_ASSIGN(const std::int64_t halves,
-                     database_->integer("SELECT count(*) FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
-                                        "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id)"));
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t halves,
+      database_->integer(
+          "SELECT count(*) FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
+          "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id)"));
   if (orphan || halves != 0) {
-    return Error{Errc::StoreCorrupt, "a record of the store has lost a part of it: restore a copy"}.at(database_->where());
+    return Error{Errc::StoreCorrupt, "a record of the store has lost a part of it: restore a copy"}.at(
+        database_->where());
   }
   return {};
 }

@@ -37,7 +37,8 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
   const bool full = system_errno == ENOSPC || system_errno == EDQUOT || system_errno == EFBIG;
   switch (code & 0xff) {
     case SQLITE_FULL:
-      return made(Errc::MediaFull, "the disk is full, nothing was changed: erase subjects or make room, then try again");
+      return made(Errc::MediaFull,
+                  "the disk is full, nothing was changed: erase subjects or make room, then try again");
     case SQLITE_NOMEM:
       return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
     case SQLITE_BUSY:
@@ -48,11 +49,14 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
       return made(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
     case SQLITE_IOERR:
     case SQLITE_CANTOPEN:
-      if (code == SQLITE_IOERR_NOMEM) return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
+      if (code == SQLITE_IOERR_NOMEM)
+        return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
       if (full) {
-        return made(Errc::MediaFull, "the disk is full, nothing was changed: erase subjects or make room, then try again");
+        return made(Errc::MediaFull,
+                    "the disk is full, nothing was changed: erase subjects or make room, then try again");
       }
-      return made(Errc::IoFailed, "the disk could not be read or written: check the disk and its permissions");
+      return made(Errc::IoFailed,
+                  "the disk could not be read or written: check the disk and its permissions");
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:
@@ -73,11 +77,12 @@ Statement& Statement::note(int code) {
 Statement& Statement::bind(std::int64_t value) { return note(sqlite3_bind_int64(handle_, ++bound_, value)); }
 Statement& Statement::bind(std::string_view text) {
   // An empty view may carry a null pointer, which would mean NULL.
-  return note(sqlite3_bind_text64(handle_, ++bound_, text.empty() ? "" : text.data(), text.size(), SQLITE_STATIC,
-                                  SQLITE_UTF8));
+  return note(sqlite3_bind_text64(handle_, ++bound_, text.empty() ? "" : text.data(), text.size(),
+                                  SQLITE_STATIC, SQLITE_UTF8));
 }
 Statement& Statement::bind(std::span<const std::byte> blob) {
-  return note(sqlite3_bind_blob64(handle_, ++bound_, blob.empty() ? reinterpret_cast<const std::byte*>("") : blob.data(),
+  return note(sqlite3_bind_blob64(handle_, ++bound_,
+                                  blob.empty() ? reinterpret_cast<const std::byte*>("") : blob.data(),
                                   blob.size(), SQLITE_STATIC));
 }
 Statement& Statement::bind_null() { return note(sqlite3_bind_null(handle_, ++bound_)); }
@@ -105,7 +110,9 @@ std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(
 std::string_view Statement::text(int column) const {
   // Out of memory while converting yields null: what follows fails at the next step().
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
-  return text == nullptr ? std::string_view{} : std::string_view(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column)));
+  return text == nullptr
+             ? std::string_view{}
+             : std::string_view(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column)));
 }
 std::span<const std::byte> Statement::blob(int column) const {
   const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(handle_, column));
@@ -126,10 +133,14 @@ Result<void> Database::open(bool writable) {
   const int code = sqlite3_open_v2(where_.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) return error(code);
   // A store is data, never a program: no schema in it may run what we did not write.
-  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
-                                     {SQLITE_DBCONFIG_ENABLE_FKEY, 1}, {SQLITE_DBCONFIG_ENABLE_TRIGGER, 1},
-                                     {SQLITE_DBCONFIG_ENABLE_VIEW, 0}, {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0},
-                                     {SQLITE_DBCONFIG_DQS_DDL, 0}, {SQLITE_DBCONFIG_DQS_DML, 0}}) {
+  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                      {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                      {SQLITE_DBCONFIG_ENABLE_FKEY, 1},
+                                      {SQLITE_DBCONFIG_ENABLE_TRIGGER, 1},
+                                      {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
+                                      {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0},
+                                      {SQLITE_DBCONFIG_DQS_DDL, 0},
+                                      {SQLITE_DBCONFIG_DQS_DML, 0}}) {
     const int set = sqlite3_db_config(handle_, option, value, nullptr);
     if (set != SQLITE_OK) return error(set);
   }
@@ -141,9 +152,7 @@ Result<void> Database::tidy_up_on_close(bool on) {
   return code == SQLITE_OK ? Result<void>() : error(code);
 }
 
-Error Database::error(int code) const {
-  return sqlite_error(code, system_errno_of(handle_), where_);
-}
+Error Database::error(int code) const { return sqlite_error(code, system_errno_of(handle_), where_); }
 Error Database::error() const { return error(sqlite3_extended_errcode(handle_)); }
 
 Result<void> Database::run(const char* sql) {

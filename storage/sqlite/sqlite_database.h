@@ -83,8 +83,7 @@ class Database {
   // One blob in pieces, so that SQLite never holds a second copy of a model. Unread remains zero.
   Result<void> write_blob(const char* table, const char* column, std::int64_t row,
                           std::span<const std::byte> bytes);
-  Result<void> read_blob(const char* table, const char* column, std::int64_t row,
-                         std::span<std::byte> bytes);
+  Result<void> read_blob(const char* table, const char* column, std::int64_t row, std::span<std::byte> bytes);
   Result<void> copy_to(const std::filesystem::path& target);
 
   const std::filesystem::path& file() const { return file_; }

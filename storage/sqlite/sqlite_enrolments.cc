@@ -47,16 +47,18 @@ Result<SubjectId> SqliteStore::resolve(const SubjectChoice& subject, WallTime at
 
 Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                                   std::span<const std::byte> blob, WallTime at) {
-  RELIEVO_TRY_ASSIGN(auto row, database_->prepare("INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision, "
-                                                  "algorithms, report_json) VALUES (?, ?, ?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(
+      auto row, database_->prepare("INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision, "
+                                   "algorithms, report_json) VALUES (?, ?, ?, ?, ?)"));
   row.bind(number(subject)).bind(to_ms(at));
   if (enrolment.calibration_revision == 0) row.bind_null();
   else row.bind(std::int64_t{enrolment.calibration_revision});
   RELIEVO_TRY(row.bind(enrolment.algorithms).bind(enrolment.report_json).run());
   const EnrolmentId id{database_->last_row_id()};
 
-  RELIEVO_TRY_ASSIGN(auto consent, database_->prepare("INSERT INTO consent (enrolment_id, wording, language, given_at_ms) "
-                                                      "VALUES (?, ?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(auto consent,
+                     database_->prepare("INSERT INTO consent (enrolment_id, wording, language, given_at_ms) "
+                                        "VALUES (?, ?, ?, ?)"));
   consent.bind(number(id)).bind(enrolment.consent.wording).bind(enrolment.consent.language);
   RELIEVO_TRY(consent.bind(to_ms(enrolment.consent.given_at)).run());
 
@@ -75,7 +77,8 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
       if (enrolment.calibration_revision != 0) {
         RELIEVO_TRY_ASSIGN(auto known, database_->prepare("SELECT 1 FROM calibration WHERE revision = ?"));
         RELIEVO_TRY_ASSIGN(const bool row, known.bind(std::int64_t{enrolment.calibration_revision}).step());
-        if (!row) return not_found("there is no calibration of this revision", enrolment.calibration_revision);
+        if (!row)
+          return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(subject, at));
       return insert_enrolment(id, enrolment, blob, at);
@@ -85,7 +88,8 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Enrolment>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) + "WHERE subject_id = ? ORDER BY enrolment.id"));
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) +
+                                                      "WHERE subject_id = ? ORDER BY enrolment.id"));
     query.bind(number(subject));
     std::vector<Enrolment> found;
     for (;;) {
@@ -106,7 +110,8 @@ Result<Enrolment> SqliteStore::enrolment(EnrolmentId id) {
 }
 
 Result<std::vector<std::byte>> SqliteStore::model_bytes(EnrolmentId id) {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT length(bytes) FROM model WHERE enrolment_id = ?"));
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database_->prepare("SELECT length(bytes) FROM model WHERE enrolment_id = ?"));
   RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
   if (!row) return not_found("there is no enrolment with this number", number(id));
   // SQLite refuses lengths past SQLITE_MAX_LENGTH (1 GB), whatever the file says.

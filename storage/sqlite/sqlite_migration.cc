@@ -24,7 +24,10 @@ std::filesystem::path copy_before(const std::filesystem::path& file, std::int64_
 Result<void> copy_aside(Database& database, std::int64_t next_version) {
   const auto target = copy_before(database.file(), next_version);
   const auto unfinished = std::filesystem::path(target.string() + ".tmp");
-  const auto failed = [&] { return Error{Errc::IoFailed, "the store could not be copied before its migration", errno}.at(target.string()); };
+  const auto failed = [&] {
+    return Error{Errc::IoFailed, "the store could not be copied before its migration", errno}.at(
+        target.string());
+  };
   ::unlink(unfinished.c_str());
   // Made here so that nobody else may read it, not even while it grows.
   const int made = ::open(unfinished.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
@@ -60,12 +63,16 @@ Result<std::int64_t> version_of(Database& database) {
   RELIEVO_TRY_ASSIGN(const std::int64_t tables, database.integer("SELECT count(*) FROM sqlite_schema"));
   if (application == 0 && version == 0 && tables == 0) return 0;
   if (application != kApplicationId || version < 1) {
-    return Error{Errc::InvalidInput, "this file is another program's database: give another directory"}.at(database.where());
+    return Error{Errc::InvalidInput, "this file is another program's database: give another directory"}.at(
+        database.where());
   }
   if (version > store_version()) {
-    RELIEVO_TRY_ASSIGN(const std::int64_t compatible, database.integer("SELECT compatible_version FROM store_info"));
+    RELIEVO_TRY_ASSIGN(const std::int64_t compatible,
+                       database.integer("SELECT compatible_version FROM store_info"));
     if (compatible > store_version() || compatible < 1) {
-      return Error{Errc::StoreNewer, "the store was made by a newer version, and was left as it is: update Relievo"}.at(database.where());
+      return Error{Errc::StoreNewer,
+                   "the store was made by a newer version, and was left as it is: update Relievo"}
+          .at(database.where());
     }
   }
   return version;
@@ -82,7 +89,9 @@ Result<void> make_current(Database& database, std::int64_t version) {
   RELIEVO_TRY(database.run(stamp.c_str()));
   RELIEVO_TRY_ASSIGN(auto broken, database.prepare("PRAGMA foreign_key_check"));
   RELIEVO_TRY_ASSIGN(const bool found, broken.step());
-  if (found) return Error{Errc::StoreCorrupt, "the store could not be migrated: a record in it has lost its owner"}.at(database.where());
+  if (found)
+    return Error{Errc::StoreCorrupt, "the store could not be migrated: a record in it has lost its owner"}.at(
+        database.where());
   return transaction.commit();
 }
 
@@ -90,7 +99,9 @@ Result<void> remove_old_copies(const std::filesystem::path& database_file) {
   for (std::int64_t version = 2; version <= store_version(); ++version) {
     const auto copy = copy_before(database_file, version);
     if (::unlink(copy.c_str()) != 0 && errno != ENOENT) {
-      return Error{Errc::IoFailed, "an old copy of the store, with people in it, could not be removed: remove it by hand", errno}
+      return Error{Errc::IoFailed,
+                   "an old copy of the store, with people in it, could not be removed: remove it by hand",
+                   errno}
           .at(copy.string());
     }
   }

@@ -25,11 +25,13 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
   RELIEVO_TRY_ASSIGN(auto mode, database.prepare("PRAGMA journal_mode = WAL"));
   RELIEVO_TRY_ASSIGN(const bool row, mode.step());
   if (!row || mode.text(0) != "wal") {
-    return Error{Errc::Unsupported, "this disk cannot hold the store's log: use a local disk"}.at(database.where());
+    return Error{Errc::Unsupported, "this disk cannot hold the store's log: use a local disk"}.at(
+        database.where());
   }
   RELIEVO_TRY(mode.run());
   // The log is moved into the file after every enrolment: on a full disk little is then left in it.
-  RELIEVO_TRY(database.run("PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 100; PRAGMA journal_size_limit = 4194304"));
+  RELIEVO_TRY(database.run(
+      "PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 100; PRAGMA journal_size_limit = 4194304"));
   if (options.max_bytes > 0) {
     RELIEVO_TRY_ASSIGN(const std::int64_t page, database.integer("PRAGMA page_size"));
     const std::string limit = "PRAGMA max_page_count = " + std::to_string(options.max_bytes / page);
@@ -59,7 +61,8 @@ Result<void> open_to_read(Database& database, const SqliteStoreOptions& options)
   RELIEVO_TRY(set_up(database, options));
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
   if (version < store_version()) {
-    return Error{Errc::InvalidState, "the store is of an older version: open it to write once"}.at(database.where());
+    return Error{Errc::InvalidState, "the store is of an older version: open it to write once"}.at(
+        database.where());
   }
   return {};
 }

@@ -35,8 +35,8 @@ enum class OpenMode : std::uint8_t { ReadWrite, ReadOnly };
 struct SqliteStoreOptions {
   OpenMode mode = OpenMode::ReadWrite;
   std::chrono::milliseconds wait_for_lock{2000};
-  std::int64_t max_bytes = 0;                   // of the database file; 0: as much as the disk holds
-  std::int64_t reserve_bytes = 64'000'000;      // an erasure needs as much as it erases, for a moment
+  std::int64_t max_bytes = 0;               // of the database file; 0: as much as the disk holds
+  std::int64_t reserve_bytes = 64'000'000;  // an erasure needs as much as it erases, for a moment
 };
 
 class SqliteStore final : public Store {

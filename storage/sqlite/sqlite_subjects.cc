@@ -11,7 +11,8 @@ namespace relievo::storage {
 namespace {
 
 constexpr std::string_view kSubjects =
-    "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id) FROM subject ";
+    "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id) FROM "
+    "subject ";
 
 std::string_view name_in(const Statement& query) {
   const auto bytes = query.blob(1);
@@ -35,7 +36,8 @@ Result<SubjectId> SqliteStore::insert_subject(const NewSubject& subject, WallTim
   if (!is_name(subject.name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
-  RELIEVO_TRY_ASSIGN(auto insert, database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, ?)"));
+  RELIEVO_TRY_ASSIGN(auto insert,
+                     database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, ?)"));
   RELIEVO_TRY(insert.bind(to_ms(at)).bind(std::as_bytes(std::span(subject.name))).run());
   const SubjectId id{database_->last_row_id()};
   RELIEVO_TRY(append_audit_line(*database_, {"subject.added", id, ""}, at));
@@ -55,7 +57,8 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) break;
       const auto name = name_in(query);
-      if (filter.whole_name && !filter.name.empty() ? name != filter.name : !contains_name(name, filter.name)) continue;
+      if (filter.whole_name && !filter.name.empty() ? name != filter.name : !contains_name(name, filter.name))
+        continue;
       if (skip-- <= 0) found.push_back(subject_in(query));
     }
     return found;
@@ -82,14 +85,17 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
     };
     auto erased = change(erase);
     // The way out of a full disk may not itself end there.
-    if (!erased && erased.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path())) {
+    if (!erased && erased.error().code == Errc::MediaFull &&
+        give_up_reserve(database_->file().parent_path())) {
       erased = change(erase);
     }
     if (!erased) return erased;
     // The log still holds the pages as they were: move it into the file, and empty it.
     RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));
     if (busy != 0) {
-      return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}.at(database_->where());
+      return Error{Errc::Timeout,
+                   "erased, but another program keeps traces in the log: close it, then restart"}
+          .at(database_->where());
     }
     return {};
   });

@@ -20,7 +20,8 @@ Error failed(const fs::path& place, int cause) {
   if (cause == ENOSPC || cause == EDQUOT) {
     return Error{Errc::MediaFull, "the disk is full: make room, then try again", cause}.at(place.native());
   }
-  return Error{Errc::IoFailed, "the store cannot be made or opened here: check the path and its owner", cause}.at(place.native());
+  return Error{Errc::IoFailed, "the store cannot be made or opened here: check the path and its owner", cause}
+      .at(place.native());
 }
 
 }  // namespace
@@ -39,7 +40,8 @@ Result<void> StoreLock::take(const fs::path& file, std::chrono::milliseconds wai
       return Error{Errc::IoFailed, "the store could not be locked", errno}.at(file.string());
     }
     if (waited >= wait) {
-      return Error{Errc::Timeout, "another program is using the store: close it, then try again"}.at(file.parent_path().string());
+      return Error{Errc::Timeout, "another program is using the store: close it, then try again"}.at(
+          file.parent_path().string());
     }
     std::this_thread::sleep_for(kPause);
   }
@@ -53,7 +55,8 @@ Result<void> make_store_directory(const fs::path& dir) {
   if (::mkdir(dir.c_str(), 0700) != 0 && errno != EEXIST) {
     return failed(dir, errno);
   }
-  if (!fs::is_directory(dir, ignored)) return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
+  if (!fs::is_directory(dir, ignored))
+    return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
   return {};
 }
 

@@ -60,13 +60,17 @@ TEST(CalibrationRecord, TellsTheImpossible) {
   EXPECT_TRUE(refused([](auto& c) { c.left.distortion[4] = std::numeric_limits<double>::infinity(); }));
   EXPECT_TRUE(refused([](auto& c) { c.right.width_px = -1; }));
   EXPECT_TRUE(refused([](auto& c) { c.right_from_left.rotation.m[4] = 2; }));
-  EXPECT_TRUE(refused([](auto& c) { for (double& v : c.right_from_left.rotation.m) v = -v; }));
+  EXPECT_TRUE(refused([](auto& c) {
+    for (double& v : c.right_from_left.rotation.m) v = -v;
+  }));
   EXPECT_TRUE(refused([](auto& c) { c.right_from_left.translation_mm = {}; }));
 }
 
 TEST(Text, KnowsNames) {
-  for (const char* name : {"Ada", "Ž", "李小龙", "O'Neill-Łuksza", "\U0001F600", "a b"}) EXPECT_TRUE(is_name(name)) << name;
-  for (const char* name : {"", "\xff", "\xc0\x80", "\xed\xa0\x80", "\xe2\x82", "tab\there", "\x7f", "\xc2\x85", "\xf4\x90\x80\x80"}) {
+  for (const char* name : {"Ada", "Ž", "李小龙", "O'Neill-Łuksza", "\U0001F600", "a b"})
+    EXPECT_TRUE(is_name(name)) << name;
+  for (const char* name : {"", "\xff", "\xc0\x80", "\xed\xa0\x80", "\xe2\x82", "tab\there", "\x7f",
+                           "\xc2\x85", "\xf4\x90\x80\x80"}) {
     EXPECT_FALSE(is_name(name)) << name;
   }
   EXPECT_TRUE(is_name(std::string(200, 'x')));

@@ -24,7 +24,8 @@ FaceModel sample_model(int side, unsigned seed) {
     for (int x = 0; x < side; ++x) {
       const float u = static_cast<float>(x) / static_cast<float>(side - 1) - 0.5f;
       const float v = static_cast<float>(y) / static_cast<float>(side - 1) - 0.5f;
-      mesh.vertices_mm.push_back({160 * u + noise(), 200 * v + noise(), 600 + 120 * (u * u + v * v) + noise()});
+      mesh.vertices_mm.push_back(
+          {160 * u + noise(), 200 * v + noise(), 600 + 120 * (u * u + v * v) + noise()});
       const float nx = 240 * u / 160, ny = 240 * v / 200, length = std::sqrt(nx * nx + ny * ny + 1);
       mesh.normals.push_back({nx / length, ny / length, -1 / length});
       mesh.sigma_mm.push_back(0.1f + noise());
@@ -37,7 +38,8 @@ FaceModel sample_model(int side, unsigned seed) {
   for (int i = 0; i < 32 * 16 * 3; ++i) model.texture.rgb.push_back(static_cast<std::uint8_t>(random()));
   const auto corner = [&](int x, int y, bool right_chart) {
     const float s = static_cast<float>(side - 1);
-    model.texture.uv.push_back({static_cast<float>(x) / s * 0.9f + (right_chart ? 0.1f : 0.0f), static_cast<float>(y) / s});
+    model.texture.uv.push_back(
+        {static_cast<float>(x) / s * 0.9f + (right_chart ? 0.1f : 0.0f), static_cast<float>(y) / s});
     return static_cast<std::uint32_t>(y * side + x);
   };
   for (int y = 0; y + 1 < side; ++y) {
@@ -61,7 +63,8 @@ pipeline::StereoCalibration sample_calibration() {
   c.left = {{1200.123456789012, 1201.1}, {640.25, 480.75}, {0.21, -0.1, 1e-5, -1e-6, 0.3}, 1280, 960};
   c.right = {{1199.0, 1198.0}, {650.0, 470.0}, {0.2, -0.11, 0, 0, 0}, 1280, 960};
   const double angle = 0.1;
-  c.right_from_left = {{{std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)}}, {-120.5, 0.25, 1.0 / 7}};
+  c.right_from_left = {{{std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)}},
+                       {-120.5, 0.25, 1.0 / 7}};
   c.rms_px = 0.123;
   return c;
 }

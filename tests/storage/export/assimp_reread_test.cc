@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exported files, read again by somebody else's reader.
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/texture.h>
 #include <gtest/gtest.h>
+#include <assimp/Importer.hpp>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,8 @@ std::vector<Corner> corners_of(const ExportMesh& mesh) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto v = triangles[t][c];
-      corners.push_back({mesh.vertices_mm[v], mesh.normals[v], mesh.textured() ? mesh.model.texture.uv[3 * t + c] : Vec2f{}});
+      corners.push_back({mesh.vertices_mm[v], mesh.normals[v],
+                         mesh.textured() ? mesh.model.texture.uv[3 * t + c] : Vec2f{}});
     }
   }
   return corners;
@@ -137,14 +138,17 @@ TEST_P(Reread, EveryTriangleTurnsOutward) {
     for (std::size_t i = 0; i < corners.size(); i += 3) {
       const Vec3f &a = corners[i].at, &b = corners[i + 1].at, &c = corners[i + 2].at, &n = corners[i].normal;
       const Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, w{c.x - a.x, c.y - a.y, c.z - a.z};
-      const float facing = (u.y * w.z - u.z * w.y) * n.x + (u.z * w.x - u.x * w.z) * n.y + (u.x * w.y - u.y * w.x) * n.z;
+      const float facing =
+          (u.y * w.z - u.z * w.y) * n.x + (u.z * w.x - u.x * w.z) * n.y + (u.x * w.y - u.y * w.x) * n.z;
       ASSERT_GT(facing, 0.0f) << name << " " << i / 3;
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, Reread, ::testing::Values(ExportFrame::Head, ExportFrame::Camera),
-                         [](const auto& instance) { return instance.param == ExportFrame::Head ? "Head" : "Camera"; });
+                         [](const auto& instance) {
+                           return instance.param == ExportFrame::Head ? "Head" : "Camera";
+                         });
 
 TEST(RereadUntextured, GlbCarriesColoursOfVertices) {
   const TemporaryFolder folder;

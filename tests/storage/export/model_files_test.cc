@@ -9,11 +9,11 @@
 #include <cstring>
 #include <limits>
 
+#include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
 #include "storage/export/glb_writer.h"
 #include "storage/export/ply_writer.h"
 #include "storage/export/png_writer.h"
-#include "storage/byte_order.h"
 #include "tests/storage/sample.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -150,7 +150,8 @@ TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {
 // Khronos' own judge, where it is installed: npm install gltf-validator; RELIEVO_GLTF_VALIDATOR=that folder.
 TEST(GlbWriter, KhronosFindsNoErrorAndNoWarning) {
   const char* where = std::getenv("RELIEVO_GLTF_VALIDATOR");
-  if (where == nullptr) GTEST_SKIP() << "RELIEVO_GLTF_VALIDATOR names no folder with node_modules/gltf-validator";
+  if (where == nullptr)
+    GTEST_SKIP() << "RELIEVO_GLTF_VALIDATOR names no folder with node_modules/gltf-validator";
   auto plain = sample_model(9);
   plain.texture = pipeline::TextureAtlas(std::pmr::new_delete_resource());
   const auto textured = sample_model(30);
@@ -158,13 +159,16 @@ TEST(GlbWriter, KhronosFindsNoErrorAndNoWarning) {
     for (const auto frame : {ExportFrame::Head, ExportFrame::Camera}) {
       const TemporaryFolder folder;
       ASSERT_TRUE(write_model_files(*model, folder.path(), frame));
-      const std::string script =
-          "require('" + std::string(where) + "/node_modules/gltf-validator').validateBytes(new Uint8Array("
-          "require('fs').readFileSync('model.glb'))).then(r => console.log('errors ' + r.issues.numErrors + ' warnings ' + "
-          "r.issues.numWarnings + ' triangles ' + r.info.totalTriangleCount + '\\n' + JSON.stringify(r.issues.messages)))";
+      const std::string script = "require('" + std::string(where) +
+                                 "/node_modules/gltf-validator').validateBytes(new Uint8Array("
+                                 "require('fs').readFileSync('model.glb'))).then(r => console.log('errors ' "
+                                 "+ r.issues.numErrors + ' warnings ' + "
+                                 "r.issues.numWarnings + ' triangles ' + r.info.totalTriangleCount + '\\n' + "
+                                 "JSON.stringify(r.issues.messages)))";
       const auto said = relievo::test::run_program({"/usr/bin/env", "node", "-e", script}, folder.path());
       EXPECT_EQ(said.out.substr(0, said.out.find('\n')),
-                "errors 0 warnings 0 triangles " + std::to_string(model->mesh.triangles.size())) << said.out << said.err;
+                "errors 0 warnings 0 triangles " + std::to_string(model->mesh.triangles.size()))
+          << said.out << said.err;
     }
   }
 }

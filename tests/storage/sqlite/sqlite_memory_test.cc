@@ -15,7 +15,7 @@
 
 namespace {
 
-std::atomic<long> g_left{-1};   // allocations until one fails; below zero: none fails
+std::atomic<long> g_left{-1};  // allocations until one fails; below zero: none fails
 std::atomic<bool> g_for_good{false};
 std::atomic<long> g_failed{0};
 
@@ -99,7 +99,8 @@ void judge(const std::filesystem::path& dir, const pipeline::FaceModel& model, i
   for (const auto& ada : *adas) {
     const auto enrolments = store->enrolments(ada.id);
     ASSERT_EQ(enrolments->size(), 1u) << point << ": half an enrolment";
-    EXPECT_TRUE(test::identical(model, *store->load_model(enrolments->front().id, std::pmr::new_delete_resource())));
+    EXPECT_TRUE(
+        test::identical(model, *store->load_model(enrolments->front().id, std::pmr::new_delete_resource())));
   }
   if (!std::filesystem::exists(dir / "out")) return;
   const auto left = relievo::test::listing(dir / "out");

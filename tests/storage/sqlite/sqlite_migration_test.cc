@@ -26,7 +26,8 @@ class Raw {
   Raw& operator=(const Raw&) = delete;
   void run(const std::string& sql) {
     char* message = nullptr;
-    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK) << sql << ": " << (message ? message : "");
+    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK)
+        << sql << ": " << (message ? message : "");
     sqlite3_free(message);
   }
   // Rows as text, columns joined by bars.
@@ -79,7 +80,8 @@ TEST(SqliteMigration, SumOfMigrationsIsTheSchema) {
   EXPECT_EQ(schema_of(steps), schema_of(fresh));
   EXPECT_EQ(fresh.rows("PRAGMA user_version"), steps.rows("PRAGMA user_version"));
   EXPECT_EQ(fresh.rows("PRAGMA application_id"), steps.rows("PRAGMA application_id"));
-  for (const auto& sql : fresh.rows("SELECT sql FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%'")) {
+  for (const auto& sql :
+       fresh.rows("SELECT sql FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%'")) {
     EXPECT_NE(sql.find("STRICT"), std::string::npos) << sql;
   }
 }
@@ -98,7 +100,8 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
     EXPECT_TRUE(store->check());
     const auto copy = dir / ("relievo.db.before-" + number(version + 1));
     ASSERT_TRUE(std::filesystem::exists(copy));
-    EXPECT_EQ(std::filesystem::status(copy).permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    EXPECT_EQ(std::filesystem::status(copy).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     EXPECT_EQ(Raw(copy).rows("PRAGMA user_version"), std::vector<std::string>{number(version) + "|"});
     EXPECT_EQ(Raw(copy).rows("SELECT name FROM subject"), std::vector<std::string>{"Ada|"});
     // A copy must not outlive the person in it.
@@ -121,8 +124,9 @@ TEST(SqliteMigration, AFailedMigrationChangesNothing) {
 TEST(SqliteMigration, ANewerStoreIsLeftUntouched) {
   const TemporaryFolder folder;
   opened(folder.path());
-  Raw(folder / "relievo.db").run("UPDATE store_info SET compatible_version = " + number(store_version() + 1) +
-                                 "; PRAGMA user_version = " + number(store_version() + 1));
+  Raw(folder / "relievo.db")
+      .run("UPDATE store_info SET compatible_version = " + number(store_version() + 1) +
+           "; PRAGMA user_version = " + number(store_version() + 1));
   const auto before = relievo::test::read_text(folder / "relievo.db");
   EXPECT_EQ(refusal(folder.path()), Errc::StoreNewer);
   EXPECT_EQ(refusal(folder.path(), OpenMode::ReadOnly), Errc::StoreNewer);
@@ -136,14 +140,16 @@ TEST(SqliteMigration, ANewerButCompatibleStoreIsUsed) {
   const auto store = opened(folder.path());
   ASSERT_TRUE(store);
   EXPECT_TRUE(store->add_subject({"Ada"}));
-  EXPECT_EQ(Raw(folder / "relievo.db").rows("PRAGMA user_version"), std::vector<std::string>{number(store_version() + 5) + "|"});
+  EXPECT_EQ(Raw(folder / "relievo.db").rows("PRAGMA user_version"),
+            std::vector<std::string>{number(store_version() + 5) + "|"});
 }
 
 TEST(SqliteMigration, AnotherProgramsDatabaseIsLeftAlone) {
   const TemporaryFolder folder;
   Raw(folder / "relievo.db").run("CREATE TABLE theirs (x)");
   EXPECT_EQ(refusal(folder.path()), Errc::InvalidInput);
-  EXPECT_EQ(Raw(folder / "relievo.db").rows("SELECT name FROM sqlite_schema"), std::vector<std::string>{"theirs|"});
+  EXPECT_EQ(Raw(folder / "relievo.db").rows("SELECT name FROM sqlite_schema"),
+            std::vector<std::string>{"theirs|"});
 }
 
 // The audit log is whole, or check() says so.
@@ -155,8 +161,9 @@ TEST(SqliteAudit, FindsEveryEditDropSwapAndCut) {
       {"first dropped", "DELETE FROM audit WHERE number = 1"},
       {"tail cut", "DELETE FROM audit WHERE number >= 4"},
       {"all cut", "DELETE FROM audit"},
-      {"swapped", "UPDATE audit SET number = 99 WHERE number = 2; UPDATE audit SET number = 2 WHERE number = 3; "
-                  "UPDATE audit SET number = 3 WHERE number = 99"},
+      {"swapped",
+       "UPDATE audit SET number = 99 WHERE number = 2; UPDATE audit SET number = 2 WHERE number = 3; "
+       "UPDATE audit SET number = 3 WHERE number = 99"},
       {"letter moved", "UPDATE audit SET what = what || 'a', detail = substr(detail, 2) WHERE number = 3"},
       {"end moved back", "UPDATE audit_end SET number = 3"},
       {"end gone", "DELETE FROM audit_end"},
@@ -165,7 +172,8 @@ TEST(SqliteAudit, FindsEveryEditDropSwapAndCut) {
     const TemporaryFolder folder;
     {
       const auto store = opened(folder.path());
-      for (const char* detail : {"alpha", "adam", "abel", "anna", "abba"}) ASSERT_TRUE(store->append_audit({"door", {}, detail}));
+      for (const char* detail : {"alpha", "adam", "abel", "anna", "abba"})
+        ASSERT_TRUE(store->append_audit({"door", {}, detail}));
       ASSERT_TRUE(store->check());
     }
     Raw(folder / "relievo.db").run(sql);
@@ -183,7 +191,8 @@ TEST(SqliteDamage, ChecksumsSpeakWhereSqliteIsContent) {
     ASSERT_TRUE(store->save_calibration(test::sample_calibration(), "rig"));
     ASSERT_TRUE(store->add_enrolment(NewSubject{"Ada"}, test::sample_enrolment(model)));
   }
-  Raw(folder / "relievo.db").run("UPDATE model SET bytes = CAST(substr(bytes, 1, 500) || x'00' || substr(bytes, 502) AS BLOB)");
+  Raw(folder / "relievo.db")
+      .run("UPDATE model SET bytes = CAST(substr(bytes, 1, 500) || x'00' || substr(bytes, 502) AS BLOB)");
   {
     const auto store = opened(folder.path());
     const auto loaded = store->load_model(EnrolmentId{1}, std::pmr::new_delete_resource());

@@ -26,7 +26,8 @@ using test::sample_enrolment;
 using test::sample_model;
 
 // Enrols without end; writes each number to the pipe after the store said it was safe.
-[[noreturn]] void enrol_for_ever(const std::filesystem::path& dir, const pipeline::FaceModel& model, int pipe) {
+[[noreturn]] void enrol_for_ever(const std::filesystem::path& dir, const pipeline::FaceModel& model,
+                                 int pipe) {
   static const test::StillClock clock;
   auto store = open_sqlite_store(dir, clock);
   for (; store;) {
@@ -65,7 +66,8 @@ TEST(StoreFaults, KilledInTheMiddleNothingIsHalfAndNothingIsLost) {
     const auto store = opened(folder.path());
     ASSERT_TRUE(store);
     ASSERT_TRUE(store->check());
-    for (const EnrolmentId safe : acknowledged) ASSERT_TRUE(store->enrolment(safe)) << "acknowledged and lost";
+    for (const EnrolmentId safe : acknowledged)
+      ASSERT_TRUE(store->enrolment(safe)) << "acknowledged and lost";
     const auto people = store->subjects({});
     for (const auto& person : *people) ASSERT_EQ(person.enrolments, 1) << "half an enrolment";
     ASSERT_TRUE(identical(model, *store->load_model(acknowledged.back(), std::pmr::new_delete_resource())));
@@ -80,12 +82,14 @@ void fill_and_recover(const std::filesystem::path& dir, const SqliteStoreOptions
   ASSERT_TRUE(store);
   int enrolled = 0;
   Result<EnrolmentId> id = EnrolmentId{};
-  while (enrolled < 500 && (id = store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(model)))) ++enrolled;
+  while (enrolled < 500 && (id = store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(model))))
+    ++enrolled;
   ASSERT_FALSE(id);
   EXPECT_EQ(id.error().code, Errc::MediaFull) << id.error().what.view() << " " << id.error().sys_errno;
   EXPECT_NE(id.error().what.view().find("full"), std::string_view::npos);
   ASSERT_GT(enrolled, 0);
-  for (int again = 0; again < 3; ++again) EXPECT_FALSE(store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(model)));
+  for (int again = 0; again < 3; ++again)
+    EXPECT_FALSE(store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(model)));
   EXPECT_EQ(store->subjects({})->size(), static_cast<std::size_t>(enrolled));
   EXPECT_TRUE(store->check());
   store.reset();
@@ -175,7 +179,9 @@ TEST(StoreFaults, DamageAnywhereIsNoticedOrHarmless) {
   for (int round = 0; round < 150; ++round) {
     auto bytes = good;
     if (round % 3 == 0) bytes.resize(random() % bytes.size());
-    else for (unsigned i = 0; i < 1 + random() % 40; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
+    else
+      for (unsigned i = 0; i < 1 + random() % 40; ++i)
+        bytes[random() % bytes.size()] = static_cast<char>(random());
     const TemporaryFolder place;
     relievo::test::write_text(place / "relievo.db", bytes);
     const auto store = open_sqlite_store(place.path(), clock);
@@ -226,13 +232,15 @@ TEST(StoreFaults, ErasedMeansGone) {
     erased.push_back(store->enrolment(*id)->subject);
     traces.push_back(name);
     // 24 bytes: two vertices, wherever they may lie on a page.
-    for (std::size_t v : {std::size_t{0}, model.mesh.vertices_mm.size() / 2, model.mesh.vertices_mm.size() - 2}) {
+    for (std::size_t v :
+         {std::size_t{0}, model.mesh.vertices_mm.size() / 2, model.mesh.vertices_mm.size() - 2}) {
       traces.emplace_back(reinterpret_cast<const char*>(&model.mesh.vertices_mm[v]), 24);
     }
   }
   const auto count = [&] {
     const auto bytes = test::all_bytes(folder.path());
-    return std::ranges::count_if(traces, [&](const auto& trace) { return bytes.find(trace) != std::string::npos; });
+    return std::ranges::count_if(traces,
+                                 [&](const auto& trace) { return bytes.find(trace) != std::string::npos; });
   };
   ASSERT_GT(count(), static_cast<long>(traces.size()) * 9 / 10) << "the search finds what is there";
   for (const SubjectId id : erased) ASSERT_TRUE(store->erase_subject(id));

@@ -48,7 +48,8 @@ TEST_F(SqliteStoreVerbs, IsNobodyElsesBusiness) {
   EXPECT_EQ(mode_of(dir), 0700u);
   EXPECT_EQ(mode_of(dir / "relievo.db"), 0600u);
   ASSERT_TRUE(store->add_subject({"Ada"}));
-  for (const auto& entry : std::filesystem::directory_iterator(dir)) EXPECT_EQ(mode_of(entry.path()) & 077, 0u) << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(dir))
+    EXPECT_EQ(mode_of(entry.path()) & 077, 0u) << entry.path();
 }
 
 TEST_F(SqliteStoreVerbs, EnrolsInOneGoAndReturnsTheModelBitForBit) {
