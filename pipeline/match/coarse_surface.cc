@@ -115,6 +115,56 @@ Largest label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed
   return best;
 }
 
+// Holes that the surface encloses are bridged smoothly, so that refinement can look there: highlights
+// and plain skin fail the cross-check and may still be found from their surroundings. What the finer
+// pictures do not confirm keeps a large sigma and goes; what is hidden from the right view breaks the
+// uniqueness rule and goes.
+void bridge_holes(SurfaceField& field, const Plane<std::uint8_t>& usable, int largest, std::pmr::memory_resource& scratch) {
+  const int w = field.domain.width;
+  const int h = field.domain.height;
+  Plane<std::uint8_t> seen(&scratch, w, h);
+  std::pmr::vector<int> hole(&scratch);
+  hole.reserve(seen.values.size());
+  for (int seed = 0; seed < w * h; ++seed) {
+    if (seen.values[static_cast<std::size_t>(seed)] != 0 || field.domain.values[static_cast<std::size_t>(seed)] != 0) continue;
+    hole.clear();
+    hole.push_back(seed);
+    seen.values[static_cast<std::size_t>(seed)] = 1;
+    bool enclosed = true;
+    double sum = 0;
+    double rim = 0;
+    for (std::size_t next = 0; next < hole.size(); ++next) {
+      const int k = hole[next];
+      const int x = k % w;
+      const int y = k / w;
+      if (x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[static_cast<std::size_t>(k)] == 0) {
+        enclosed = false;
+        continue;
+      }
+      for (const int n : {k - 1, k + 1, k - w, k + w}) {
+        const auto at = static_cast<std::size_t>(n);
+        if (field.domain.values[at] == 1) {
+          sum += static_cast<double>(field.disparity_px.values[at]);
+          ++rim;
+        } else if (seen.values[at] == 0) {
+          seen.values[at] = 1;
+          hole.push_back(n);
+        }
+      }
+    }
+    if (!enclosed || static_cast<int>(hole.size()) > largest || rim == 0) continue;
+    for (const int k : hole) field.disparity_px.values[static_cast<std::size_t>(k)] = static_cast<float>(sum / rim);
+    // A soap film over the rim; a few dozen sweeps do for holes this small.
+    for (int sweep = 0; sweep < 60; ++sweep)
+      for (const int k : hole) {
+        const float* d = field.disparity_px.values.data() + k;
+        field.disparity_px.values[static_cast<std::size_t>(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
+      }
+    for (const int k : hole) field.domain.values[static_cast<std::size_t>(k)] = 2;  // not a rim for the next hole
+  }
+  for (std::uint8_t& inside : field.domain.values) inside = inside != 0 ? 1 : 0;
+}
+
 }  // namespace
 
 Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
@@ -164,6 +214,8 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
     field.domain.values[k] = label.values[k] == face.label ? 1 : 0;
     field.disparity_px.values[k] = field.domain.values[k] != 0 ? 4 * fine.left.values[k] : 0.0F;
   }
+  for (std::size_t k = 0; k < allowed.values.size(); ++k) allowed.values[k] &= left2.valid.values[k];
+  bridge_holes(field, allowed, options.largest_hole, context.scratch);
   return {};
 }
 

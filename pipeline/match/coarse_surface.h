@@ -19,6 +19,7 @@ struct CoarseSurfaceOptions {
   SemiGlobalCosts costs;
   int band = 12;                  // candidates around the prediction at the finer level
   float cross_check_px = 1.5F;    // in pixels of the finer level
+  int largest_hole = 600;         // pixels of the finer level: enclosed holes up to this size are bridged
   float step_limit_px = 1.5F;     // neighbours further apart belong to different surfaces
 };
 

@@ -32,6 +32,7 @@ void describe(RefinedMatcherOptions& o, Field&& field) {
   field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
   field("align_beyond_px", o.align_beyond_px, OptionRange{0, 1000}, "rows of the two views that disagree by more are realigned on the face");
   field("band", o.coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
+  field("largest_hole", o.coarse.largest_hole, OptionRange{0, 100000}, "enclosed holes up to this many pixels, at a quarter of the size, are bridged for refinement");
   field("cross_check_px", o.coarse.cross_check_px, OptionRange{0.25, 16}, "how far the two views may disagree, pixels at a quarter of the size");
 }
 

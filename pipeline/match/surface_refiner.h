@@ -41,7 +41,7 @@ struct SurfaceField {
 struct SurfaceRefinerOptions {
   float bending = 0.22F;            // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
   float crease = 0.7F;              // second differences beyond this many expected ones count as creases
-  int local_window_px = 21;         // offset and gain are constant over this window, full-size pixels
+  int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
   int smallest_window_px = 9;       // and at least this many pixels of a smaller level
   int steps = 6;                    // warps a level
   int solver_steps = 60;            // conjugate-gradient steps a warp
