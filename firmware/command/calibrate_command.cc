@@ -105,7 +105,9 @@ void tell(const pipeline::CalibrationQuality& q, std::ostream& out) {
       std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px", view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
     else
       std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
-    out << line << '\n';
+    out << line;
+    if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
+    out << '\n';
   }
   std::snprintf(line, sizeof line, "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f px, baseline %.2f mm",
                 q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px, q.held_out_epipolar_px, q.baseline_mm);

@@ -26,7 +26,10 @@ struct BoardPattern {
   Result<void> check() const;
 };
 
+// All of the pattern. A corner that cannot be trusted is not-a-number and takes no part.
 using BoardCorners = std::vector<Vec2d>;
+
+inline bool seen(const Vec2d& corner) { return corner.x == corner.x; }
 
 // Errors: NotFound (no whole board in the picture), InvalidInput (no picture, wrong pattern),
 // LibraryFailed.

@@ -22,7 +22,7 @@ void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPatter
     for (int r = 0; r < pattern.rows; ++r) {
       const Vec2d& first = corners[static_cast<std::size_t>(r * pattern.columns)];
       const Vec2d& last = corners[static_cast<std::size_t>((r + 1) * pattern.columns - 1)];
-      sum = {sum.x + last.x - first.x, sum.y + last.y - first.y};
+      if (seen(first) && seen(last)) sum = {sum.x + last.x - first.x, sum.y + last.y - first.y};
     }
     return sum;
   };

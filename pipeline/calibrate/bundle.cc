@@ -66,10 +66,13 @@ struct Block {
   Vector6d& h;
 };
 
-void add_camera(const Problem& p, const View& view, std::size_t eye, Block block, double& sum) {
+void add_camera(const Problem& p, const View& view, std::size_t eye, Block block, double& sum, int& count) {
   const Pose& relation = p.right_from_left;
   const int base = eye == 0 ? 0 : 9;
   for (int i = 0; i < p.pattern.corners(); ++i) {
+    const Vec2d& at = (*view.seen[eye])[static_cast<std::size_t>(i)];
+    if (!seen(at)) continue;
+    ++count;
     const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm, (i / p.pattern.columns) * p.pattern.square_mm, 0);
     const Eigen::Vector3d turned = view.left_from_board.rotation * board;
     const Eigen::Vector3d left = turned + view.left_from_board.translation_mm;
@@ -78,8 +81,7 @@ void add_camera(const Problem& p, const View& view, std::size_t eye, Block block
     Jacobian by_camera;
     Eigen::Matrix<double, 2, 3> by_point;
     const Eigen::Vector2d pixel = pixel_of(p.camera[eye], here, &by_camera, &by_point);
-    const Vec2d& seen = (*view.seen[eye])[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d residual(seen.x - pixel.x(), seen.y - pixel.y());
+    const Eigen::Vector2d residual(at.x - pixel.x(), at.y - pixel.y());
     sum += here.z() > 0 ? residual.squaredNorm() : 1e12;
     Eigen::Matrix<double, 2, 6> by_pose;
     const Eigen::Matrix<double, 2, 3> by_left = eye == 0 ? by_point : Eigen::Matrix<double, 2, 3>(by_point * relation.rotation);
@@ -105,10 +107,11 @@ Normal linearise(Problem& p) {
     View& view = p.views[v];
     for (std::size_t eye = 0; eye < 2; ++eye) {
       view.squared_px[eye] = 0;
+      view.corners[eye] = 0;
       if (view.seen[eye] == nullptr) continue;
-      add_camera(p, view, eye, {n.a, n.g, n.b[v], n.c[v], n.h[v]}, view.squared_px[eye]);
+      add_camera(p, view, eye, {n.a, n.g, n.b[v], n.c[v], n.h[v]}, view.squared_px[eye], view.corners[eye]);
       n.cost += view.squared_px[eye];
-      p.residuals += 2 * p.pattern.corners();
+      p.residuals += 2 * view.corners[eye];
     }
     view.information = n.c[v];
   }

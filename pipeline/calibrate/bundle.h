@@ -37,6 +37,7 @@ struct View {
   std::array<const BoardCorners*, 2> seen;    // borrowed; nullptr where a camera has no board
   Pose left_from_board;
   std::array<double, 2> squared_px{};         // out: sum of squared residuals
+  std::array<int, 2> corners{};               // out: that took part
   Matrix6d information = Matrix6d::Zero();    // out: of the pose, for corners of 1 px noise
 };
 

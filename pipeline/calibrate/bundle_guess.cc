@@ -21,6 +21,7 @@ Eigen::Matrix3d homography(const BoardPattern& pattern, const BoardCorners& corn
     const double x = i % pattern.columns / static_cast<double>(pattern.columns);
     const double y = i / pattern.columns / static_cast<double>(pattern.columns);
     const Vec2d& at = corners[static_cast<std::size_t>(i)];
+    if (!seen(at)) continue;
     const double u = (at.x - 0.5 * camera.width_px) / scale_px;
     const double v = (at.y - 0.5 * camera.height_px) / scale_px;
     Eigen::Matrix<double, 2, 9> rows;

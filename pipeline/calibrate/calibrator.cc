@@ -15,9 +15,10 @@
 namespace relievo::pipeline {
 namespace {
 
-// A board whose corners fit no flat board at all: wrongly found, or the paper is loose.
-constexpr double kLooseBoard = 4;    // times the median rms of the camera's boards
-constexpr double kLooseBoardPx = 0.5;
+// A corner this many standard deviations off is no noise; a board with more than this share of such
+// corners was wrongly found, or its paper is loose.
+constexpr double kStrayCorner = 6;
+constexpr double kLooseShare = 0.15;
 
 Result<void> check_input(const CalibratorInput& input) {
   RELIEVO_TRY(input.pattern.check());
@@ -26,10 +27,10 @@ Result<void> check_input(const CalibratorInput& input) {
   if (input.views.size() > kMaxBoardPairs) return Error{Errc::InvalidInput, "more than 500 pairs; a few dozen are enough"};
   const auto corners = static_cast<std::size_t>(input.pattern.corners());
   for (const BoardView& view : input.views)
-    for (const BoardCorners* seen : {&view.left, &view.right}) {
-      if (!seen->empty() && seen->size() != corners)
+    for (const BoardCorners* board : {&view.left, &view.right}) {
+      if (!board->empty() && board->size() != corners)
         return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(view.name);
-      if (!std::all_of(seen->begin(), seen->end(), [](const Vec2d& at) { return std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5; }))
+      if (!std::all_of(board->begin(), board->end(), [](const Vec2d& at) { return !seen(at) || (std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5); }))
         return Error{Errc::InvalidInput, "a corner far outside the picture"}.at(view.name);
     }
   return {};
@@ -42,32 +43,71 @@ std::vector<int> boards(const CalibratorInput& input, bool right) {
   return views;
 }
 
-// Takes boards out that no pose explains; says so in the view's reason.
-bool fit_without_loose(const CalibratorInput& input, bool right, int terms, std::vector<int>& views, CameraFit& fit,
-                       CalibrationQuality& quality) {
-  for (int round = 0; round < 3; ++round) {
-    if (!fit_camera(input, right, views, terms, fit)) return false;
-    std::vector<double> rms;
-    for (const int view : views) rms.push_back(std::sqrt(fit.squared_px(view) / input.pattern.corners()));
-    std::vector<double> sorted = rms;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double limit = std::max(kLooseBoard * *middle, kLooseBoardPx);
-    std::vector<int> kept;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (rms[i] <= limit) {
-        kept.push_back(views[i]);
-        continue;
-      }
-      char text[160];
-      std::snprintf(text, sizeof text, "%s: corners %.2f px off any flat board (others %.2f px)", right ? "right" : "left", rms[i], *middle);
-      quality.views[static_cast<std::size_t>(views[i])].reason = text;
+double distance(const CalibratorInput& input, const CameraFit& fit, int view, int corner, const Vec2d& at) {
+  const Vec2d p = bundle::project(fit.camera, fit.pose(view), corner % input.pattern.columns * input.pattern.square_mm,
+                                  corner / input.pattern.columns * input.pattern.square_mm);
+  return std::hypot(at.x - p.x, at.y - p.y);
+}
+
+struct Strays {
+  double limit_px = 0;
+  std::vector<std::vector<int>> of_view;  // corner numbers
+};
+
+Strays find_strays(const CalibratorInput& input, bool right, std::span<const int> views, const CameraFit& fit) {
+  std::vector<std::vector<double>> off(views.size());
+  std::vector<double> all;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const BoardView& view = input.views[static_cast<std::size_t>(views[v])];
+    const BoardCorners& corners = right ? view.right : view.left;
+    for (int i = 0; i < input.pattern.corners(); ++i) {
+      const Vec2d& at = corners[static_cast<std::size_t>(i)];
+      off[v].push_back(seen(at) ? distance(input, fit, views[v], i, at) : 0);
+      if (seen(at)) all.push_back(off[v].back());
     }
-    if (kept.size() == views.size()) return true;
-    views = std::move(kept);
-    if (views.size() < kMinBoardPairs) return false;
   }
-  return fit_camera(input, right, views, terms, fit);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  constexpr double kMedianOfDistance = 1.1774;  // in standard deviations of one coordinate
+  Strays strays{std::max(kStrayCorner * *middle / kMedianOfDistance, 1e-3), {}};
+  for (const auto& view : off) {
+    auto& of_view = strays.of_view.emplace_back();
+    for (std::size_t i = 0; i < view.size(); ++i)
+      if (view[i] > strays.limit_px) of_view.push_back(static_cast<int>(i));
+  }
+  return strays;
+}
+
+void name_loose(bool right, std::size_t strays, double limit_px, ViewQuality& view) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %d corners are more than %.2f px off any flat board", right ? "right" : "left", static_cast<int>(strays), limit_px);
+  view.reason = text;
+}
+
+// One camera alone, without stray corners (set to not-a-number) and without boards that have many:
+// the worst of these goes first, since it bends the fit of the others.
+bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& views, CameraFit& fit, CalibrationQuality& quality) {
+  constexpr int kFirstTerms = 2;
+  for (std::size_t round = 0; round < kMaxBoardPairs; ++round) {
+    if (views.size() < kMinBoardPairs || !fit_camera(input, right, views, kFirstTerms, fit)) return false;
+    const Strays strays = find_strays(input, right, views, fit);
+    const auto worst = std::max_element(strays.of_view.begin(), strays.of_view.end(),
+                                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (worst->empty()) return true;
+    if (static_cast<double>(worst->size()) > kLooseShare * input.pattern.corners()) {
+      const auto at = worst - strays.of_view.begin();
+      name_loose(right, worst->size(), strays.limit_px, quality.views[static_cast<std::size_t>(views[static_cast<std::size_t>(at)])]);
+      views.erase(views.begin() + at);
+      continue;
+    }
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      BoardView& view = input.views[static_cast<std::size_t>(views[v])];
+      for (const int corner : strays.of_view[v])
+        (right ? view.right : view.left)[static_cast<std::size_t>(corner)] = {std::nan(""), std::nan("")};
+      quality.views[static_cast<std::size_t>(views[v])].corners_dropped += static_cast<int>(strays.of_view[v].size());
+    }
+  }
+  return true;
 }
 
 void name_views(const CalibratorInput& input, CalibrationQuality& quality) {
@@ -126,12 +166,11 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   if (pairs.size() < kMinBoardPairs)
     return too_few("the whole board is in both pictures of too few pairs; take at least 5, better 15", pairs.size());
 
-  constexpr int kFirstTerms = 2;
   CameraFit left_fit;
   CameraFit right_fit;
   const Error undetermined = too_few("these views do not determine the cameras; tilt the board, and fill the picture with it", pairs.size());
-  if (!fit_without_loose(input, false, kFirstTerms, left, left_fit, out.quality) ||
-      !fit_without_loose(input, true, kFirstTerms, right, right_fit, out.quality))
+  if (!fit_without_strays(input, false, left, left_fit, out.quality) ||
+      !fit_without_strays(input, true, right, right_fit, out.quality))
     return undetermined;
   const int terms = choose_distortion_terms(input, left, right);
   if (!fit_camera(input, false, left, terms, left_fit) || !fit_camera(input, true, right, terms, right_fit)) return undetermined;

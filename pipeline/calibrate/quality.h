@@ -21,6 +21,7 @@ struct ViewQuality {
   double right_rms_px = 0;
   double epipolar_rms_px = 0; // distance of right corners from the lines of the left ones
   double excess_px = 0;       // disagreement of left and right beyond what each camera shows alone
+  int corners_dropped = 0;    // single corners that no flat board explains
   double distance_mm = 0;     // of the board's middle from the left camera
 };
 
@@ -39,6 +40,8 @@ struct CalibrationQuality {
   bool holds_still = true;           // left and right agree as well as each camera alone allows
   double slip_ratio = 1;             // disagreement over what corner noise explains, 1 for a firm rig
   int moved_after = -1;              // index of the view after which a camera seems to have moved; -1: none
+  int moved_after_first = -1;        // the range in which it may as well have been
+  int moved_after_last = -1;
   int distortion_terms = 0;          // of k1 k2 p1 p2 k3, from the left
   double baseline_mm = 0;
   double working_distance_mm = 0;    // median distance of the boards used

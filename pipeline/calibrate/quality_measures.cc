@@ -32,10 +32,12 @@ Eigen::Vector3d ray_of(const CameraIntrinsics& c, const Vec2d& at) {
 }
 
 // Sum of squared distances (px of the right camera) of right corners from the epipolar planes.
-double epipolar_squared(const bundle::Problem& p, const BoardView& view) {
+double epipolar_squared(const bundle::Problem& p, const BoardView& view, int& count) {
   const bundle::Pose& relation = p.right_from_left;
   double sum = 0;
   for (std::size_t i = 0; i < view.left.size(); ++i) {
+    if (!seen(view.left[i]) || !seen(view.right[i])) continue;
+    ++count;
     const Eigen::Vector3d left = relation.rotation * ray_of(p.camera[0], view.left[i]);
     const Eigen::Vector3d right = ray_of(p.camera[1], view.right[i]);
     const Eigen::Vector3d line = relation.translation_mm.cross(left);
@@ -48,19 +50,21 @@ double epipolar_squared(const bundle::Problem& p, const BoardView& view) {
 
 double epipolar_rms(const Fitted& f, const StereoFit& fit, std::span<const int> views) {
   double sum = 0;
-  for (const int view : views) sum += epipolar_squared(fit.problem, f.input.views[static_cast<std::size_t>(view)]);
-  return std::sqrt(sum / std::max(1.0, static_cast<double>(views.size()) * f.input.pattern.corners()));
+  int count = 0;
+  for (const int view : views) sum += epipolar_squared(fit.problem, f.input.views[static_cast<std::size_t>(view)], count);
+  return std::sqrt(sum / std::max(count, 1));
 }
 
 double coverage(const CalibratorInput& input, bool right) {
-  std::array<bool, kGrid * kGrid> seen{};
+  std::array<bool, kGrid * kGrid> covered{};
   for (const BoardView& view : input.views)
     for (const Vec2d& at : right ? view.right : view.left) {
+      if (!seen(at)) continue;
       const int x = std::clamp(static_cast<int>(at.x / input.width_px * kGrid), 0, kGrid - 1);
       const int y = std::clamp(static_cast<int>(at.y / input.height_px * kGrid), 0, kGrid - 1);
-      seen[static_cast<std::size_t>(y * kGrid + x)] = true;
+      covered[static_cast<std::size_t>(y * kGrid + x)] = true;
     }
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / (kGrid * kGrid);
+  return static_cast<double>(std::count(covered.begin(), covered.end(), true)) / (kGrid * kGrid);
 }
 
 // The point nearest to both lines of sight, in the left camera's frame.
@@ -146,9 +150,9 @@ void leave_out(const Fitted& f, CalibrationQuality& q) {
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.left.views)
-    q.views[static_cast<std::size_t>(view)].left_rms_px = std::sqrt(f.cameras.left.squared_px(view) / f.input.pattern.corners());
+    q.views[static_cast<std::size_t>(view)].left_rms_px = std::sqrt(f.cameras.left.squared_px(view) / f.cameras.left.corners(view));
   for (const int view : f.cameras.right.views)
-    q.views[static_cast<std::size_t>(view)].right_rms_px = std::sqrt(f.cameras.right.squared_px(view) / f.input.pattern.corners());
+    q.views[static_cast<std::size_t>(view)].right_rms_px = std::sqrt(f.cameras.right.squared_px(view) / f.cameras.right.corners(view));
   std::vector<bundle::View> judged;
   judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
   std::vector<double> distances;
@@ -157,8 +161,8 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
     ViewQuality& view = q.views[static_cast<std::size_t>(f.pairs[i])];
     view.used = std::binary_search(f.selection.used.begin(), f.selection.used.end(), f.pairs[i]);
-    view.left_rms_px = std::sqrt(judged[i].squared_px[0] / f.input.pattern.corners());
-    view.right_rms_px = std::sqrt(judged[i].squared_px[1] / f.input.pattern.corners());
+    view.left_rms_px = std::sqrt(judged[i].squared_px[0] / judged[i].corners[0]);
+    view.right_rms_px = std::sqrt(judged[i].squared_px[1] / judged[i].corners[1]);
     const int one[] = {f.pairs[i]};
     view.epipolar_rms_px = epipolar_rms(f, f.selection.fit, one);
     view.excess_px = std::sqrt(f.selection.excess[i] / (2 * f.input.pattern.corners()));
@@ -188,8 +192,11 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.slip_ratio = std::sqrt(std::max(1.0, f.selection.spread_px2 / noise));
   // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.
   q.holds_still = q.slip_ratio < 2;
-  const int moved = change_point(f.selection.excess, std::max(f.selection.spread_px2, noise));
-  q.moved_after = moved < 0 ? -1 : f.pairs[static_cast<std::size_t>(moved)];
+  const ChangePoint moved = change_point(f.selection.excess, std::max(f.selection.spread_px2, noise));
+  const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[static_cast<std::size_t>(pair)]; };
+  q.moved_after = view_at(moved.likeliest);
+  q.moved_after_first = view_at(moved.first);
+  q.moved_after_last = view_at(moved.last);
   q.distortion_terms = f.cameras.distortion_terms;
   q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
 }

@@ -23,7 +23,7 @@ class Verdict {
 
   template <typename... Numbers>
   void say(CalibrationVerdict at_best, const char* format, Numbers... numbers) {
-    char text[240];
+    char text[400];
     std::snprintf(text, sizeof text, format, numbers...);
     quality_.reasons.emplace_back(text);
     quality_.verdict = std::max(quality_.verdict, at_best);
@@ -33,15 +33,17 @@ class Verdict {
   CalibrationQuality& quality_;
 };
 
+const char* name(const CalibrationQuality& q, int view) { return q.views[static_cast<std::size_t>(view)].name.c_str(); }
+
 void judge_rig(const CalibrationQuality& q, Verdict& v) {
   if (!q.holds_still)
     v.say(CalibrationVerdict::Usable,
           "left and right do not hold still relative to each other: they disagree %.1f times more than the corners' noise "
           "explains; fasten the cameras and expose both at the same instant", q.slip_ratio);
   if (q.moved_after >= 0)
-    v.say(CalibrationVerdict::Usable, "a camera seems to have moved after view %d (%s): from there on most pairs disagree with the ones before; "
-          "this calibration holds for the pairs used, calibrate again to know the rig of today",
-          q.moved_after, q.views[static_cast<std::size_t>(q.moved_after)].name.c_str());
+    v.say(CalibrationVerdict::Usable, "a camera seems to have moved after view %s (somewhere from %s to %s): most later pairs disagree with the earlier ones; "
+          "this holds for the pairs used, calibrate again to know the rig of today",
+          name(q, q.moved_after), name(q, q.moved_after_first), name(q, q.moved_after_last));
 }
 
 }  // namespace

@@ -73,11 +73,10 @@ bundle::Pose left_from_right_board(const bundle::Pose& right_from_left, const bu
 
 double CameraFit::rms_px() const { return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1)); }
 double CameraFit::squared_px(int view) const { return problem.views[place(*this, view)].squared_px[0]; }
+int CameraFit::corners(int view) const { return problem.views[place(*this, view)].corners[0]; }
 const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place(*this, view)].left_from_board; }
 
-double StereoFit::rms_px() const {
-  return std::sqrt(paired_squared_px / std::max(1.0, 2.0 * static_cast<double>(paired.size()) * problem.pattern.corners()));
-}
+double StereoFit::rms_px() const { return std::sqrt(paired_squared_px / std::max(paired_corners, 1)); }
 
 bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms, CameraFit& fit) {
   fit.views.assign(views.begin(), views.end());
@@ -150,7 +149,11 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
   for (std::size_t i = 2 * kCameraGlobals; i < p.free.size(); ++i) p.free[i] = true;
   if (!bundle::solve(p)) return false;
   fit.paired_squared_px = 0;
-  for (std::size_t k = 0; k < paired.size(); ++k) fit.paired_squared_px += p.views[k].squared_px[0] + p.views[k].squared_px[1];
+  fit.paired_corners = 0;
+  for (std::size_t k = 0; k < paired.size(); ++k) {
+    fit.paired_squared_px += p.views[k].squared_px[0] + p.views[k].squared_px[1];
+    fit.paired_corners += p.views[k].corners[0] + p.views[k].corners[1];
+  }
   return true;
 }
 

@@ -22,6 +22,7 @@ struct CameraFit {
 
   // Sum of squares of an input view; its pose. Asserts that the view is one of ours.
   double squared_px(int view) const;
+  int corners(int view) const;
   const bundle::Pose& pose(int view) const;
 };
 
@@ -38,6 +39,7 @@ struct StereoFit {
   bundle::Problem problem;     // the first paired.size() views are the paired ones, in order
   std::vector<int> paired;
   double paired_squared_px = 0;
+  int paired_corners = 0;      // of left and right together
   double rms_px() const;       // of the paired views
 };
 

@@ -143,10 +143,12 @@ bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::
   return true;
 }
 
-int change_point(std::span<const double> excess, double spread_px2) {
+ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   constexpr std::size_t kMinRun = 3;
+  constexpr double kCertain = 30;
+  constexpr double kOpen = 9.21;  // chi-square of 2 at 1 %
   const std::size_t n = excess.size();
-  if (n < 2 * kMinRun) return -1;
+  if (n < 2 * kMinRun) return {};
   // Twice the log likelihood gained by two spreads instead of one, 6 degrees of freedom a view.
   const auto cost = [&](std::size_t begin, std::size_t end) {
     double mean = 0;
@@ -154,22 +156,22 @@ int change_point(std::span<const double> excess, double spread_px2) {
     mean = std::max(mean / static_cast<double>(end - begin), 0.25 * spread_px2 + 1e-12);
     return kDegrees * static_cast<double>(end - begin) * std::log(mean);
   };
-  double most = 0;
-  std::size_t at = 0;
-  for (std::size_t split = kMinRun; split + kMinRun <= n; ++split) {
-    const double gain = cost(0, n) - cost(0, split) - cost(split, n);
-    if (gain <= most) continue;
-    most = gain;
-    at = split;
-  }
+  const auto gain = [&](std::size_t split) { return cost(0, n) - cost(0, split) - cost(split, n); };
+  std::size_t at = kMinRun;
+  for (std::size_t split = kMinRun; split + kMinRun <= n; ++split)
+    if (gain(split) > gain(at)) at = split;
   // Most of one side must stand out of the agreed spread, or it is a single bad view, no move.
-  if (at == 0 || most < 30) return -1;
   const auto loud = [&](std::size_t begin, std::size_t end) {
     std::size_t count = 0;
     for (std::size_t i = begin; i < end; ++i) count += excess[i] > 4 * kDegrees * spread_px2 ? 1U : 0U;
     return 2 * count > end - begin;
   };
-  return loud(0, at) != loud(at, n) ? static_cast<int>(at) - 1 : -1;
+  if (gain(at) < kCertain || loud(0, at) == loud(at, n)) return {};
+  std::size_t first = at;
+  std::size_t last = at;
+  while (first > kMinRun && gain(first - 1) > gain(at) - kOpen) --first;
+  while (last + kMinRun < n && gain(last + 1) > gain(at) - kOpen) ++last;
+  return {static_cast<int>(at) - 1, static_cast<int>(first) - 1, static_cast<int>(last) - 1};
 }
 
 }  // namespace relievo::pipeline

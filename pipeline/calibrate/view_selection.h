@@ -33,7 +33,13 @@ struct Selection {
 
 bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, Selection& out);
 
-// Index into `pairs` of the last view before a lasting change of disagreement, -1 without one.
-int change_point(std::span<const double> excess, double spread_px2);
+// Where a lasting change of disagreement lies: index into the excesses of the last view before it,
+// with the range a likelihood ratio at 1 % leaves open; -1 without one.
+struct ChangePoint {
+  int likeliest = -1;
+  int first = -1;
+  int last = -1;
+};
+ChangePoint change_point(std::span<const double> excess, double spread_px2);
 
 }  // namespace relievo::pipeline
