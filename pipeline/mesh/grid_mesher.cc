@@ -96,6 +96,9 @@ LatticeSurface make_surface(Lattice& lattice, const GridMesherOptions& options, 
   if (spacing > 0 && present < most)
     fill_holes(lattice, surface, static_cast<int>(options.max_hole_mm / static_cast<double>(spacing)),
                limits.max_slope, most - present, &scratch);
+  // After the holes: a pinhole must not make a narrow place of a wide one.
+  if (spacing > 0)
+    open_outline(lattice, surface, static_cast<int>(options.min_width_mm / 2 / static_cast<double>(spacing)), &scratch);
   return surface;
 }
 
@@ -111,6 +114,8 @@ Result<void> GridMesherOptions::check() const {
     return Error{Errc::InvalidInput, "step_sigmas 0 .. 100, step_slope_ratio 1 .. 100, min_step_mm 0 .. 100"}.at("mesher.grid");
   if (!(max_hole_mm >= 0 && max_hole_mm <= 50))
     return Error{Errc::InvalidInput, "max_hole_mm must lie in 0 .. 50"}.at("mesher.grid");
+  if (!(min_width_mm >= 0 && min_width_mm <= 50))
+    return Error{Errc::InvalidInput, "min_width_mm must lie in 0 .. 50"}.at("mesher.grid");
   if (outline_passes < 0 || outline_passes > 16 || normal_passes < 0 || normal_passes > 16)
     return Error{Errc::InvalidInput, "outline_passes and normal_passes must lie in 0 .. 16"}.at("mesher.grid");
   if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))

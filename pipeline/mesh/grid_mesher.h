@@ -26,6 +26,7 @@ struct GridMesherOptions {
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
   double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front
   double max_hole_mm = 6;             // holes up to this wide are closed; 0 leaves all open
+  double min_width_mm = 5;            // narrower strips of surface are cut off; 0 keeps them
   int outline_passes = 2;             // how often single teeth are trimmed off the boundary; 0 to 16
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
   double min_area_mm2 = 2500;         // less surface than this is no face
@@ -41,6 +42,7 @@ void describe(GridMesherOptions& o, Field&& field) {
   field("step_slope_ratio", o.step_slope_ratio, OptionRange{1, 100}, "and by this many times the slope on either side");
   field("min_step_mm", o.min_step_mm, OptionRange{0, 100}, "smaller steps are never an edge of something in front, mm");
   field("max_hole_mm", o.max_hole_mm, OptionRange{0, 50}, "holes up to this wide are closed, mm");
+  field("min_width_mm", o.min_width_mm, OptionRange{0, 50}, "narrower strips of surface are cut off, mm");
   field("outline_passes", o.outline_passes, OptionRange{0, 16}, "how often single teeth are trimmed off the boundary");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
   field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");

@@ -119,34 +119,4 @@ LatticeSurface join_neighbours(const Lattice& l, const LatticeLimits& limits,
   return surface;
 }
 
-void trim_outline(const Lattice& l, LatticeSurface& surface, int passes,
-                  std::pmr::memory_resource* memory) {
-  // Within two cells of a straight outline lie 25 to 30 triangles, of a right-angled corner 18.
-  constexpr int kEnough = 22;
-  std::pmr::vector<std::uint8_t> across(l.size(), 0, memory);
-  std::pmr::vector<std::uint8_t> empty(static_cast<std::size_t>(l.columns), 0, memory);
-  for (int pass = 0; pass < passes; ++pass) {
-    for (int r = 0; r < l.rows; ++r) {
-      const std::uint8_t* cell = &surface.cells[l.index(0, r)];
-      std::uint8_t* sum = &across[l.index(0, r)];
-      const auto at = [&](int c) { return c < 0 || c >= l.columns ? 0 : triangle_count(cell[c]); };
-      int run = at(0) + at(1);
-      for (int c = 0; c < l.columns; ++c) {
-        run += at(c + 2) - at(c - 3);
-        sum[c] = static_cast<std::uint8_t>(run);
-      }
-    }
-    for (int r = 0; r < l.rows; ++r) {
-      const std::uint8_t* band[5];
-      for (int k = 0; k < 5; ++k) {
-        const int row = r + k - 2;
-        band[k] = row < 0 || row >= l.rows ? empty.data() : &across[l.index(0, row)];
-      }
-      std::uint8_t* cell = &surface.cells[l.index(0, r)];
-      for (int c = 0; c < l.columns; ++c)
-        if (band[0][c] + band[1][c] + band[2][c] + band[3][c] + band[4][c] < kEnough) cell[c] = 0;
-    }
-  }
-}
-
 }  // namespace relievo::pipeline

@@ -46,6 +46,11 @@ LatticeSurface join_neighbours(const Lattice& lattice, const LatticeLimits& limi
 void trim_outline(const Lattice& lattice, LatticeSurface& surface, int passes,
                   std::pmr::memory_resource* memory);
 
+// Empties whatever is too narrow for a square of 2 radius_cells + 1 cells (a morphological opening):
+// whiskers and bridges that occlusion leaves along an outline. Wider parts keep their shape.
+void open_outline(const Lattice& lattice, LatticeSurface& surface, int radius_cells,
+                  std::pmr::memory_resource* memory);
+
 // Closes holes at most `max_cells` wide and high with a thin-plate surface through their rim (nodes
 // become Node::Filled); leaves those open that would need a slope steeper than `max_slope`.
 // Returns the number of triangles added, which never exceeds `max_added`.

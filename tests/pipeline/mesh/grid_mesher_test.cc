@@ -111,6 +111,33 @@ TEST(GridMesher, TrimsTeethOffTheBoundary) {
   for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.x, 46);
 }
 
+TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
+  // A square with a strip of surface 3 mm wide growing out of it, as occlusion leaves them.
+  const auto cloud = test::formula_cloud(2, 300, [](double sx, double sy) {
+    const bool strip = sx >= 0.05 && sy > 0.02 && sy < 0.026;
+    return sx < 0.05 || strip ? 500.0 : std::numeric_limits<double>::quiet_NaN();
+  });
+  StageRoom room;
+  const auto result = mesh_grid(cloud, room);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  float right = 0;
+  float top = 0;
+  for (const Vec3f& v : result->vertices_mm) {
+    right = std::max(right, v.x);
+    top = std::min(top, v.x + v.y);
+  }
+  EXPECT_LT(right, 26);
+  EXPECT_LT(top, -145) << "the corner at (-75, -75) loses no more than a few millimetres";
+  GridMesherOptions options;
+  options.min_width_mm = 0;
+  options.outline_passes = 0;
+  StageRoom other;
+  const auto whole = mesh_grid(cloud, other, options);
+  ASSERT_TRUE(whole);
+  EXPECT_GT(std::max_element(whole->vertices_mm.begin(), whole->vertices_mm.end(), [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; })->x, 70);
+}
+
 TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
   StageRoom room;
   PointCloud cloud = test::formula_cloud(2, 300, [](double, double) { return 500.0; });
