@@ -133,6 +133,17 @@ void continue_outwards(const Chart& chart, std::span<const float> front, std::sp
   const std::size_t w = static_cast<std::size_t>(chart.width_px);
   const std::size_t h = static_cast<std::size_t>(chart.height_px);
   const auto owned = [&](std::size_t k) { return front[k] > kNoSurface; };
+  // The outermost texels mix in what lies behind the face: the colour comes from a little further in.
+  const auto inner_left = [&](std::size_t k, std::size_t x) {
+    std::size_t steps = 0;
+    while (steps < 3 && x + steps + 1 < w && owned(k + steps + 1)) ++steps;
+    return k + steps;
+  };
+  const auto inner_right = [&](std::size_t k, std::size_t x) {
+    std::size_t steps = 0;
+    while (steps < 3 && x > steps && owned(k - steps - 1)) ++steps;
+    return k - steps;
+  };
   // Along each row from its outermost and inner edges, so holes are bridged too ...
   for (std::size_t y = 0; y < h; ++y) {
     std::size_t last = w;
@@ -140,11 +151,15 @@ void continue_outwards(const Chart& chart, std::span<const float> front, std::sp
       const std::size_t k = y * w + x;
       if (!owned(k)) continue;
       const std::size_t gap_from = last == w ? 0 : last + 1;
-      for (std::size_t g = gap_from; g < x; ++g)
-        copy_texel(rgb, last != w && g - last < x - g ? y * w + last : k, y * w + g);
+      if (gap_from < x) {
+        const std::size_t before = last == w ? 0 : inner_right(y * w + last, last);
+        const std::size_t after = inner_left(k, x);
+        for (std::size_t g = gap_from; g < x; ++g)
+          copy_texel(rgb, last != w && g - last < x - g ? before : after, y * w + g);
+      }
       last = x;
     }
-    for (std::size_t g = last + 1; last != w && g < w; ++g) copy_texel(rgb, y * w + last, y * w + g);
+    for (std::size_t g = last + 1; last != w && g < w; ++g) copy_texel(rgb, inner_right(y * w + last, last), y * w + g);
   }
   // ... then rows without any surface take their nearest neighbour's.
   const auto has_surface = [&](std::size_t y) {
