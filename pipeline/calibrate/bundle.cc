@@ -12,6 +12,7 @@ namespace {
 
 using Jacobian = Eigen::Matrix<double, 2, 9>;   // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
 using Globals = Eigen::Matrix<double, kGlobals, kGlobals>;
+constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
 using GlobalVector = Eigen::Matrix<double, kGlobals, 1>;
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
@@ -66,32 +67,41 @@ struct Block {
   Vector6d& h;
 };
 
-void add_camera(const Problem& p, const View& view, std::size_t eye, Block block, double& sum, int& count) {
+// The globals of one eye lie together: its camera, and for the right eye the relation behind it.
+template <int kEye>
+void add_camera(const Problem& p, View& view, Block block) {
+  constexpr int kBase = kEye == 0 ? 0 : 9;
+  constexpr int kOwn = kEye == 0 ? 9 : 15;
   const Pose& relation = p.right_from_left;
-  const int base = eye == 0 ? 0 : 9;
+  auto own_a = block.a.template block<kOwn, kOwn>(kBase, kBase);
+  auto own_g = block.g.template segment<kOwn>(kBase);
+  auto own_b = block.b.template middleRows<kOwn>(kBase);
   for (int i = 0; i < p.pattern.corners(); ++i) {
-    const Vec2d& at = (*view.seen[eye])[static_cast<std::size_t>(i)];
+    const Vec2d& at = (*view.seen[kEye])[static_cast<std::size_t>(i)];
     if (!seen(at)) continue;
-    ++count;
+    ++view.corners[kEye];
     const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm, (i / p.pattern.columns) * p.pattern.square_mm, 0);
     const Eigen::Vector3d turned = view.left_from_board.rotation * board;
-    const Eigen::Vector3d left = turned + view.left_from_board.translation_mm;
-    const Eigen::Vector3d turned_left = eye == 0 ? left : Eigen::Vector3d(relation.rotation * left);
-    const Eigen::Vector3d here = eye == 0 ? left : Eigen::Vector3d(turned_left + relation.translation_mm);
+    Eigen::Vector3d here = turned + view.left_from_board.translation_mm;
+    const Eigen::Vector3d turned_left = relation.rotation * here;
+    if constexpr (kEye == 1) here = turned_left + relation.translation_mm;
     Jacobian by_camera;
     Eigen::Matrix<double, 2, 3> by_point;
-    const Eigen::Vector2d pixel = pixel_of(p.camera[eye], here, &by_camera, &by_point);
+    const Eigen::Vector2d pixel = pixel_of(p.camera[kEye], here, &by_camera, &by_point);
     const Eigen::Vector2d residual(at.x - pixel.x(), at.y - pixel.y());
-    sum += here.z() > 0 ? residual.squaredNorm() : 1e12;
+    view.squared_px[kEye] += here.z() > 0 ? residual.squaredNorm() : kBehind;
+    Eigen::Matrix<double, 2, kOwn> by_own;
+    by_own.template leftCols<9>() = by_camera;
+    Eigen::Matrix<double, 2, 3> by_left = by_point;
+    if constexpr (kEye == 1) {
+      by_own.template rightCols<6>() << by_point * -cross(turned_left), by_point;
+      by_left = by_point * relation.rotation;
+    }
     Eigen::Matrix<double, 2, 6> by_pose;
-    const Eigen::Matrix<double, 2, 3> by_left = eye == 0 ? by_point : Eigen::Matrix<double, 2, 3>(by_point * relation.rotation);
     by_pose << by_left * -cross(turned), by_left;
-    Eigen::Matrix<double, 2, kGlobals> by_global = Eigen::Matrix<double, 2, kGlobals>::Zero();
-    by_global.middleCols<9>(base) = by_camera;
-    if (eye == 1) by_global.rightCols<6>() << by_point * -cross(turned_left), by_point;
-    block.a.noalias() += by_global.transpose() * by_global;
-    block.g.noalias() += by_global.transpose() * residual;
-    block.b.noalias() += by_global.transpose() * by_pose;
+    own_a.noalias() += by_own.transpose() * by_own;
+    own_g.noalias() += by_own.transpose() * residual;
+    own_b.noalias() += by_own.transpose() * by_pose;
     block.c.noalias() += by_pose.transpose() * by_pose;
     block.h.noalias() += by_pose.transpose() * residual;
   }
@@ -105,14 +115,13 @@ Normal linearise(Problem& p) {
   p.residuals = 0;
   for (std::size_t v = 0; v < p.views.size(); ++v) {
     View& view = p.views[v];
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-      view.squared_px[eye] = 0;
-      view.corners[eye] = 0;
-      if (view.seen[eye] == nullptr) continue;
-      add_camera(p, view, eye, {n.a, n.g, n.b[v], n.c[v], n.h[v]}, view.squared_px[eye], view.corners[eye]);
-      n.cost += view.squared_px[eye];
-      p.residuals += 2 * view.corners[eye];
-    }
+    view.squared_px = {};
+    view.corners = {};
+    const Block block{n.a, n.g, n.b[v], n.c[v], n.h[v]};
+    if (view.seen[0] != nullptr) add_camera<0>(p, view, block);
+    if (view.seen[1] != nullptr) add_camera<1>(p, view, block);
+    n.cost += view.squared_px[0] + view.squared_px[1];
+    p.residuals += 2 * (view.corners[0] + view.corners[1]);
     view.information = n.c[v];
   }
   // What is not free neither pulls nor moves.
@@ -193,14 +202,16 @@ Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, dou
 }
 
 bool solve(Problem& problem) {
-  constexpr int kMaxSteps = 100;
+  constexpr int kMaxSteps = 200;
   constexpr double kSmallGain = 1e-11;
+  constexpr double kFirm = 1e-5;
   double damping = 1e-4;
   Normal normal = linearise(problem);
   for (int i = 0; i < kMaxSteps && damping < 1e10; ++i) {
     Problem next = stepped(problem, normal, damping);
     Normal there = linearise(next);
     if (!std::isfinite(there.cost) || there.cost > normal.cost) {
+      if (damping < kFirm && there.cost <= (1 + kSmallGain) * normal.cost) break;
       damping *= 10;
       continue;
     }
@@ -208,7 +219,8 @@ bool solve(Problem& problem) {
     problem = std::move(next);
     normal = std::move(there);
     damping = std::max(damping / 10, 1e-12);
-    if (gain <= kSmallGain * normal.cost) break;
+    // A small gain of a strongly damped step says nothing: the valley may be long and curved.
+    if (gain <= kSmallGain * normal.cost && damping < kFirm) break;
   }
   problem.squared_px = normal.cost;
   keep_covariance(problem, normal);

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/calibration_file.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace relievo::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::StereoCalibration;
+
+StereoCalibration sample() {
+  StereoCalibration c;
+  c.left = {{2955.1234567890123, 2954.9}, {964.1, 609.2}, {-0.11, 0.12, -1.6e-4, 1.6e-4, 0.1 / 3}, 1920, 1200};
+  c.right = {{2942.3, 2941.6}, {971.5, 599.1}, {-0.108, 0.119, 2.4e-4, -6.6e-4, 0}, 1920, 1200};
+  const double s = 0.25;
+  const double k = std::sqrt(1 - s * s);
+  c.right_from_left.rotation = {{k, 0, s, 0, 1, 0, -s, 0, k}};
+  c.right_from_left.translation_mm = {-136.1, 0.8, 17.0 / 3};
+  c.rms_px = 0.0402;
+  return c;
+}
+
+bool same(const StereoCalibration& a, const StereoCalibration& b) {
+  return pipeline::calibration_text(a) == pipeline::calibration_text(b);
+}
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("relievo_calibration_" + std::to_string(::getpid()))) { fs::create_directories(path_); }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+TEST(CalibrationFile, ReadsWhatItWroteToTheLastBit) {
+  const Folder folder;
+  const fs::path file = folder.path() / "rig.yml";
+  ASSERT_TRUE(pipeline::write_calibration(file, sample()));
+  const auto read = pipeline::read_calibration(file);
+  ASSERT_TRUE(read) << read.error().what.view();
+  EXPECT_TRUE(same(*read, sample()));
+  EXPECT_EQ(read->left.focal_px.x, sample().left.focal_px.x);
+  EXPECT_EQ(read->left.distortion[4], sample().left.distortion[4]);
+  EXPECT_EQ(read->right_from_left.translation_mm.z, sample().right_from_left.translation_mm.z);
+  // Again, over the first; nothing else is left behind.
+  ASSERT_TRUE(pipeline::write_calibration(file, sample()));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+// OpenCV's own reader takes wrong numbers at some of these lengths.
+void cut_everywhere(const std::string& text) {
+  const auto whole = pipeline::parse_calibration(text);
+  ASSERT_TRUE(whole) << whole.error().where() << ": " << whole.error().what.view();
+  int taken = 0;
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    const auto cut = pipeline::parse_calibration(std::string_view(text).substr(0, length));
+    if (!cut) continue;
+    ++taken;
+    EXPECT_TRUE(same(*cut, *whole)) << "cut to " << length << " of " << text.size();
+  }
+  EXPECT_LE(taken, 2);
+}
+
+TEST(CalibrationFile, CutAtAnyLengthIsRefusedOrTheSame) { cut_everywhere(pipeline::calibration_text(sample())); }
+
+TEST(CalibrationFile, OpenCvsFormCutAtAnyLengthToo) {
+  const char* data = std::getenv("RELIEVO_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "RELIEVO_TEST_DATA is not set: the measured pictures are not here";
+  std::ifstream in(fs::path(data) / "rendered/board/rig.yml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.empty()) GTEST_SKIP() << "rendered/board/rig.yml is not in " << data;
+  cut_everywhere(text);
+}
+
+TEST(CalibrationFile, OtherFieldsAreSteppedOver) {
+  const std::string more = "calibration_time: \"Sat: 12\"\nnframes: 14\nE: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., -2.e-01 ]\n"
+                           "list: [ 1, 2,\n   3 ]\nmap:\n   inner: 4\n";
+  const auto read = pipeline::parse_calibration(replaced(pipeline::calibration_text(sample()), "image_width", more + "image_width"));
+  ASSERT_TRUE(read) << read.error().where() << ": " << read.error().what.view();
+  EXPECT_TRUE(same(*read, sample()));
+}
+
+TEST(CalibrationFile, FourCoefficientsAreEnoughFiveTheMost) {
+  std::string text = pipeline::calibration_text(sample());
+  const auto from = text.find("D1:");
+  const auto to = text.find("K2:");
+  const std::string four = "D1: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, 0.1, 0., 0. ]\n";
+  EXPECT_TRUE(pipeline::parse_calibration(std::string(text).replace(from, to - from, four)));
+  const std::string eight = "D1: !!opencv-matrix\n   rows: 1\n   cols: 8\n   dt: d\n   data: [ -0.1, 0.1, 0., 0., 0., 0.1, 0., 0. ]\n";
+  EXPECT_EQ(pipeline::parse_calibration(std::string(text).replace(from, to - from, eight)).error().code, Errc::Unsupported);
+}
+
+struct Hostile {
+  const char* what;
+  const char* by;
+  const char* where;
+};
+
+class HostileCalibration : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(HostileCalibration, IsRefusedWithItsField) {
+  const Hostile& h = GetParam();
+  const auto read = pipeline::parse_calibration(replaced(pipeline::calibration_text(sample()), h.what, h.by));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, Errc::InvalidInput);
+  EXPECT_NE(std::string(read.error().where()).find(h.where), std::string::npos) << read.error().where();
+  EXPECT_EQ(std::string(read.error().what.view()).find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, HostileCalibration, ::testing::Values(
+    Hostile{"image_width: 1920", "image_width: 0", "image_width"}, Hostile{"image_width: 1920", "image_width: 19200", "image_width"},
+    Hostile{"image_width: 1920", "image_width: -1920", "image_width"}, Hostile{"image_width: 1920", "image_width: 1920.5", "image_width"},
+    Hostile{"image_width: 1920", "image_width: 1e300", "image_width"}, Hostile{"image_width: 1920", "width: 1920", "image_width"},
+    Hostile{"2.9551234567890124e+03", "2.9551234567890124e+01", "K1"}, Hostile{"2.9551234567890124e+03", "-2.9551234567890124e+03", "K1"},
+    Hostile{"2.9551234567890124e+03", ".Nan", "line"}, Hostile{"2.9551234567890124e+03", "1e999", "line"},
+    Hostile{"2.9551234567890124e+03", "2.95.5", "line"}, Hostile{"2.9551234567890124e+03,", "", "line"},
+    Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 300000000", "line"},
+    Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 9", "line"}, Hostile{"K1:", "KX:", "K1"},
+    Hostile{"K2:", "K1:", "line"}, Hostile{"R: !!opencv-matrix", "R: 5 # !!", "R"}, Hostile{"-1.3609999999999999e+02", "1.3609999999999999e+02", "T"},
+    Hostile{"-1.3609999999999999e+02", "-1.3609999999999999e+09", "T"}, Hostile{"-1.1000000000000000e-01", "-1.1000000000000000e+01", "D1"},
+    Hostile{"2.5000000000000000e-01", "2.6000000000000000e-01", "R"}, Hostile{" ]\nR:", " \nR:", "line"}));
+
+TEST(CalibrationFile, WhatIsNoCalibrationIsRefused) {
+  const Folder folder;
+  EXPECT_EQ(pipeline::parse_calibration("").error().code, Errc::InvalidInput);
+  EXPECT_EQ(pipeline::parse_calibration(std::string(pipeline::kMaxCalibrationFileBytes + 1, 'x')).error().code, Errc::InvalidInput);
+  EXPECT_EQ(pipeline::parse_calibration(std::string("K1: \0 1", 7)).error().code, Errc::InvalidInput);
+  EXPECT_EQ(pipeline::read_calibration(folder.path() / "none.yml").error().code, Errc::NotFound);
+  EXPECT_EQ(pipeline::read_calibration(folder.path()).error().code, Errc::InvalidInput);
+  EXPECT_EQ(pipeline::read_calibration("/dev/zero").error().code, Errc::InvalidInput);
+}
+
+// Every byte once replaced by something nasty: an answer, never a crash, never a number off the range.
+TEST(CalibrationFile, AnyByteMayBeWrong) {
+  const std::string text = pipeline::calibration_text(sample());
+  for (std::size_t i = 0; i < text.size(); ++i)
+    for (const char c : {'[', ']', ',', ':', '\n', '9', '-', ' ', '\xff'}) {
+      std::string bad = text;
+      bad[i] = c;
+      const auto read = pipeline::parse_calibration(bad);
+      EXPECT_TRUE(!read || pipeline::check_calibration(*read));
+    }
+}
+
+TEST(CalibrationFile, NothingIsWrittenWhereItCannotBe) {
+  const Folder folder;
+  EXPECT_EQ(pipeline::write_calibration(folder.path() / "no/such/rig.yml", sample()).error().code, Errc::NotFound);
+  StereoCalibration wrong = sample();
+  wrong.left.focal_px.x = 0;
+  EXPECT_FALSE(pipeline::write_calibration(folder.path() / "rig.yml", wrong));
+  fs::create_directories(folder.path() / "taken.yml/inside");
+  EXPECT_FALSE(pipeline::write_calibration(folder.path() / "taken.yml", sample()));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+}  // namespace
+}  // namespace relievo::tests

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Corners of a board as a known rig sees them. The projection is written out here on its own, so that
+// it judges the calibrator's.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "pipeline/calibrate/calibrator.h"
+
+namespace relievo::tests {
+
+struct SimulatedRig {
+  double focal[2] = {1600, 1585};
+  double centre[2][2] = {{520, 500}, {505, 522}};
+  double distortion[2][5] = {{-0.18, 0.12, 0.0006, -0.0004, 0}, {-0.17, 0.10, -0.0003, 0.0008, 0}};
+  std::array<double, 3> turn = {0.004, -0.30, 0.006};  // right from left, rotation vector
+  std::array<double, 3> shift_mm = {-115, 1.2, 18};
+  int width_px = 1024;
+  int height_px = 1024;
+};
+
+using Point = std::array<double, 3>;
+
+// Rodrigues' formula.
+inline Point turned(const Point& w, const Point& p) {
+  const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  if (angle == 0) return p;
+  const Point k = {w[0] / angle, w[1] / angle, w[2] / angle};
+  const double dot = k[0] * p[0] + k[1] * p[1] + k[2] * p[2];
+  const Point cross = {k[1] * p[2] - k[2] * p[1], k[2] * p[0] - k[0] * p[2], k[0] * p[1] - k[1] * p[0]};
+  Point out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = p[i] * std::cos(angle) + cross[i] * std::sin(angle) + k[i] * dot * (1 - std::cos(angle));
+  return out;
+}
+
+inline pipeline::Vec2d seen_by(const SimulatedRig& rig, int eye, const Point& p) {
+  const double x = p[0] / p[2];
+  const double y = p[1] / p[2];
+  const double* k = rig.distortion[eye];
+  const double r2 = x * x + y * y;
+  const double radial = 1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2;
+  return {rig.focal[eye] * (x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + rig.centre[eye][0],
+          rig.focal[eye] * (y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + rig.centre[eye][1]};
+}
+
+// How far the right camera is from where it belongs, in one view.
+struct Slip {
+  Point turn{};
+  Point shift_mm{};
+};
+
+class BoardSimulator {
+ public:
+  BoardSimulator(const SimulatedRig& rig, double noise_px, unsigned seed) : rig_(rig), noise_px_(noise_px), random_(seed) {
+    input_.pattern = {9, 6, 10};
+    input_.width_px = rig.width_px;
+    input_.height_px = rig.height_px;
+  }
+
+  void add(const Slip& slip = {}) {
+    // Tilted up to 35 degrees, somewhere in the common field at 400 to 560 mm.
+    const Point turn = {uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(-0.5, 0.5)};
+    const Point middle = {uniform(-60, 60), uniform(-65, 65), uniform(400, 560)};
+    pipeline::BoardView view;
+    view.name = std::to_string(input_.views.size());
+    for (int i = 0; i < input_.pattern.corners(); ++i) {
+      Point p = turned(turn, {(i % 9 - 4) * 10.0, (i / 9 - 2.5) * 10.0, 0});
+      for (std::size_t c = 0; c < 3; ++c) p[c] += middle[c];
+      Point q = turned(slip.turn, turned(rig_.turn, p));
+      for (std::size_t c = 0; c < 3; ++c) q[c] += rig_.shift_mm[c] + slip.shift_mm[c];
+      view.left.push_back(noisy(seen_by(rig_, 0, p)));
+      view.right.push_back(noisy(seen_by(rig_, 1, q)));
+    }
+    input_.views.push_back(std::move(view));
+  }
+  void add(int count) {
+    for (int i = 0; i < count; ++i) add();
+  }
+  // A slip of random direction that moves the picture by a few pixels.
+  Slip random_slip(double turn_rad, double shift_mm) {
+    return {{sign() * turn_rad, uniform(-turn_rad, turn_rad), uniform(-turn_rad, turn_rad)},
+            {uniform(-shift_mm, shift_mm), sign() * shift_mm, uniform(-shift_mm, shift_mm)}};
+  }
+  double normal(double sigma) { return std::normal_distribution<double>(0, sigma)(random_); }
+
+  pipeline::CalibratorInput& input() { return input_; }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double sign() { return uniform(-1, 1) < 0 ? -1 : 1; }
+  pipeline::Vec2d noisy(pipeline::Vec2d at) {
+    if (noise_px_ > 0) at = {at.x + normal(noise_px_), at.y + normal(noise_px_)};
+    return at;
+  }
+
+  SimulatedRig rig_;
+  double noise_px_;
+  std::mt19937 random_;
+  pipeline::CalibratorInput input_;
+};
+
+}  // namespace relievo::tests
