@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -24,6 +25,15 @@ CLI::Validator within(double least, double most) {
       words.str());
 }
 
+// "10x7", 3 to 999 each.
+bool corner_counts(const std::string& text, int& across, int& down) {
+  const char* end = text.data() + text.size();
+  const auto [after_across, bad_across] = std::from_chars(text.data(), end, across);
+  if (bad_across != std::errc() || after_across == end || *after_across != 'x') return false;
+  const auto [after_down, bad_down] = std::from_chars(after_across + 1, end, down);
+  return bad_down == std::errc() && after_down == end && across >= 3 && across <= 999 && down >= 3 && down <= 999;
+}
+
 void add_store(CLI::App& command, Path& store) {
   command.add_option("--store", store, "folder of the store")->type_name("DIR");
 }
@@ -43,9 +53,7 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
   command->add_option_function<std::string>(
       "--corners",
       [&args](const std::string& text) {
-        char end = 0;
-        if (std::sscanf(text.c_str(), "%3dx%3d%c", &args.corners_across, &args.corners_down, &end) != 2 ||
-            args.corners_across < 3 || args.corners_down < 3) {
+        if (!corner_counts(text, args.corners_across, args.corners_down)) {
           throw CLI::ValidationError("--corners", "wants inner corners across and down, such as 10x7");
         }
       },

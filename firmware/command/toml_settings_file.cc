@@ -46,7 +46,7 @@ Result<std::vector<std::string>> parse_settings(std::string_view text, std::stri
         if (word.empty()) return at_line(file_name, value);
         std::string setting(table_name.str());
         if (key.str() != "name") setting.append(".").append(key.str());
-        settings.push_back(setting + "=" + word);
+        settings.push_back(setting.append("=").append(word));
       }
     }
   } catch (const toml::parse_error& error) {

@@ -52,7 +52,9 @@ std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
   double a = 0.5;
   double b = 0.5;
   for (const auto& t : surface.triangles) {
-    for (due += area(t); due >= step; due -= step) {
+    due += area(t);
+    while (due >= step) {
+      due -= step;
       a += 0.7548776662466927;  // Roberts' low-discrepancy pair
       b += 0.5698402909980532;
       a -= std::floor(a);

@@ -53,11 +53,12 @@ TriangleGrid::TriangleGrid(const Surface& surface) : surface_(surface) {
   }
   if (surface.triangles.empty()) return;
   const auto cells = [&](double extent) { return static_cast<int>(extent / cell_mm_) + 1; };
-  for (;; cell_mm_ *= 1.5) {
+  for (;;) {
     nx_ = cells(high.x - low.x);
     ny_ = cells(high.y - low.y);
     nz_ = cells(high.z - low.z);
     if (static_cast<double>(nx_) * ny_ * nz_ < static_cast<double>(kMostCells)) break;
+    cell_mm_ *= 1.5;
   }
   origin_mm_ = low;
   // Twice over the triangles: count a cell's, then place them.
