@@ -27,6 +27,7 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
   session_.products().frame = pictures.frame();
   const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
   session_.products().frame.reset();  // the pictures go with this function
+  if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
   // A stage does not know the names of the files it works on.
   if (!done) return done.error().where().empty() ? done.error().at(left.string()) : done.error();
   report_ = {calibration_file.string(), stages.pipeline().algorithms().to_text(), job.records(), job.took(),
