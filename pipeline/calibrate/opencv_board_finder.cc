@@ -17,7 +17,11 @@ using Points = std::vector<cv::Point2f>;
 // error falls with its area), but clear of the neighbours' edges.
 constexpr double kWindowShare = 0.4;
 constexpr int kMinWindowPx = 2;
-constexpr int kMaxWindowPx = 15;
+constexpr int kMaxWindowPx = 25;
+// A little blur before the refinement halves its error: its gradients are differences of neighbours,
+// which a sharp edge undersamples (measured on three sets by held-out error: README).
+constexpr double kSmoothingPx = 0.7;
+constexpr int kMinSidePx = 32;
 
 cv::Mat grey_picture(const ImageView& picture) {
   auto* bytes = const_cast<std::byte*>(picture.bytes);  // cv::Mat has no read-only form; nothing writes
@@ -46,7 +50,9 @@ double shortest_step(const Points& corners, const BoardPattern& pattern) {
 
 void refine(const cv::Mat& grey, const BoardPattern& pattern, Points& corners) {
   const int half = std::clamp(static_cast<int>(kWindowShare * shortest_step(corners, pattern)), kMinWindowPx, kMaxWindowPx);
-  cv::cornerSubPix(grey, corners, cv::Size(half, half), cv::Size(-1, -1),
+  cv::Mat smooth;
+  cv::GaussianBlur(grey, smooth, cv::Size(), kSmoothingPx);
+  cv::cornerSubPix(smooth, corners, cv::Size(half, half), cv::Size(-1, -1),
                    cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 100, 1e-4));
 }
 
@@ -81,6 +87,8 @@ bool lattice_whole(const Points& corners, const BoardPattern& pattern) {
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern) {
   RELIEVO_TRY(pattern.check());
   if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
+  // OpenCV's finders throw on pictures smaller than their windows.
+  if (picture.width_px < kMinSidePx || picture.height_px < kMinSidePx) return Error{Errc::NotFound, "no whole board found"};
   try {
     const cv::Mat grey = grey_picture(picture);
     Points found;

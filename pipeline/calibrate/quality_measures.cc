@@ -188,7 +188,7 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   leave_out(f, q);
   q.coverage_left = coverage(f.input, false);
   q.coverage_right = coverage(f.input, true);
-  const double noise = 0.5 * (f.cameras.left.variance_px2 + f.cameras.right.variance_px2);
+  const double noise = std::max(1e-6, 0.5 * (f.cameras.left.variance_px2 + f.cameras.right.variance_px2));
   q.slip_ratio = std::sqrt(std::max(1.0, f.selection.spread_px2 / noise));
   // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.
   q.holds_still = q.slip_ratio < 2;

@@ -15,7 +15,8 @@ constexpr double kDegrees = 6;
 
 double alone(const CameraFits& cameras, int view) { return cameras.left.squared_px(view) + cameras.right.squared_px(view); }
 
-double noise_px2(const CameraFits& cameras) { return 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2); }
+// No corner is known better than to a thousandth of a pixel.
+double noise_px2(const CameraFits& cameras) { return std::max(1e-6, 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2)); }
 
 // P(chi-square of `degrees` <= x), degrees even: a finite sum.
 double chi_square(double x, int degrees) {
