@@ -37,6 +37,8 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.scene = args.board ? hal::sim::SceneKind::Board : hal::sim::SceneKind::Head;
   options.seed = args.seed;
   options.truth = args.truth;
+  options.pose = {args.yaw_deg, args.pitch_deg, args.roll_deg, args.distance_mm, args.right_mm, args.down_mm};
+  options.board_in_this_pose = args.board && args.one_pose;
   if (args.pairs > 0) options.board_poses = args.pairs;
   options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
   options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);

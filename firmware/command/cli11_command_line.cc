@@ -147,13 +147,23 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
   command->require_subcommand(1);
   for (const bool board : {true, false}) {
-    CLI::App* sub = board ? command->add_subcommand("board", "a chessboard in many poses (10x7 inner corners, 20 mm)")
+    CLI::App* sub = board ? command->add_subcommand("board", "a chessboard (10x7 inner corners, 20 mm) in many poses, or in the one that is given")
                           : command->add_subcommand("face", "a face made of a seed");
     sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()->type_name("DIR");
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
     if (board) sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
     sub->add_option("--scale", args.scale, "size of the pictures")->check(within(0.1, 1))->capture_default_str();
+    const auto pose = [&args, sub](const char* name, double& value, double least, double most, const char* what) {
+      sub->add_option(name, value, what)->check(within(least, most))->capture_default_str()->each(
+          [&args](const std::string&) { args.one_pose = true; });
+    };
+    pose("--yaw", args.yaw_deg, -60, 60, "turn about the upright axis, degrees");
+    pose("--pitch", args.pitch_deg, -45, 45, "nod, degrees");
+    pose("--roll", args.roll_deg, -60, 60, "lean, degrees");
+    pose("--distance", args.distance_mm, 250, 2000, "from the left camera to the middle, mm");
+    pose("--right", args.right_mm, -500, 500, "to the side, mm");
+    pose("--down", args.down_mm, -500, 500, "downwards, mm");
     if (!board) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
     sub->callback([&args, &chosen, board] {
       args.board = board;

@@ -78,6 +78,10 @@ struct SimulateArgs {
   int pairs = 0;                  // 0: the rig's own choice
   double scale = 1;               // of the picture's width and height
   bool truth = false;             // write down what is true, beside the pictures
+  bool one_pose = false;          // of the board: the pose below instead of many chosen by the seed
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+  double distance_mm = 560;
+  double right_mm = 0, down_mm = 0;
 };
 
 struct SelfTestArgs { Path store; };

@@ -15,8 +15,22 @@ Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& fo
   return write_picture(folder / ("right" + number + ".png"), pair.right.view());
 }
 
+// The board turned as a head in the same pose would be, its middle on the left camera's axis.
+BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& at) {
+  constexpr double kRadians = 3.14159265358979323846 / 180;
+  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
+  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
+  BoardPose pose;
+  pose.world_from_board = rotation(at.pitch_deg * kRadians, at.yaw_deg * kRadians, at.roll_deg * kRadians);
+  pose.origin_mm = rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0} - pose.world_from_board * middle;
+  return pose;
+}
+
 Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder, ThreadPool& pool) {
-  RELIEVO_TRY_ASSIGN(const std::vector<BoardPose> poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
+  std::vector<BoardPose> poses{board_pose(rig, o.board, o.pose)};
+  if (!o.board_in_this_pose) {
+    RELIEVO_TRY_ASSIGN(poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
+  }
   SensorOptions sensor = o.sensor;
   sensor.grey = true;
   for (std::size_t k = 0; k < poses.size(); ++k) {

@@ -24,6 +24,7 @@ struct SimulationOptions {
   HeadPose pose;
   BoardPattern board;
   int board_poses = 14;
+  bool board_in_this_pose = false;  // one pair, of the board in `pose`, instead of many poses by seed
   RigOptions rig;
   SensorOptions sensor;
   bool truth = false;             // head only: also truth.bin, head.ply

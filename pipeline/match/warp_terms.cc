@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
+constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer and says nothing about the surface
 
 struct Sampled { float value, slope; };
 
@@ -73,6 +74,7 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
     const int k = static_cast<int>(at);
     if ((right_valid[k - 1] & right_valid[k + 2]) == 0) continue;
     const Sampled sample = cubic(right + k - 1, at - static_cast<float>(k));
+    if (left[px] > kSaturated || sample.value > kSaturated) continue;
     out.mask.row(y)[x] = 1;
     out.left.row(y)[x] = left[px];
     out.left_slope.row(y)[x] = 0.5F * (left[px + 1] - left[px - 1]);
