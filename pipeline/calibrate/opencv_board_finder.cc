@@ -17,10 +17,12 @@ using Points = std::vector<cv::Point2f>;
 // error falls with its area), but clear of the neighbours' edges.
 constexpr double kWindowShare = 0.4;
 constexpr int kMinWindowPx = 2;
-constexpr int kMaxWindowPx = 25;
-// A little blur before the refinement halves its error: its gradients are differences of neighbours,
-// which a sharp edge undersamples (measured on three sets by held-out error: README).
-constexpr double kSmoothingPx = 0.7;
+constexpr int kMaxWindowPx = 40;
+// Blur before the refinement, a share of the window: its gradients are differences of neighbours,
+// which a sharp edge undersamples; blurred, its error falls to less than half (README).
+constexpr double kSmoothingShare = 0.1;
+constexpr double kMinSmoothingPx = 0.7;
+constexpr double kMaxSmoothingPx = 2;
 constexpr int kMinSidePx = 32;
 
 cv::Mat grey_picture(const ImageView& picture) {
@@ -51,7 +53,7 @@ double shortest_step(const Points& corners, const BoardPattern& pattern) {
 void refine(const cv::Mat& grey, const BoardPattern& pattern, Points& corners) {
   const int half = std::clamp(static_cast<int>(kWindowShare * shortest_step(corners, pattern)), kMinWindowPx, kMaxWindowPx);
   cv::Mat smooth;
-  cv::GaussianBlur(grey, smooth, cv::Size(), kSmoothingPx);
+  cv::GaussianBlur(grey, smooth, cv::Size(), std::clamp(kSmoothingShare * half, kMinSmoothingPx, kMaxSmoothingPx));
   cv::cornerSubPix(smooth, corners, cv::Size(half, half), cv::Size(-1, -1),
                    cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 100, 1e-4));
 }
