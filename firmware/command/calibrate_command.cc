@@ -22,16 +22,19 @@ using Files = std::map<std::string, Path>;
 
 std::optional<std::string> key_of(const Path& file, std::string_view side) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string stem = file.stem().string();
-  if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side)) return std::nullopt;
+  if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side))
+    return std::nullopt;
   return stem.substr(side.size());
 }
 
 Result<void> sort_in(const Path& file, std::string_view side, Files& files) {
   const auto key = key_of(file, side);
   if (key && !files.emplace(*key, file).second)
-    return Error{Errc::InvalidInput, "two pictures with this name differ in their ending only; remove one"}.at(file.native());
+    return Error{Errc::InvalidInput, "two pictures with this name differ in their ending only; remove one"}
+        .at(file.native());
   return {};
 }
 
@@ -53,7 +56,8 @@ Result<Pair> read_pair(const PicturePairFiles& files) {
 }
 
 // No board is a finding, anything else an error.
-Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern, const Path& file) {
+Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern,
+                                    const Path& file) {
   auto corners = pipeline::find_board(picture.view(), pattern);
   if (corners) return corners;
   if (corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
@@ -62,7 +66,8 @@ Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline:
 
 // The size of the cameras' pictures is that of the first board seen. A picture without a board may
 // have any: it plays no part.
-Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file, pipeline::CalibratorInput& input) {
+Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
+                                       pipeline::CalibratorInput& input) {
   RELIEVO_TRY_ASSIGN(pipeline::BoardCorners corners, look(picture, input.pattern, file));
   if (corners.empty()) return corners;
   if (input.width_px == 0) {
@@ -70,7 +75,9 @@ Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& 
     input.height_px = picture.height_px;
   }
   if (picture.width_px != input.width_px || picture.height_px != input.height_px)
-    return Error{Errc::InvalidInput, "is not as large as the boards before; all must come from the same two cameras"}.at(file.native());
+    return Error{Errc::InvalidInput,
+                 "is not as large as the boards before; all must come from the same two cameras"}
+        .at(file.native());
   return corners;
 }
 
@@ -79,7 +86,8 @@ const char* finding(const pipeline::BoardView& view) {
   return view.right.empty() ? "no board in right" : "board found";
 }
 
-Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>& pairs, const pipeline::BoardPattern& pattern, std::ostream& out) {
+Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>& pairs,
+                                             const pipeline::BoardPattern& pattern, std::ostream& out) {
   pipeline::CalibratorInput input;
   input.pattern = pattern;
   bool any = false;
@@ -93,8 +101,9 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
     out << "view " << view.name << ": " << finding(view) << std::endl;
   }
   if (!any)
-    return Error{Errc::InvalidInput, "no pair shows a whole board with these inner corners; check --corners and the light"}.at(
-        pairs.front().left.parent_path().native());
+    return Error{Errc::InvalidInput,
+                 "no pair shows a whole board with these inner corners; check --corners and the light"}
+        .at(pairs.front().left.parent_path().native());
   return input;
 }
 
@@ -102,15 +111,18 @@ void tell(const pipeline::CalibrationQuality& q, std::ostream& out) {
   char line[320];
   for (const pipeline::ViewQuality& view : q.views) {
     if (view.used)
-      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px", view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
-    else
-      std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
+      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px",
+                    view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
+    else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
     out << line;
     if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
     out << '\n';
   }
-  std::snprintf(line, sizeof line, "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f px, baseline %.2f mm",
-                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px, q.held_out_epipolar_px, q.baseline_mm);
+  std::snprintf(line, sizeof line,
+                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
+                "px, baseline %.2f mm",
+                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
+                q.held_out_epipolar_px, q.baseline_mm);
   out << line << '\n';
   const char* const words[] = {"pass", "usable", "refuse"};
   out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
@@ -123,21 +135,27 @@ std::string file_name(std::string name) {
   return name;
 }
 
-Result<void> write_report(const Path& folder, const std::vector<PicturePairFiles>& pairs, const pipeline::CalibratorInput& input,
-                          const pipeline::CalibratorOutput& result, std::ostream& out) {
+Result<void> write_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+                          const pipeline::CalibratorInput& input, const pipeline::CalibratorOutput& result,
+                          std::ostream& out) {
   RELIEVO_TRY_ASSIGN(OutputFolder report, OutputFolder::begin(folder));
-  RELIEVO_TRY(write_text(report.path() / "report.json", pipeline::calibration_report_json(result.quality), folder / "report.json"));
+  RELIEVO_TRY(write_text(report.path() / "report.json", pipeline::calibration_report_json(result.quality),
+                         folder / "report.json"));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     RELIEVO_TRY_ASSIGN(const Pair pair, read_pair(pairs[i]));
-    const auto fits = [&input](const hal::Picture& one) { return one.width_px == input.width_px && one.height_px == input.height_px; };
+    const auto fits = [&input](const hal::Picture& one) {
+      return one.width_px == input.width_px && one.height_px == input.height_px;
+    };
     if (!fits(pair.left) || !fits(pair.right)) {
       out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
       continue;
     }
     const std::string name = file_name(pairs[i].name);
-    const auto corners = pipeline::corner_picture(pair.left.view(), input.views[i].left, pair.right.view(), input.views[i].right);
+    const auto corners = pipeline::corner_picture(pair.left.view(), input.views[i].left, pair.right.view(),
+                                                  input.views[i].right);
     RELIEVO_TRY(hal::write_picture(report.path() / ("corners_" + name + ".png"), corners.view()));
-    const auto rectified = pipeline::rectified_picture(pair.left.view(), pair.right.view(), result.calibration);
+    const auto rectified =
+        pipeline::rectified_picture(pair.left.view(), pair.right.view(), result.calibration);
     RELIEVO_TRY(hal::write_picture(report.path() / ("rectified_" + name + ".png"), rectified.view()));
     out << "report: view " << pairs[i].name << std::endl;
   }
@@ -148,7 +166,8 @@ Result<void> check_output(const Path& output) {
   std::error_code error;
   const Path folder = output.has_parent_path() ? output.parent_path() : Path(".");
   if (!std::filesystem::is_directory(folder, error))
-    return Error{Errc::NotFound, "the folder for the calibration does not exist; make it first"}.at(folder.native());
+    return Error{Errc::NotFound, "the folder for the calibration does not exist; make it first"}.at(
+        folder.native());
   if (std::filesystem::is_directory(output, error))
     return Error{Errc::InvalidInput, "is a folder; name a file such as rig.yml"}.at(output.native());
   return {};
@@ -159,7 +178,8 @@ Result<void> check_output(const Path& output) {
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    return Error{Errc::NotFound, "no such folder; give the one with the left* and right* pictures"}.at(folder.native());
+    return Error{Errc::NotFound, "no such folder; give the one with the left* and right* pictures"}.at(
+        folder.native());
   Files left;
   Files right;
   std::filesystem::directory_iterator entry(folder, error);
@@ -171,9 +191,13 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
   if (left.empty() && right.empty())
     return Error{Errc::NotFound, "holds no pictures named left* and right* (png or jpg)"}.at(folder.native());
   for (const auto& [key, file] : left)
-    if (!right.contains(key)) return Error{Errc::InvalidInput, "has no partner right* of the same name; add it or remove this one"}.at(file.native());
+    if (!right.contains(key))
+      return Error{Errc::InvalidInput, "has no partner right* of the same name; add it or remove this one"}
+          .at(file.native());
   for (const auto& [key, file] : right)
-    if (!left.contains(key)) return Error{Errc::InvalidInput, "has no partner left* of the same name; add it or remove this one"}.at(file.native());
+    if (!left.contains(key))
+      return Error{Errc::InvalidInput, "has no partner left* of the same name; add it or remove this one"}.at(
+          file.native());
   std::vector<PicturePairFiles> pairs;
   for (const auto& [key, file] : left) pairs.push_back({plain_name(key), file, right.at(key)});
   return pairs;
@@ -185,14 +209,16 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
   RELIEVO_TRY(check_output(args.output));
   RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));
   if (pairs.size() > pipeline::kMaxBoardPairs)
-    return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(args.pictures.native());
+    return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
+        args.pictures.native());
   RELIEVO_TRY_ASSIGN(const pipeline::CalibratorInput input, read_views(pairs, pattern, out));
   auto result = pipeline::calibrate(input);
   if (!result) return result.error().at(args.pictures.native() + ": " + std::string(result.error().where()));
   tell(result->quality, out);
   if (!args.report.empty()) RELIEVO_TRY(write_report(args.report, pairs, input, *result, out));
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
-    return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}.at(args.pictures.native());
+    return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
+        .at(args.pictures.native());
   RELIEVO_TRY(pipeline::write_calibration(args.output, result->calibration));
   return result;
 }

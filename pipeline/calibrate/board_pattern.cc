@@ -10,7 +10,9 @@ Result<void> BoardPattern::check() const {
   if (columns < 3 || rows < 3 || columns > 60 || rows > 60)
     return Error{Errc::InvalidInput, "a board has 3 to 60 inner corners a side, as in 10x7"}.at("--corners");
   if (columns == rows)
-    return Error{Errc::InvalidInput, "a board with as many columns as rows has no way up; use one such as 10x7"}.at("--corners");
+    return Error{Errc::InvalidInput,
+                 "a board with as many columns as rows has no way up; use one such as 10x7"}
+        .at("--corners");
   if (!(square_mm >= 0.1 && square_mm <= 1000))
     return Error{Errc::InvalidInput, "a square must measure 0.1 to 1000 mm"}.at("--square-mm");
   return {};

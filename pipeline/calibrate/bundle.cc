@@ -10,7 +10,7 @@
 namespace relievo::pipeline::bundle {
 namespace {
 
-using Jacobian = Eigen::Matrix<double, 2, 9>;   // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
+using Jacobian = Eigen::Matrix<double, 2, 9>;  // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
 using Globals = Eigen::Matrix<double, kGlobals, kGlobals>;
 constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
 using GlobalVector = Eigen::Matrix<double, kGlobals, 1>;
@@ -35,14 +35,16 @@ Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, Ja
   const double fy = c.focal_px.y;
   if (by_camera != nullptr) {
     const double r4 = r2 * r2;
-    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x), fx * x * r4 * r2,
-        0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y, fy * y * r4 * r2;
+    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x),
+        fx * x * r4 * r2, 0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y,
+        fy * y * r4 * r2;
   }
   if (by_point != nullptr) {
     const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
     Eigen::Matrix2d by_plane;
-    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
-        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
+    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x,
+        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
+        radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
     Eigen::Matrix<double, 2, 3> plane_by_point;
     plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
     *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
@@ -80,7 +82,8 @@ void add_camera(const Problem& p, View& view, Block block) {
     const Vec2d& at = (*view.seen[kEye])[static_cast<std::size_t>(i)];
     if (!seen(at)) continue;
     ++view.corners[kEye];
-    const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm, (i / p.pattern.columns) * p.pattern.square_mm, 0);
+    const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm,
+                                (i / p.pattern.columns) * p.pattern.square_mm, 0);
     const Eigen::Vector3d turned = view.left_from_board.rotation * board;
     Eigen::Vector3d here = turned + view.left_from_board.translation_mm;
     const Eigen::Vector3d turned_left = relation.rotation * here;
@@ -196,8 +199,9 @@ void Pose::step(const Vector6d& by) {
 }
 
 Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm) {
-  const Eigen::Vector2d pixel =
-      pixel_of(camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm, nullptr, nullptr);
+  const Eigen::Vector2d pixel = pixel_of(
+      camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm,
+      nullptr, nullptr);
   return {pixel.x(), pixel.y()};
 }
 

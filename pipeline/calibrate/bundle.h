@@ -32,13 +32,14 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn);  // exp
 Eigen::Vector3d turn_of(const Eigen::Matrix3d& rotation);  // log
 
 struct View {
-  View(const BoardCorners* left, const BoardCorners* right, const Pose& pose) : seen{left, right}, left_from_board(pose) {}
+  View(const BoardCorners* left, const BoardCorners* right, const Pose& pose)
+      : seen{left, right}, left_from_board(pose) {}
 
-  std::array<const BoardCorners*, 2> seen;    // borrowed; nullptr where a camera has no board
+  std::array<const BoardCorners*, 2> seen;  // borrowed; nullptr where a camera has no board
   Pose left_from_board;
-  std::array<double, 2> squared_px{};         // out: sum of squared residuals
-  std::array<int, 2> corners{};               // out: that took part
-  Matrix6d information = Matrix6d::Zero();    // out: of the pose, for corners of 1 px noise
+  std::array<double, 2> squared_px{};       // out: sum of squared residuals
+  std::array<int, 2> corners{};             // out: that took part
+  Matrix6d information = Matrix6d::Zero();  // out: of the pose, for corners of 1 px noise
 };
 
 // Order of the global parameters: nine of each camera (fx fy cx cy k1 k2 p1 p2 k3), then the step of
@@ -50,10 +51,10 @@ struct Problem {
   std::array<CameraIntrinsics, 2> camera;
   Pose right_from_left;
   std::vector<View> views;
-  std::array<bool, kGlobals> free{};          // the others keep their value
+  std::array<bool, kGlobals> free{};  // the others keep their value
   // out:
-  double squared_px = 0;                      // of all views
-  int residuals = 0;                          // numbers, two a corner
+  double squared_px = 0;  // of all views
+  int residuals = 0;      // numbers, two a corner
   Eigen::Matrix<double, kGlobals, kGlobals> covariance =
       Eigen::Matrix<double, kGlobals, kGlobals>::Zero();  // for 1 px noise; 0 for what is not free
 };

@@ -14,7 +14,8 @@ namespace relievo::pipeline::bundle {
 namespace {
 
 // Picture from board, both scaled to about one (Hartley 1997).
-Eigen::Matrix3d homography(const BoardPattern& pattern, const BoardCorners& corners, const CameraIntrinsics& camera) {
+Eigen::Matrix3d homography(const BoardPattern& pattern, const BoardCorners& corners,
+                           const CameraIntrinsics& camera) {
   const double scale_px = std::max(camera.width_px, camera.height_px);
   Eigen::Matrix<double, 9, 9> sum = Eigen::Matrix<double, 9, 9>::Zero();
   for (int i = 0; i < pattern.corners(); ++i) {
@@ -43,8 +44,9 @@ double focal_of(const std::vector<Eigen::Matrix3d>& views) {
     h /= std::sqrt(h.col(0).norm() * h.col(1).norm());
     const auto a = h.col(0);
     const auto b = h.col(1);
-    const double rows[2][2] = {{a.x() * b.x() + a.y() * b.y(), a.z() * b.z()},
-                               {a.x() * a.x() + a.y() * a.y() - b.x() * b.x() - b.y() * b.y(), a.z() * a.z() - b.z() * b.z()}};
+    const double rows[2][2] = {
+        {a.x() * b.x() + a.y() * b.y(), a.z() * b.z()},
+        {a.x() * a.x() + a.y() * a.y() - b.x() * b.x() - b.y() * b.y(), a.z() * a.z() - b.z() * b.z()}};
     for (const auto& row : rows) {
       up -= row[0] * row[1];
       down += row[0] * row[0];
@@ -78,7 +80,8 @@ bool first_guess(Problem& problem) {
   camera.centre_px = {0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1)};
   for (double& k : camera.distortion) k = 0;
   const double board_mm = problem.pattern.columns * problem.pattern.square_mm;
-  for (std::size_t v = 0; v < views.size(); ++v) problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
   return !views.empty();
 }
 

@@ -25,8 +25,10 @@ Error wrong(Literal what, const char* where) { return Error{Errc::InvalidInput, 
 // rays share one pixel. (The corners may be extrapolated; no face is there.)
 bool unfolded(const CameraIntrinsics& camera) {
   const double* k = camera.distortion;
-  const double edge_x = std::max(camera.centre_px.x, camera.width_px - camera.centre_px.x) / camera.focal_px.x;
-  const double edge_y = std::max(camera.centre_px.y, camera.height_px - camera.centre_px.y) / camera.focal_px.y;
+  const double edge_x =
+      std::max(camera.centre_px.x, camera.width_px - camera.centre_px.x) / camera.focal_px.x;
+  const double edge_y =
+      std::max(camera.centre_px.y, camera.height_px - camera.centre_px.y) / camera.focal_px.y;
   const double edge = std::max(edge_x, edge_y);
   constexpr int kSteps = 2000;
   for (int i = 1; i <= kSteps; ++i) {
@@ -41,7 +43,8 @@ bool unfolded(const CameraIntrinsics& camera) {
 }
 
 Result<void> check_camera(const CameraIntrinsics& c, const char* matrix, const char* distortion) {
-  if (c.width_px < kMinSidePx || c.height_px < kMinSidePx || c.width_px > kMaxSidePx || c.height_px > kMaxSidePx)
+  if (c.width_px < kMinSidePx || c.height_px < kMinSidePx || c.width_px > kMaxSidePx ||
+      c.height_px > kMaxSidePx)
     return wrong("pictures must have 16 to 8192 pixels a side", "image_width, image_height");
   const double side = std::max(c.width_px, c.height_px);
   for (const double f : {c.focal_px.x, c.focal_px.y})
@@ -53,10 +56,12 @@ Result<void> check_camera(const CameraIntrinsics& c, const char* matrix, const c
       !(std::abs(c.centre_px.y - 0.5 * c.height_px) <= c.height_px))
     return wrong("the principal point lies far outside the picture; calibrate again", matrix);
   for (const double k : c.distortion)
-    if (!(std::abs(k) <= kMaxCoefficient)) return wrong("a distortion coefficient is beyond any lens; calibrate again", distortion);
+    if (!(std::abs(k) <= kMaxCoefficient))
+      return wrong("a distortion coefficient is beyond any lens; calibrate again", distortion);
   if (std::abs(c.distortion[2]) > kMaxTangential || std::abs(c.distortion[3]) > kMaxTangential)
     return wrong("the tangential distortion is beyond any lens; calibrate again", distortion);
-  if (!unfolded(c)) return wrong("the distortion folds the picture over before its edge; calibrate again", distortion);
+  if (!unfolded(c))
+    return wrong("the distortion folds the picture over before its edge; calibrate again", distortion);
   return {};
 }
 
@@ -87,7 +92,8 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
     return wrong("the cameras must stand 1 mm to 10 m apart; is the file in millimetres?", "T");
   const double right_x = inverse(calibration.right_from_left).translation_mm.x;
   if (right_x < 0) return wrong("the right camera stands left of the left one; exchange the two", "T");
-  if (right_x < 0.5 * baseline) return wrong("the cameras must stand beside each other, not above or behind", "T");
+  if (right_x < 0.5 * baseline)
+    return wrong("the cameras must stand beside each other, not above or behind", "T");
   if (!(calibration.rms_px >= 0 && calibration.rms_px < 1000)) return wrong("no possible rms", "pair_rms_px");
   return {};
 }

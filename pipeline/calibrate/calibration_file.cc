@@ -36,7 +36,9 @@ class File {
 };
 
 Error failed(Literal what, const std::filesystem::path& file) {
-  const Errc code = errno == ENOENT ? Errc::NotFound : errno == ENOSPC || errno == EDQUOT ? Errc::MediaFull : Errc::IoFailed;
+  const Errc code = errno == ENOENT                      ? Errc::NotFound
+                    : errno == ENOSPC || errno == EDQUOT ? Errc::MediaFull
+                                                         : Errc::IoFailed;
   Error error{code, what};
   error.sys_errno = errno;
   return error.at(file.native());
@@ -74,24 +76,31 @@ Result<void> read_camera(const YamlFields& fields, std::string_view k_name, std:
   camera.focal_px = {v[0], v[4]};
   camera.centre_px = {v[2], v[5]};
   const auto found = fields.matrices.find(d_name);
-  if (found == fields.matrices.end()) return missing("this matrix is missing; the file is damaged or no stereo calibration", d_name);
+  if (found == fields.matrices.end())
+    return missing("this matrix is missing; the file is damaged or no stereo calibration", d_name);
   const YamlMatrix& d = found->second;
   if ((d.rows != 1 && d.cols != 1) || (d.values.size() != 4 && d.values.size() != 5 && d.values.size() != 8 &&
                                        d.values.size() != 12 && d.values.size() != 14))
     return missing("distortion must be k1 k2 p1 p2 and perhaps k3", d_name);
   for (std::size_t i = 5; i < d.values.size(); ++i)
     if (d.values[i] != 0)
-      return Error{Errc::Unsupported, "more than five distortion coefficients; calibrate with k1 k2 p1 p2 k3"}.at(d_name);
+      return Error{Errc::Unsupported, "more than five distortion coefficients; calibrate with k1 k2 p1 p2 k3"}
+          .at(d_name);
   for (std::size_t i = 0; i < 5 && i < d.values.size(); ++i) camera.distortion[i] = d.values[i];
   return {};
 }
 
 void append_matrix(std::string& text, const char* name, int rows, int cols, std::span<const double> values) {
   char line[96];
-  std::snprintf(line, sizeof line, "%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [", name, rows, cols);
+  std::snprintf(line, sizeof line, "%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [",
+                name, rows, cols);
   text += line;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    std::snprintf(line, sizeof line, "%s%s%.16e", i == 0 ? " " : ",", i % 3 == 0 && i > 0 ? "\n       " : i == 0 ? "" : " ", values[i]);
+    std::snprintf(line, sizeof line, "%s%s%.16e", i == 0 ? " " : ",",
+                  i % 3 == 0 && i > 0 ? "\n       "
+                  : i == 0            ? ""
+                                      : " ",
+                  values[i]);
     text += line;
   }
   text += " ]\n";
@@ -127,7 +136,8 @@ Result<StereoCalibration> parse_calibration(std::string_view text) {
   std::copy(r->values.begin(), r->values.end(), calibration.right_from_left.rotation.m);
   RELIEVO_TRY_ASSIGN(const YamlMatrix* t, matrix(fields, "T", 3, 1));
   calibration.right_from_left.translation_mm = {t->values[0], t->values[1], t->values[2]};
-  if (const auto rms = fields.numbers.find("pair_rms_px"); rms != fields.numbers.end()) calibration.rms_px = rms->second;
+  if (const auto rms = fields.numbers.find("pair_rms_px"); rms != fields.numbers.end())
+    calibration.rms_px = rms->second;
   RELIEVO_TRY(check_calibration(calibration));
   return calibration;
 }
@@ -135,8 +145,8 @@ Result<StereoCalibration> parse_calibration(std::string_view text) {
 std::string calibration_text(const StereoCalibration& c) {
   // Everything that may be absent comes first: wherever the file is cut, a needed field is lost.
   char head[160];
-  std::snprintf(head, sizeof head, "%%YAML:1.0\n---\npair_rms_px: %.16e\nimage_width: %d\nimage_height: %d\n", c.rms_px,
-                c.left.width_px, c.left.height_px);
+  std::snprintf(head, sizeof head, "%%YAML:1.0\n---\npair_rms_px: %.16e\nimage_width: %d\nimage_height: %d\n",
+                c.rms_px, c.left.width_px, c.left.height_px);
   std::string text = head;
   append_camera(text, c.left, "K1", "D1");
   append_camera(text, c.right, "K2", "D2");
@@ -149,10 +159,12 @@ std::string calibration_text(const StereoCalibration& c) {
 
 Result<StereoCalibration> read_calibration(const std::filesystem::path& file) {
   File in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (in.get() < 0) return failed("the calibration cannot be opened; check the name, or calibrate first", file);
+  if (in.get() < 0)
+    return failed("the calibration cannot be opened; check the name, or calibrate first", file);
   struct stat status {};
   if (::fstat(in.get(), &status) != 0) return failed("the calibration cannot be read", file);
-  if (!S_ISREG(status.st_mode)) return missing("is no file; give a calibration such as rig.yml", file.native());
+  if (!S_ISREG(status.st_mode))
+    return missing("is no file; give a calibration such as rig.yml", file.native());
   if (static_cast<std::size_t>(status.st_size) > kMaxCalibrationFileBytes)
     return missing("too large for a calibration; give a file such as rig.yml", file.native());
   std::string text(kMaxCalibrationFileBytes + 1, '\0');
@@ -176,7 +188,8 @@ Result<void> write_calibration(const std::filesystem::path& file, const StereoCa
   RELIEVO_TRY(check_calibration(calibration));
   std::string temporary = file.native() + ".XXXXXX";
   File out(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (out.get() < 0) return failed("cannot be written here; does the folder exist, may you write to it?", file);
+  if (out.get() < 0)
+    return failed("cannot be written here; does the folder exist, may you write to it?", file);
   const auto finish = [&]() -> Result<void> {
     RELIEVO_TRY(write_all(out.get(), calibration_text(calibration), file));
     if (::fchmod(out.get(), 0644) != 0 || ::fsync(out.get()) != 0 || !out.close())

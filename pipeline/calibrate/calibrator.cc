@@ -24,13 +24,17 @@ Result<void> check_input(const CalibratorInput& input) {
   RELIEVO_TRY(input.pattern.check());
   if (input.width_px < 16 || input.height_px < 16 || input.width_px > 8192 || input.height_px > 8192)
     return Error{Errc::InvalidInput, "pictures must have 16 to 8192 pixels a side"};
-  if (input.views.size() > kMaxBoardPairs) return Error{Errc::InvalidInput, "more than 500 pairs; a few dozen are enough"};
+  if (input.views.size() > kMaxBoardPairs)
+    return Error{Errc::InvalidInput, "more than 500 pairs; a few dozen are enough"};
   const auto corners = static_cast<std::size_t>(input.pattern.corners());
   for (const BoardView& view : input.views)
     for (const BoardCorners* board : {&view.left, &view.right}) {
       if (!board->empty() && board->size() != corners)
-        return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(view.name);
-      if (!std::all_of(board->begin(), board->end(), [](const Vec2d& at) { return !seen(at) || (std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5); }))
+        return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
+            view.name);
+      if (!std::all_of(board->begin(), board->end(), [](const Vec2d& at) {
+            return !seen(at) || (std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5);
+          }))
         return Error{Errc::InvalidInput, "a corner far outside the picture"}.at(view.name);
     }
   return {};
@@ -44,8 +48,9 @@ std::vector<int> boards(const CalibratorInput& input, bool right) {
 }
 
 double distance(const CalibratorInput& input, const CameraFit& fit, int view, int corner, const Vec2d& at) {
-  const Vec2d p = bundle::project(fit.camera, fit.pose(view), corner % input.pattern.columns * input.pattern.square_mm,
-                                  corner / input.pattern.columns * input.pattern.square_mm);
+  const Vec2d p =
+      bundle::project(fit.camera, fit.pose(view), corner % input.pattern.columns * input.pattern.square_mm,
+                      corner / input.pattern.columns * input.pattern.square_mm);
   return std::hypot(at.x - p.x, at.y - p.y);
 }
 
@@ -54,7 +59,8 @@ struct Strays {
   std::vector<std::vector<int>> of_view;  // corner numbers
 };
 
-Strays find_strays(const CalibratorInput& input, bool right, std::span<const int> views, const CameraFit& fit) {
+Strays find_strays(const CalibratorInput& input, bool right, std::span<const int> views,
+                   const CameraFit& fit) {
   std::vector<std::vector<double>> off(views.size());
   std::vector<double> all;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -80,13 +86,15 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
 
 void name_loose(bool right, std::size_t strays, double limit_px, ViewQuality& view) {
   char text[160];
-  std::snprintf(text, sizeof text, "%s: %d corners are more than %.2f px off any flat board", right ? "right" : "left", static_cast<int>(strays), limit_px);
+  std::snprintf(text, sizeof text, "%s: %d corners are more than %.2f px off any flat board",
+                right ? "right" : "left", static_cast<int>(strays), limit_px);
   view.reason = text;
 }
 
 // One camera alone, without stray corners (set to not-a-number) and without boards that have many:
 // the worst of these goes first, since it bends the fit of the others.
-bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& views, CameraFit& fit, CalibrationQuality& quality) {
+bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& views, CameraFit& fit,
+                        CalibrationQuality& quality) {
   constexpr int kFirstTerms = 2;
   for (std::size_t round = 0; round < kMaxBoardPairs; ++round) {
     if (views.size() < kMinBoardPairs || !fit_camera(input, right, views, kFirstTerms, fit)) return false;
@@ -96,7 +104,8 @@ bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& vi
     if (worst->empty()) return true;
     if (static_cast<double>(worst->size()) > kLooseShare * input.pattern.corners()) {
       const auto at = worst - strays.of_view.begin();
-      name_loose(right, worst->size(), strays.limit_px, quality.views[static_cast<std::size_t>(views[static_cast<std::size_t>(at)])]);
+      name_loose(right, worst->size(), strays.limit_px,
+                 quality.views[static_cast<std::size_t>(views[static_cast<std::size_t>(at)])]);
       views.erase(views.begin() + at);
       continue;
     }
@@ -104,7 +113,8 @@ bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& vi
       BoardView& view = input.views[static_cast<std::size_t>(views[v])];
       for (const int corner : strays.of_view[v])
         (right ? view.right : view.left)[static_cast<std::size_t>(corner)] = {std::nan(""), std::nan("")};
-      quality.views[static_cast<std::size_t>(views[v])].corners_dropped += static_cast<int>(strays.of_view[v].size());
+      quality.views[static_cast<std::size_t>(views[v])].corners_dropped +=
+          static_cast<int>(strays.of_view[v].size());
     }
   }
   return true;
@@ -124,10 +134,13 @@ void name_left_out(const Selection& selection, std::span<const int> pairs, Calib
   for (const int pair : pairs) {
     ViewQuality& view = quality.views[static_cast<std::size_t>(pair)];
     if (view.used) continue;
-    const double usual = std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
+    const double usual =
+        std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
     char text[160];
-    std::snprintf(text, sizeof text, "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
-                  view.excess_px, usual, view.epipolar_rms_px);
+    std::snprintf(
+        text, sizeof text,
+        "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
+        view.excess_px, usual, view.epipolar_rms_px);
     view.reason = text;
   }
 }
@@ -164,19 +177,23 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   std::vector<int> pairs;
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
   if (pairs.size() < kMinBoardPairs)
-    return too_few("the whole board is in both pictures of too few pairs; take at least 5, better 15", pairs.size());
+    return too_few("the whole board is in both pictures of too few pairs; take at least 5, better 15",
+                   pairs.size());
 
   CameraFit left_fit;
   CameraFit right_fit;
-  const Error undetermined = too_few("these views do not determine the cameras; tilt the board, and fill the picture with it", pairs.size());
+  const Error undetermined = too_few(
+      "these views do not determine the cameras; tilt the board, and fill the picture with it", pairs.size());
   if (!fit_without_strays(input, false, left, left_fit, out.quality) ||
       !fit_without_strays(input, true, right, right_fit, out.quality))
     return undetermined;
   const int terms = choose_distortion_terms(input, left, right);
-  if (!fit_camera(input, false, left, terms, left_fit) || !fit_camera(input, true, right, terms, right_fit)) return undetermined;
+  if (!fit_camera(input, false, left, terms, left_fit) || !fit_camera(input, true, right, terms, right_fit))
+    return undetermined;
   pairs.clear();
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
-  if (pairs.size() < kMinBoardPairs) return too_few("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
+  if (pairs.size() < kMinBoardPairs)
+    return too_few("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
 
   const CameraFits cameras{left_fit, right_fit, terms};
   Selection selection;

@@ -22,13 +22,13 @@ inline constexpr int kMaxBoardPairs = 500;
 
 struct BoardView {
   std::string name;
-  BoardCorners left;   // empty where no board was found
+  BoardCorners left;  // empty where no board was found
   BoardCorners right;
 };
 
 struct CalibratorInput {
   BoardPattern pattern;
-  int width_px = 0;    // of both cameras
+  int width_px = 0;  // of both cameras
   int height_px = 0;
   std::vector<BoardView> views;
 };

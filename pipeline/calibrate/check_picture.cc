@@ -16,7 +16,7 @@ namespace relievo::pipeline {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
-constexpr Colour kFirst{255, 60, 60};   // the order starts here
+constexpr Colour kFirst{255, 60, 60};  // the order starts here
 constexpr Colour kCorner{60, 255, 60};
 constexpr Colour kLine{255, 200, 0};
 
@@ -31,15 +31,17 @@ Colour pixel(const ImageView& image, int x, int y) {
 void put(CheckPicture& picture, int x, int y, const Colour& colour) {
   if (x < 0 || y < 0 || x >= picture.width_px || y >= picture.height_px) return;
   for (std::size_t c = 0; c < 3; ++c)
-    picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width_px) + static_cast<std::size_t>(x)) + c] =
-        static_cast<std::byte>(colour[c]);
+    picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width_px) +
+                     static_cast<std::size_t>(x)) +
+                c] = static_cast<std::byte>(colour[c]);
 }
 
 CheckPicture blank(const ImageView& one) {
   CheckPicture picture;
   picture.width_px = 2 * one.width_px;
   picture.height_px = one.height_px;
-  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px));
+  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) *
+                     static_cast<std::size_t>(picture.height_px));
   return picture;
 }
 
@@ -55,16 +57,19 @@ void draw_corners(CheckPicture& picture, const BoardCorners& corners, int offset
   }
 }
 
-void draw_rectified(CheckPicture& picture, const ImageView& from, const CameraIntrinsics& camera, const Eigen::Matrix3d& camera_from_rectified,
-                    double focal, const Eigen::Vector2d& centre, int offset) {
+void draw_rectified(CheckPicture& picture, const ImageView& from, const CameraIntrinsics& camera,
+                    const Eigen::Matrix3d& camera_from_rectified, double focal, const Eigen::Vector2d& centre,
+                    int offset) {
   for (int y = 0; y < from.height_px; ++y)
     for (int x = 0; x < from.width_px; ++x) {
       bundle::Pose ray;
-      ray.translation_mm = camera_from_rectified * Eigen::Vector3d((x - centre.x()) / focal, (y - centre.y()) / focal, 1);
+      ray.translation_mm =
+          camera_from_rectified * Eigen::Vector3d((x - centre.x()) / focal, (y - centre.y()) / focal, 1);
       if (ray.translation_mm.z() <= 0.1) continue;
       const Vec2d at = bundle::project(camera, ray, 0, 0);
       if (!(at.x >= 0 && at.y >= 0 && at.x <= from.width_px - 1 && at.y <= from.height_px - 1)) continue;
-      put(picture, offset + x, y, pixel(from, static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))));
+      put(picture, offset + x, y,
+          pixel(from, static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))));
     }
 }
 
@@ -83,7 +88,8 @@ CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corn
   return picture;
 }
 
-CheckPicture rectified_picture(const ImageView& left, const ImageView& right, const StereoCalibration& calibration) {
+CheckPicture rectified_picture(const ImageView& left, const ImageView& right,
+                               const StereoCalibration& calibration) {
   Eigen::Matrix3d right_from_left;
   for (int i = 0; i < 9; ++i) right_from_left(i / 3, i % 3) = calibration.right_from_left.rotation.m[i];
   const Vec3d& t = calibration.right_from_left.translation_mm;
@@ -94,11 +100,13 @@ CheckPicture rectified_picture(const ImageView& left, const ImageView& right, co
   left_from_rectified.col(1) = ahead.cross(along).normalized();
   left_from_rectified.col(2) = along.cross(left_from_rectified.col(1));
   const Eigen::Matrix3d right_from_rectified = right_from_left * left_from_rectified;
-  const double focal = 0.25 * (calibration.left.focal_px.x + calibration.left.focal_px.y + calibration.right.focal_px.x + calibration.right.focal_px.y);
+  const double focal = 0.25 * (calibration.left.focal_px.x + calibration.left.focal_px.y +
+                               calibration.right.focal_px.x + calibration.right.focal_px.y);
   // Each window is laid so that its camera's axis stands in the middle; rows are common to both.
   const Eigen::Vector3d left_axis = left_from_rectified.transpose().col(2);
   const Eigen::Vector3d right_axis = right_from_rectified.transpose().col(2);
-  const double middle_y = 0.5 * left.height_px - 0.5 * focal * (left_axis.y() / left_axis.z() + right_axis.y() / right_axis.z());
+  const double middle_y =
+      0.5 * left.height_px - 0.5 * focal * (left_axis.y() / left_axis.z() + right_axis.y() / right_axis.z());
   CheckPicture picture = blank(left);
   draw_rectified(picture, left, calibration.left, left_from_rectified, focal,
                  {0.5 * left.width_px - focal * left_axis.x() / left_axis.z(), middle_y}, 0);

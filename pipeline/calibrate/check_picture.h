@@ -28,6 +28,7 @@ CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corn
                             const BoardCorners& right_corners);
 
 // Both views must have the calibration's size.
-CheckPicture rectified_picture(const ImageView& left, const ImageView& right, const StereoCalibration& calibration);
+CheckPicture rectified_picture(const ImageView& left, const ImageView& right,
+                               const StereoCalibration& calibration);
 
 }  // namespace relievo::pipeline

@@ -29,12 +29,15 @@ cv::Mat grey_picture(const ImageView& picture) {
   auto* bytes = const_cast<std::byte*>(picture.bytes);  // cv::Mat has no read-only form; nothing writes
   const auto stride = static_cast<std::size_t>(picture.stride_bytes);
   cv::Mat grey;
-  if (picture.format == PixelFormat::Grey8) return cv::Mat(picture.height_px, picture.width_px, CV_8UC1, bytes, stride);
+  if (picture.format == PixelFormat::Grey8)
+    return cv::Mat(picture.height_px, picture.width_px, CV_8UC1, bytes, stride);
   if (picture.format == PixelFormat::Rgb8) {
-    cv::cvtColor(cv::Mat(picture.height_px, picture.width_px, CV_8UC3, bytes, stride), grey, cv::COLOR_RGB2GRAY);
+    cv::cvtColor(cv::Mat(picture.height_px, picture.width_px, CV_8UC3, bytes, stride), grey,
+                 cv::COLOR_RGB2GRAY);
     return grey;
   }
-  cv::normalize(cv::Mat(picture.height_px, picture.width_px, CV_16UC1, bytes, stride), grey, 0, 255, cv::NORM_MINMAX, CV_8U);
+  cv::normalize(cv::Mat(picture.height_px, picture.width_px, CV_16UC1, bytes, stride), grey, 0, 255,
+                cv::NORM_MINMAX, CV_8U);
   return grey;
 }
 
@@ -45,15 +48,18 @@ double shortest_step(const Points& corners, const BoardPattern& pattern) {
       const auto at = static_cast<std::size_t>(r * pattern.columns + c);
       if (c + 1 < pattern.columns) shortest = std::min(shortest, cv::norm(corners[at] - corners[at + 1]));
       if (r + 1 < pattern.rows)
-        shortest = std::min(shortest, cv::norm(corners[at] - corners[at + static_cast<std::size_t>(pattern.columns)]));
+        shortest = std::min(shortest,
+                            cv::norm(corners[at] - corners[at + static_cast<std::size_t>(pattern.columns)]));
     }
   return shortest;
 }
 
 void refine(const cv::Mat& grey, const BoardPattern& pattern, Points& corners) {
-  const int half = std::clamp(static_cast<int>(kWindowShare * shortest_step(corners, pattern)), kMinWindowPx, kMaxWindowPx);
+  const int half = std::clamp(static_cast<int>(kWindowShare * shortest_step(corners, pattern)), kMinWindowPx,
+                              kMaxWindowPx);
   cv::Mat smooth;
-  cv::GaussianBlur(grey, smooth, cv::Size(), std::clamp(kSmoothingShare * half, kMinSmoothingPx, kMaxSmoothingPx));
+  cv::GaussianBlur(grey, smooth, cv::Size(),
+                   std::clamp(kSmoothingShare * half, kMinSmoothingPx, kMaxSmoothingPx));
   cv::cornerSubPix(smooth, corners, cv::Size(half, half), cv::Size(-1, -1),
                    cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 100, 1e-4));
 }
@@ -62,9 +68,12 @@ void refine(const cv::Mat& grey, const BoardPattern& pattern, Points& corners) {
 // the faster. The sector-based one (Duda and Frese 2018) sees boards in poor light and blur.
 bool find(const cv::Mat& grey, const BoardPattern& pattern, Points& corners) {
   const cv::Size size(pattern.columns, pattern.rows);
-  if (cv::findChessboardCorners(grey, size, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) return true;
+  if (cv::findChessboardCorners(grey, size, corners,
+                                cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
+    return true;
   corners.clear();
-  return cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY);
+  return cv::findChessboardCornersSB(grey, size, corners,
+                                     cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY);
 }
 
 // A refinement that ran away from its corner, or a board found wrongly, breaks the lattice: each
@@ -90,7 +99,8 @@ Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pa
   RELIEVO_TRY(pattern.check());
   if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
   // OpenCV's finders throw on pictures smaller than their windows.
-  if (picture.width_px < kMinSidePx || picture.height_px < kMinSidePx) return Error{Errc::NotFound, "no whole board found"};
+  if (picture.width_px < kMinSidePx || picture.height_px < kMinSidePx)
+    return Error{Errc::NotFound, "no whole board found"};
   try {
     const cv::Mat grey = grey_picture(picture);
     Points found;
@@ -99,7 +109,8 @@ Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pa
     if (!lattice_whole(found, pattern)) return Error{Errc::NotFound, "no regular board found"};
     BoardCorners corners;
     corners.reserve(found.size());
-    for (const cv::Point2f& p : found) corners.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
+    for (const cv::Point2f& p : found)
+      corners.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
     return corners;
   } catch (const cv::Exception&) {
     return Error{Errc::LibraryFailed, "the search for the board failed in OpenCV"};

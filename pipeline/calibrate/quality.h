@@ -15,14 +15,14 @@ enum class CalibrationVerdict : std::uint8_t { Pass, Usable, Refuse };
 
 struct ViewQuality {
   std::string name;
-  bool used = false;          // as a pair
-  std::string reason;         // why not, in words and numbers; empty where used
-  double left_rms_px = 0;     // reprojection; 0 where the camera has no board
+  bool used = false;       // as a pair
+  std::string reason;      // why not, in words and numbers; empty where used
+  double left_rms_px = 0;  // reprojection; 0 where the camera has no board
   double right_rms_px = 0;
-  double epipolar_rms_px = 0; // distance of right corners from the lines of the left ones
-  double excess_px = 0;       // disagreement of left and right beyond what each camera shows alone
-  int corners_dropped = 0;    // single corners that no flat board explains
-  double distance_mm = 0;     // of the board's middle from the left camera
+  double epipolar_rms_px = 0;  // distance of right corners from the lines of the left ones
+  double excess_px = 0;        // disagreement of left and right beyond what each camera shows alone
+  int corners_dropped = 0;     // single corners that no flat board explains
+  double distance_mm = 0;      // of the board's middle from the left camera
 };
 
 struct CalibrationQuality {
@@ -30,24 +30,24 @@ struct CalibrationQuality {
   std::vector<std::string> reasons;  // one sentence each, most important first
   std::vector<ViewQuality> views;    // all that were given, in their order
   int used = 0;
-  double left_rms_px = 0;            // each camera alone, all its boards
+  double left_rms_px = 0;  // each camera alone, all its boards
   double right_rms_px = 0;
-  double pair_rms_px = 0;            // both together, used views
+  double pair_rms_px = 0;  // both together, used views
   double epipolar_rms_px = 0;
-  double held_out_epipolar_px = 0;   // of views that had no part in the fit (leave-out cross-validation)
-  double coverage_left = 0;          // share of an 8 x 8 grid over the picture in which a corner was seen
+  double held_out_epipolar_px = 0;  // of views that had no part in the fit (leave-out cross-validation)
+  double coverage_left = 0;         // share of an 8 x 8 grid over the picture in which a corner was seen
   double coverage_right = 0;
-  bool holds_still = true;           // left and right agree as well as each camera alone allows
-  double slip_ratio = 1;             // disagreement over what corner noise explains, 1 for a firm rig
-  int moved_after = -1;              // index of the view after which a camera seems to have moved; -1: none
-  int moved_after_first = -1;        // the range in which it may as well have been
+  bool holds_still = true;     // left and right agree as well as each camera alone allows
+  double slip_ratio = 1;       // disagreement over what corner noise explains, 1 for a firm rig
+  int moved_after = -1;        // index of the view after which a camera seems to have moved; -1: none
+  int moved_after_first = -1;  // the range in which it may as well have been
   int moved_after_last = -1;
-  int distortion_terms = 0;          // of k1 k2 p1 p2 k3, from the left
+  int distortion_terms = 0;  // of k1 k2 p1 p2 k3, from the left
   double baseline_mm = 0;
-  double working_distance_mm = 0;    // median distance of the boards used
+  double working_distance_mm = 0;  // median distance of the boards used
   // One standard deviation of a head measured there, as far as this calibration is to blame (jackknife):
-  double depth_sigma_mm = 0;         // of its distance
-  double shape_sigma_mm = 0;         // of its shape and size: what stays when it is laid over the true one
+  double depth_sigma_mm = 0;  // of its distance
+  double shape_sigma_mm = 0;  // of its shape and size: what stays when it is laid over the true one
 };
 
 std::string calibration_report_json(const CalibrationQuality& quality);

@@ -51,7 +51,8 @@ double epipolar_squared(const bundle::Problem& p, const BoardView& view, int& co
 double epipolar_rms(const Fitted& f, const StereoFit& fit, std::span<const int> views) {
   double sum = 0;
   int count = 0;
-  for (const int view : views) sum += epipolar_squared(fit.problem, f.input.views[static_cast<std::size_t>(view)], count);
+  for (const int view : views)
+    sum += epipolar_squared(fit.problem, f.input.views[static_cast<std::size_t>(view)], count);
   return std::sqrt(sum / std::max(count, 1));
 }
 
@@ -103,20 +104,23 @@ Probes probes_at(const bundle::Problem& p, double distance) {
 Cloud cloud_of(const bundle::Problem& p, const Probes& probes) {
   Cloud cloud;
   for (int n = 0; n < kProbes; ++n)
-    cloud.col(n) = point_of(p, probes.left[static_cast<std::size_t>(n)], probes.right[static_cast<std::size_t>(n)]);
+    cloud.col(n) =
+        point_of(p, probes.left[static_cast<std::size_t>(n)], probes.right[static_cast<std::size_t>(n)]);
   return cloud;
 }
 
 // What two clouds differ by when one is laid over the other (mean square, mm²): the error of shape.
 double shape_difference(const Cloud& from, const Cloud& to) {
   const Eigen::Matrix4d lay = Eigen::umeyama(from, to, false);
-  const Cloud laid = (lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>());
+  const Cloud laid =
+      (lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>());
   return (laid - to).squaredNorm() / kProbes;
 }
 
 // Leaves out each group of used views in turn: what those views then miss their epipolar lines by,
-// and by how much a head measured with it changes, where it stands and in shape. The spread is the jackknife's (Efron 1982), so it holds
-// for a rig that slips, too, where the covariance of the fit would promise too much.
+// and by how much a head measured with it changes, where it stands and in shape. The spread is the
+// jackknife's (Efron 1982), so it holds for a rig that slips, too, where the covariance of the fit would
+// promise too much.
 void leave_out(const Fitted& f, CalibrationQuality& q) {
   const std::vector<int>& used = f.selection.used;
   const bundle::Problem& whole = f.selection.fit.problem;
@@ -133,7 +137,8 @@ void leave_out(const Fitted& f, CalibrationQuality& q) {
     std::vector<int> test;
     for (std::size_t i = 0; i < used.size(); ++i) (i % groups == group ? test : learn).push_back(used[i]);
     StereoFit fit;
-    if (learn.size() < 2 || !fit_stereo(f.input, f.cameras, learn, whole.right_from_left, true, fit)) continue;
+    if (learn.size() < 2 || !fit_stereo(f.input, f.cameras, learn, whole.right_from_left, true, fit))
+      continue;
     const double rms = epipolar_rms(f, fit, test);
     missed += rms * rms * static_cast<double>(test.size());
     tested += test.size();
@@ -150,9 +155,11 @@ void leave_out(const Fitted& f, CalibrationQuality& q) {
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.left.views)
-    q.views[static_cast<std::size_t>(view)].left_rms_px = std::sqrt(f.cameras.left.squared_px(view) / f.cameras.left.corners(view));
+    q.views[static_cast<std::size_t>(view)].left_rms_px =
+        std::sqrt(f.cameras.left.squared_px(view) / f.cameras.left.corners(view));
   for (const int view : f.cameras.right.views)
-    q.views[static_cast<std::size_t>(view)].right_rms_px = std::sqrt(f.cameras.right.squared_px(view) / f.cameras.right.corners(view));
+    q.views[static_cast<std::size_t>(view)].right_rms_px =
+        std::sqrt(f.cameras.right.squared_px(view) / f.cameras.right.corners(view));
   std::vector<bundle::View> judged;
   judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
   std::vector<double> distances;
@@ -167,7 +174,8 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
     view.epipolar_rms_px = epipolar_rms(f, f.selection.fit, one);
     view.excess_px = std::sqrt(f.selection.excess[i] / (2 * f.input.pattern.corners()));
     const bundle::Pose& pose = judged[i].left_from_board;
-    view.distance_mm = (pose.rotation * Eigen::Vector3d(middle[0], middle[1], 0) + pose.translation_mm).norm();
+    view.distance_mm =
+        (pose.rotation * Eigen::Vector3d(middle[0], middle[1], 0) + pose.translation_mm).norm();
     if (view.used) distances.push_back(view.distance_mm);
   }
   const auto half = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);

@@ -12,7 +12,7 @@ namespace relievo::pipeline {
 struct Fitted {
   const CalibratorInput& input;
   const CameraFits& cameras;
-  std::span<const int> pairs;   // views with a board in both pictures, fit for use
+  std::span<const int> pairs;  // views with a board in both pictures, fit for use
   const Selection& selection;
 };
 

@@ -15,7 +15,8 @@ constexpr int kFirstDistortion = 4;
 constexpr int kFolds = 5;
 
 void set_free(bundle::Problem& problem, int base, int distortion_terms) {
-  for (int i = 0; i < kFirstDistortion + distortion_terms; ++i) problem.free[static_cast<std::size_t>(base + i)] = true;
+  for (int i = 0; i < kFirstDistortion + distortion_terms; ++i)
+    problem.free[static_cast<std::size_t>(base + i)] = true;
 }
 
 std::size_t place(const CameraFit& fit, int view) {
@@ -30,7 +31,8 @@ const BoardCorners& corners_of(const CalibratorInput& input, bool right, int vie
 }
 
 // Squared residuals of boards that had no part in the fit, one a view; empty if a fold fails.
-std::vector<double> held_out(const CalibratorInput& input, bool right, std::span<const int> views, int terms) {
+std::vector<double> held_out(const CalibratorInput& input, bool right, std::span<const int> views,
+                             int terms) {
   std::vector<double> errors(views.size(), 0);
   CameraFit all;
   if (!fit_camera(input, right, views, terms, all)) return {};
@@ -64,21 +66,28 @@ bool pays(const std::vector<double>& fewer, const std::vector<double>& more) {
   return mean > std::sqrt(std::max(0.0, square - mean * mean) / (n - 1));
 }
 
-bundle::Pose left_from_right_board(const bundle::Pose& right_from_left, const bundle::Pose& right_from_board) {
+bundle::Pose left_from_right_board(const bundle::Pose& right_from_left,
+                                   const bundle::Pose& right_from_board) {
   const Eigen::Matrix3d back = right_from_left.rotation.transpose();
-  return {back * right_from_board.rotation, back * (right_from_board.translation_mm - right_from_left.translation_mm)};
+  return {back * right_from_board.rotation,
+          back * (right_from_board.translation_mm - right_from_left.translation_mm)};
 }
 
 }  // namespace
 
-double CameraFit::rms_px() const { return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1)); }
+double CameraFit::rms_px() const {
+  return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1));
+}
 double CameraFit::squared_px(int view) const { return problem.views[place(*this, view)].squared_px[0]; }
 int CameraFit::corners(int view) const { return problem.views[place(*this, view)].corners[0]; }
-const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place(*this, view)].left_from_board; }
+const bundle::Pose& CameraFit::pose(int view) const {
+  return problem.views[place(*this, view)].left_from_board;
+}
 
 double StereoFit::rms_px() const { return std::sqrt(paired_squared_px / std::max(paired_corners, 1)); }
 
-bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms, CameraFit& fit) {
+bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms,
+                CameraFit& fit) {
   fit.views.assign(views.begin(), views.end());
   bundle::Problem& p = fit.problem;
   p = {};
@@ -98,7 +107,8 @@ bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> v
   return true;
 }
 
-int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left, std::span<const int> right) {
+int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left,
+                            std::span<const int> right) {
   const auto predicted = [&](int terms) {
     std::vector<double> errors = held_out(input, false, left, terms);
     const std::vector<double> more = held_out(input, true, right, terms);
@@ -133,16 +143,20 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
   p.pattern = input.pattern;
   p.camera = {cameras.left.camera, cameras.right.camera};
   p.right_from_left = start;
-  const auto is_paired = [&](int view) { return std::find(paired.begin(), paired.end(), view) != paired.end(); };
+  const auto is_paired = [&](int view) {
+    return std::find(paired.begin(), paired.end(), view) != paired.end();
+  };
   for (const int view : paired)
-    p.views.emplace_back(&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view));
+    p.views.emplace_back(&corners_of(input, false, view), &corners_of(input, true, view),
+                         cameras.left.pose(view));
   if (refine_cameras) {
     for (const int view : cameras.left.views)
       if (!is_paired(view))
         p.views.emplace_back(&corners_of(input, false, view), nullptr, cameras.left.pose(view));
     for (const int view : cameras.right.views)
       if (!is_paired(view))
-        p.views.emplace_back(nullptr, &corners_of(input, true, view), left_from_right_board(start, cameras.right.pose(view)));
+        p.views.emplace_back(nullptr, &corners_of(input, true, view),
+                             left_from_right_board(start, cameras.right.pose(view)));
     set_free(p, 0, cameras.distortion_terms);
     set_free(p, kCameraGlobals, cameras.distortion_terms);
   }

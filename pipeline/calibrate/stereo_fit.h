@@ -16,9 +16,9 @@ namespace relievo::pipeline {
 struct CameraFit {
   CameraIntrinsics camera;
   std::vector<int> views;
-  bundle::Problem problem;           // view k is input view views[k]
-  double variance_px2 = 0;           // of one coordinate of a corner, the noise
-  double rms_px() const;             // over both coordinates of a corner
+  bundle::Problem problem;  // view k is input view views[k]
+  double variance_px2 = 0;  // of one coordinate of a corner, the noise
+  double rms_px() const;    // over both coordinates of a corner
 
   // Sum of squares of an input view; its pose. Asserts that the view is one of ours.
   double squared_px(int view) const;
@@ -27,20 +27,22 @@ struct CameraFit {
 };
 
 // distortion_terms: how many of k1 k2 p1 p2 k3. False where nothing can be determined.
-bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms, CameraFit& fit);
+bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms,
+                CameraFit& fit);
 
 // How many distortion terms the pictures pay for: more only where boards that had no part in the fit
 // are predicted better, by more than the standard error of that gain.
-int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left, std::span<const int> right);
+int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left,
+                            std::span<const int> right);
 
 // Both cameras. Views in `paired` tie the cameras together; every other board still speaks for the
 // camera that saw it, so that a pair left out costs nothing of the lenses' calibration.
 struct StereoFit {
-  bundle::Problem problem;     // the first paired.size() views are the paired ones, in order
+  bundle::Problem problem;  // the first paired.size() views are the paired ones, in order
   std::vector<int> paired;
   double paired_squared_px = 0;
-  int paired_corners = 0;      // of left and right together
-  double rms_px() const;       // of the paired views
+  int paired_corners = 0;  // of left and right together
+  double rms_px() const;   // of the paired views
 };
 
 struct CameraFits {

@@ -13,10 +13,14 @@ constexpr std::size_t kMaxStarts = 24;
 constexpr int kConcentrations = 4;
 constexpr double kDegrees = 6;
 
-double alone(const CameraFits& cameras, int view) { return cameras.left.squared_px(view) + cameras.right.squared_px(view); }
+double alone(const CameraFits& cameras, int view) {
+  return cameras.left.squared_px(view) + cameras.right.squared_px(view);
+}
 
 // No corner is known better than to a thousandth of a pixel.
-double noise_px2(const CameraFits& cameras) { return std::max(1e-6, 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2)); }
+double noise_px2(const CameraFits& cameras) {
+  return std::max(1e-6, 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2));
+}
 
 // P(chi-square of `degrees` <= x), degrees even: a finite sum.
 double chi_square(double x, int degrees) {
@@ -47,7 +51,8 @@ double surprise(double f, double degrees_up, double degrees_down) {
 std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
   std::vector<int> chosen;
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) chosen.push_back(pairs[order[k]]);
   std::sort(chosen.begin(), chosen.end());
@@ -61,8 +66,8 @@ double excess_of(const CameraFits& cameras, const StereoFit& fit) {
 }
 
 // From one view's own relation to the half that agrees best with what it leads to.
-bool concentrate(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, int start,
-                 std::size_t half, StereoFit& fit) {
+bool concentrate(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+                 int start, std::size_t half, StereoFit& fit) {
   const int first[] = {start};
   if (!fit_stereo(input, cameras, first, relation_of(cameras, start), false, fit)) return false;
   for (int round = 0; round < kConcentrations; ++round) {
@@ -77,7 +82,8 @@ bool concentrate(const CalibratorInput& input, const CameraFits& cameras, std::s
   return true;
 }
 
-bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& best) {
+bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+               StereoFit& best) {
   const std::size_t half = pairs.size() / 2 + 1;
   const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
   double least_excess = 0;
@@ -101,7 +107,8 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
 }
 
 // Lets in the cheapest view outside; false when it is a surprise or none is left.
-bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& fit) {
+bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+               StereoFit& fit) {
   constexpr std::size_t kCandidates = 3;
   std::vector<int> outside;
   for (const int view : pairs)
@@ -126,21 +133,25 @@ bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::spa
       least_cost = added;
     }
   }
-  if (best.paired.empty() || surprise(least_cost / kDegrees / spread, kDegrees, degrees) > kSurprise) return false;
+  if (best.paired.empty() || surprise(least_cost / kDegrees / spread, kDegrees, degrees) > kSurprise)
+    return false;
   fit = std::move(best);
   return true;
 }
 
 }  // namespace
 
-bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, Selection& out) {
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+                  Selection& out) {
   if (!best_half(input, cameras, pairs, out.fit)) return false;
   while (admit_one(input, cameras, pairs, out.fit)) {
   }
   out.used = out.fit.paired;
   out.excess = judge_pairs(input, cameras, out.fit, pairs);
-  for (std::size_t i = 0; i < pairs.size(); ++i) out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
-  out.spread_px2 = std::max(0.0, excess_of(cameras, out.fit)) / (kDegrees * static_cast<double>(out.used.size() - 1));
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
+  out.spread_px2 =
+      std::max(0.0, excess_of(cameras, out.fit)) / (kDegrees * static_cast<double>(out.used.size() - 1));
   return true;
 }
 

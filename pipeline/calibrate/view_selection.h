@@ -26,12 +26,13 @@ inline constexpr double kSurprise = 4.0;
 
 struct Selection {
   StereoFit fit;
-  std::vector<int> used;        // sorted
-  std::vector<double> excess;   // one a pair given, px² summed, under the final fit
-  double spread_px2 = 0;        // excess of the used views for one degree of freedom
+  std::vector<int> used;       // sorted
+  std::vector<double> excess;  // one a pair given, px² summed, under the final fit
+  double spread_px2 = 0;       // excess of the used views for one degree of freedom
 };
 
-bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, Selection& out);
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+                  Selection& out);
 
 // Where a lasting change of disagreement lies: index into the excesses of the last view before it,
 // with the range a likelihood ratio at 1 % leaves open; -1 without one.

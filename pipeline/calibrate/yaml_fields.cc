@@ -15,7 +15,7 @@ constexpr int kMaxMatrixCells = 4096;
 struct Line {
   std::string_view text;  // without its end and without blanks at the end
   int number = 0;
-  bool ended = false;     // by a line feed: the last number of a file that was cut is not
+  bool ended = false;  // by a line feed: the last number of a file that was cut is not
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -31,7 +31,8 @@ std::vector<Line> lines_of(std::string_view text) {
     const auto end = text.find('\n');
     std::string_view line = text.substr(0, end);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    lines.push_back({line.substr(0, line.find_last_not_of(" \t") + 1), ++number, end != std::string_view::npos});
+    lines.push_back(
+        {line.substr(0, line.find_last_not_of(" \t") + 1), ++number, end != std::string_view::npos});
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return lines;
@@ -50,8 +51,9 @@ bool parse_whole(std::string_view token, Number& number) {
 }
 
 bool is_name(std::string_view key) {
-  return !key.empty() && key.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                               "0123456789_-.") == std::string_view::npos;
+  return !key.empty() && key.find_first_not_of(
+                             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                             "0123456789_-.") == std::string_view::npos;
 }
 
 // Cuts "key: value" in two; false if the line has no such form.
@@ -90,7 +92,8 @@ class Reader {
     std::string_view value;
     if (line.text.front() == ' ' || !split(line.text, key, value))
       return wrong(line, "not of the form `name: value`; the file is damaged or no calibration");
-    if (!seen_.emplace(key).second) return wrong(line, "this field is there twice; calibrate again or mend the file");
+    if (!seen_.emplace(key).second)
+      return wrong(line, "this field is there twice; calibrate again or mend the file");
     ++at_;
     if (value.starts_with("!!opencv-matrix")) return read_matrix(key, line);
     if (!value.empty() && value.front() != '"' && value.front() != '[') {
@@ -111,7 +114,8 @@ class Reader {
     while (at_ < lines_.size() && (lines_[at_].text.starts_with(' ') || lines_[at_].text.starts_with('-')) &&
            !lines_[at_].text.starts_with("---"))
       count(lines_[at_++].text);
-    if (open != 0) return wrong(lines_[at_ - 1], "a bracket is not closed; the file was cut short, copy it again");
+    if (open != 0)
+      return wrong(lines_[at_ - 1], "a bracket is not closed; the file was cut short, copy it again");
     return {};
   }
 

@@ -25,7 +25,8 @@ using firmware::CalibrateArgs;
 
 class CalibrateCommand : public ::testing::Test {
  protected:
-  CalibrateCommand() : folder_(fs::temp_directory_path() / ("relievo_calibrate_" + std::to_string(::getpid()))) {
+  CalibrateCommand()
+      : folder_(fs::temp_directory_path() / ("relievo_calibrate_" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "in");
     args_ = {folder_ / "in", 9, 6, 20, folder_ / "rig.yml", {}, {}};
@@ -44,7 +45,9 @@ class CalibrateCommand : public ::testing::Test {
     const auto grey = drawn.draw();
     ASSERT_TRUE(hal::write_picture(folder_ / "in" / name, drawn.view(grey)));
   }
-  void bytes(const std::string& name, const std::string& text) { std::ofstream(folder_ / "in" / name) << text; }
+  void bytes(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / "in" / name) << text;
+  }
   Errc error() {
     std::ostringstream out;
     const auto done = firmware::run_calibrate(args_, out);
@@ -124,7 +127,8 @@ class MeasuredPictures : public CalibrateCommand {
 };
 
 TEST_F(MeasuredPictures, ARigThatMovedIsFoundOut) {
-  if (!measured("real_faces/calibration", 9, 6, 10)) GTEST_SKIP() << "real_faces/calibration is not below RELIEVO_TEST_DATA";
+  if (!measured("real_faces/calibration", 9, 6, 10))
+    GTEST_SKIP() << "real_faces/calibration is not below RELIEVO_TEST_DATA";
   args_.report = folder_ / "report";
   std::ostringstream out;
   const auto done = firmware::run_calibrate(args_, out);

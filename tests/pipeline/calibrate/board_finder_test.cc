@@ -47,9 +47,10 @@ TEST_P(BoardFinder, FindsTheCornersWhereTheyWereDrawn) {
   EXPECT_LT(error_px(*found, board), c.limit_px);
 }
 
-INSTANTIATE_TEST_SUITE_P(Light, BoardFinder, ::testing::Values(Condition{0, 40, 200, 0, 0.05}, Condition{2, 40, 200, 0, 0.05},
-                                                               Condition{6, 60, 180, 0, 0.12}, Condition{3, 80, 130, 0, 0.15},
-                                                               Condition{2, 40, 220, 0.7, 0.1}));
+INSTANTIATE_TEST_SUITE_P(Light, BoardFinder,
+                         ::testing::Values(Condition{0, 40, 200, 0, 0.05}, Condition{2, 40, 200, 0, 0.05},
+                                           Condition{6, 60, 180, 0, 0.12}, Condition{3, 80, 130, 0, 0.15},
+                                           Condition{2, 40, 220, 0.7, 0.1}));
 
 TEST(BoardFinderFormats, ColourAndSixteenBitGiveTheSame) {
   const DrawnBoard board;
@@ -64,7 +65,8 @@ TEST(BoardFinderFormats, ColourAndSixteenBitGiveTheSame) {
   const auto found = pipeline::find_board({rgb.data(), 640, 480, 3 * 640, PixelFormat::Rgb8}, board.pattern);
   ASSERT_TRUE(found);
   EXPECT_LT(error_px(*found, board), 0.05);
-  const auto found_deep = pipeline::find_board({deep.data(), 640, 480, 2 * 640, PixelFormat::Grey16}, board.pattern);
+  const auto found_deep =
+      pipeline::find_board({deep.data(), 640, 480, 2 * 640, PixelFormat::Grey16}, board.pattern);
   ASSERT_TRUE(found_deep);
   EXPECT_LT(error_px(*found_deep, board), 0.05);
 }
@@ -78,7 +80,8 @@ TEST(BoardFinderFormats, WhatIsNoBoardIsNotFound) {
   EXPECT_EQ(pipeline::find_board(board.view(grey), {8, 5, 20}).error().code, Errc::NotFound);
   EXPECT_EQ(pipeline::find_board(board.view(grey), {11, 6, 20}).error().code, Errc::NotFound);
   EXPECT_EQ(pipeline::find_board(board.view(grey), {0, 6, 20}).error().code, Errc::InvalidInput);
-  EXPECT_EQ(pipeline::find_board({grey.data(), 4, 4, 640, PixelFormat::Grey8}, board.pattern).error().code, Errc::NotFound);
+  EXPECT_EQ(pipeline::find_board({grey.data(), 4, 4, 640, PixelFormat::Grey8}, board.pattern).error().code,
+            Errc::NotFound);
 }
 
 TEST(BoardFinderFormats, OrderIsMadeTheSameInBoth) {

@@ -20,7 +20,8 @@ using pipeline::StereoCalibration;
 
 StereoCalibration sample() {
   StereoCalibration c;
-  c.left = {{2955.1234567890123, 2954.9}, {964.1, 609.2}, {-0.11, 0.12, -1.6e-4, 1.6e-4, 0.1 / 3}, 1920, 1200};
+  c.left = {
+      {2955.1234567890123, 2954.9}, {964.1, 609.2}, {-0.11, 0.12, -1.6e-4, 1.6e-4, 0.1 / 3}, 1920, 1200};
   c.right = {{2942.3, 2941.6}, {971.5, 599.1}, {-0.108, 0.119, 2.4e-4, -6.6e-4, 0}, 1920, 1200};
   const double s = 0.25;
   const double k = std::sqrt(1 - s * s);
@@ -36,7 +37,9 @@ bool same(const StereoCalibration& a, const StereoCalibration& b) {
 
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / ("relievo_calibration_" + std::to_string(::getpid()))) { fs::create_directories(path_); }
+  Folder() : path_(fs::temp_directory_path() / ("relievo_calibration_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
   ~Folder() { fs::remove_all(path_); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -81,7 +84,9 @@ void cut_everywhere(const std::string& text) {
   EXPECT_LE(taken, 2);
 }
 
-TEST(CalibrationFile, CutAtAnyLengthIsRefusedOrTheSame) { cut_everywhere(pipeline::calibration_text(sample())); }
+TEST(CalibrationFile, CutAtAnyLengthIsRefusedOrTheSame) {
+  cut_everywhere(pipeline::calibration_text(sample()));
+}
 
 TEST(CalibrationFile, OpenCvsFormCutAtAnyLengthToo) {
   const char* data = std::getenv("RELIEVO_TEST_DATA");
@@ -93,9 +98,12 @@ TEST(CalibrationFile, OpenCvsFormCutAtAnyLengthToo) {
 }
 
 TEST(CalibrationFile, OtherFieldsAreSteppedOver) {
-  const std::string more = "calibration_time: \"Sat: 12\"\nnframes: 14\nE: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., -2.e-01 ]\n"
-                           "list: [ 1, 2,\n   3 ]\nmap:\n   inner: 4\n";
-  const auto read = pipeline::parse_calibration(replaced(pipeline::calibration_text(sample()), "image_width", more + "image_width"));
+  const std::string more =
+      "calibration_time: \"Sat: 12\"\nnframes: 14\nE: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   "
+      "data: [ 1., -2.e-01 ]\n"
+      "list: [ 1, 2,\n   3 ]\nmap:\n   inner: 4\n";
+  const auto read = pipeline::parse_calibration(
+      replaced(pipeline::calibration_text(sample()), "image_width", more + "image_width"));
   ASSERT_TRUE(read) << read.error().where() << ": " << read.error().what.view();
   EXPECT_TRUE(same(*read, sample()));
 }
@@ -104,10 +112,14 @@ TEST(CalibrationFile, FourCoefficientsAreEnoughFiveTheMost) {
   std::string text = pipeline::calibration_text(sample());
   const auto from = text.find("D1:");
   const auto to = text.find("K2:");
-  const std::string four = "D1: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, 0.1, 0., 0. ]\n";
+  const std::string four =
+      "D1: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, 0.1, 0., 0. ]\n";
   EXPECT_TRUE(pipeline::parse_calibration(std::string(text).replace(from, to - from, four)));
-  const std::string eight = "D1: !!opencv-matrix\n   rows: 1\n   cols: 8\n   dt: d\n   data: [ -0.1, 0.1, 0., 0., 0., 0.1, 0., 0. ]\n";
-  EXPECT_EQ(pipeline::parse_calibration(std::string(text).replace(from, to - from, eight)).error().code, Errc::Unsupported);
+  const std::string eight =
+      "D1: !!opencv-matrix\n   rows: 1\n   cols: 8\n   dt: d\n   data: [ -0.1, 0.1, 0., 0., 0., 0.1, 0., 0. "
+      "]\n";
+  EXPECT_EQ(pipeline::parse_calibration(std::string(text).replace(from, to - from, eight)).error().code,
+            Errc::Unsupported);
 }
 
 struct Hostile {
@@ -127,23 +139,35 @@ TEST_P(HostileCalibration, IsRefusedWithItsField) {
   EXPECT_EQ(std::string(read.error().what.view()).find('\n'), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fields, HostileCalibration, ::testing::Values(
-    Hostile{"image_width: 1920", "image_width: 0", "image_width"}, Hostile{"image_width: 1920", "image_width: 19200", "image_width"},
-    Hostile{"image_width: 1920", "image_width: -1920", "image_width"}, Hostile{"image_width: 1920", "image_width: 1920.5", "image_width"},
-    Hostile{"image_width: 1920", "image_width: 1e300", "image_width"}, Hostile{"image_width: 1920", "width: 1920", "image_width"},
-    Hostile{"2.9551234567890124e+03", "2.9551234567890124e+01", "K1"}, Hostile{"2.9551234567890124e+03", "-2.9551234567890124e+03", "K1"},
-    Hostile{"2.9551234567890124e+03", ".Nan", "line"}, Hostile{"2.9551234567890124e+03", "1e999", "line"},
-    Hostile{"2.9551234567890124e+03", "2.95.5", "line"}, Hostile{"2.9551234567890124e+03,", "", "line"},
-    Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 300000000", "line"},
-    Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 9", "line"}, Hostile{"K1:", "KX:", "K1"},
-    Hostile{"K2:", "K1:", "line"}, Hostile{"R: !!opencv-matrix", "R: 5 # !!", "R"}, Hostile{"-1.3609999999999999e+02", "1.3609999999999999e+02", "T"},
-    Hostile{"-1.3609999999999999e+02", "-1.3609999999999999e+09", "T"}, Hostile{"-1.1000000000000000e-01", "-1.1000000000000000e+01", "D1"},
-    Hostile{"2.5000000000000000e-01", "2.6000000000000000e-01", "R"}, Hostile{" ]\nR:", " \nR:", "line"}));
+INSTANTIATE_TEST_SUITE_P(
+    Fields, HostileCalibration,
+    ::testing::Values(
+        Hostile{"image_width: 1920", "image_width: 0", "image_width"},
+        Hostile{"image_width: 1920", "image_width: 19200", "image_width"},
+        Hostile{"image_width: 1920", "image_width: -1920", "image_width"},
+        Hostile{"image_width: 1920", "image_width: 1920.5", "image_width"},
+        Hostile{"image_width: 1920", "image_width: 1e300", "image_width"},
+        Hostile{"image_width: 1920", "width: 1920", "image_width"},
+        Hostile{"2.9551234567890124e+03", "2.9551234567890124e+01", "K1"},
+        Hostile{"2.9551234567890124e+03", "-2.9551234567890124e+03", "K1"},
+        Hostile{"2.9551234567890124e+03", ".Nan", "line"}, Hostile{"2.9551234567890124e+03", "1e999", "line"},
+        Hostile{"2.9551234567890124e+03", "2.95.5", "line"}, Hostile{"2.9551234567890124e+03,", "", "line"},
+        Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 300000000", "line"},
+        Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 9", "line"},
+        Hostile{"K1:", "KX:", "K1"}, Hostile{"K2:", "K1:", "line"},
+        Hostile{"R: !!opencv-matrix", "R: 5 # !!", "R"},
+        Hostile{"-1.3609999999999999e+02", "1.3609999999999999e+02", "T"},
+        Hostile{"-1.3609999999999999e+02", "-1.3609999999999999e+09", "T"},
+        Hostile{"-1.1000000000000000e-01", "-1.1000000000000000e+01", "D1"},
+        Hostile{"2.5000000000000000e-01", "2.6000000000000000e-01", "R"},
+        Hostile{" ]\nR:", " \nR:", "line"}));
 
 TEST(CalibrationFile, WhatIsNoCalibrationIsRefused) {
   const Folder folder;
   EXPECT_EQ(pipeline::parse_calibration("").error().code, Errc::InvalidInput);
-  EXPECT_EQ(pipeline::parse_calibration(std::string(pipeline::kMaxCalibrationFileBytes + 1, 'x')).error().code, Errc::InvalidInput);
+  EXPECT_EQ(
+      pipeline::parse_calibration(std::string(pipeline::kMaxCalibrationFileBytes + 1, 'x')).error().code,
+      Errc::InvalidInput);
   EXPECT_EQ(pipeline::parse_calibration(std::string("K1: \0 1", 7)).error().code, Errc::InvalidInput);
   EXPECT_EQ(pipeline::read_calibration(folder.path() / "none.yml").error().code, Errc::NotFound);
   EXPECT_EQ(pipeline::read_calibration(folder.path()).error().code, Errc::InvalidInput);
@@ -164,7 +188,8 @@ TEST(CalibrationFile, AnyByteMayBeWrong) {
 
 TEST(CalibrationFile, NothingIsWrittenWhereItCannotBe) {
   const Folder folder;
-  EXPECT_EQ(pipeline::write_calibration(folder.path() / "no/such/rig.yml", sample()).error().code, Errc::NotFound);
+  EXPECT_EQ(pipeline::write_calibration(folder.path() / "no/such/rig.yml", sample()).error().code,
+            Errc::NotFound);
   StereoCalibration wrong = sample();
   wrong.left.focal_px.x = 0;
   EXPECT_FALSE(pipeline::write_calibration(folder.path() / "rig.yml", wrong));

@@ -105,8 +105,9 @@ TEST_P(CalibratorWithMovedViews, NamesThemAllAndKeepsTheRest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shares, CalibratorWithMovedViews,
-                         ::testing::Values(Disturbed{14, 1, 0.002, 0.8}, Disturbed{14, 3, 0.002, 0.8}, Disturbed{11, 7, 0.002, 0.8},
-                                           Disturbed{10, 6, 0.01, 0.8}, Disturbed{5, 1, 0.004, 2.5}));
+                         ::testing::Values(Disturbed{14, 1, 0.002, 0.8}, Disturbed{14, 3, 0.002, 0.8},
+                                           Disturbed{11, 7, 0.002, 0.8}, Disturbed{10, 6, 0.01, 0.8},
+                                           Disturbed{5, 1, 0.004, 2.5}));
 
 // A rig that always shakes a little: that is said, and what shakes as usual stays in.
 TEST(Calibrator, SaysThatARigDoesNotHoldStill) {
@@ -159,7 +160,8 @@ TEST(Calibrator, DropsAStrayCornerAndKeepsItsBoard) {
 TEST(Calibrator, LeavesOutABoardThatIsNotFlat) {
   BoardSimulator boards(SimulatedRig{}, 0.08, 6);
   boards.add(14);
-  for (std::size_t i = 0; i < 54; ++i) boards.input().views[4].left[i].x += 2.5 * std::sin(static_cast<double>(i));
+  for (std::size_t i = 0; i < 54; ++i)
+    boards.input().views[4].left[i].x += 2.5 * std::sin(static_cast<double>(i));
   const auto found = pipeline::calibrate(boards.input());
   ASSERT_TRUE(found) << found.error().what.view();
   EXPECT_FALSE(found->quality.views[4].used);
@@ -170,7 +172,8 @@ TEST(Calibrator, LeavesOutABoardThatIsNotFlat) {
 TEST(Calibrator, TurnsABoardFoundTheOtherWayRound) {
   BoardSimulator boards(SimulatedRig{}, 0.05, 7);
   boards.add(12);
-  for (const std::size_t view : {2U, 5U, 6U}) std::reverse(boards.input().views[view].right.begin(), boards.input().views[view].right.end());
+  for (const std::size_t view : {2U, 5U, 6U})
+    std::reverse(boards.input().views[view].right.begin(), boards.input().views[view].right.end());
   const auto found = pipeline::calibrate(boards.input());
   ASSERT_TRUE(found) << found.error().what.view();
   EXPECT_EQ(found->quality.used, 12);

@@ -19,13 +19,13 @@ namespace relievo::tests {
 struct DrawnBoard {
   int width_px = 640;
   int height_px = 480;
-  double step_px = 42;                      // of a square, in the middle
-  double origin[2] = {110, 105};            // of the first inner corner
-  double lean[2] = {0.12, -0.05};           // shear
-  double perspective[2] = {3e-4, 2e-4};     // per pixel of the board
-  double noise = 2;                         // standard deviation, grey levels
+  double step_px = 42;                   // of a square, in the middle
+  double origin[2] = {110, 105};         // of the first inner corner
+  double lean[2] = {0.12, -0.05};        // shear
+  double perspective[2] = {3e-4, 2e-4};  // per pixel of the board
+  double noise = 2;                      // standard deviation, grey levels
   double dark = 40, bright = 200;
-  double light_slope = 0;                   // share of light lost from left to right
+  double light_slope = 0;  // share of light lost from left to right
   pipeline::BoardPattern pattern{9, 6, 20};
 
   pipeline::Vec2d at(double column, double row) const {
@@ -62,11 +62,14 @@ struct DrawnBoard {
         // A pixel collects the light of one and a half pixels: a little blur, as from a lens.
         for (int s = 0; s < kSub * kSub; ++s)
           sum += shade(x + 1.5 * ((s % kSub + 0.5) / kSub - 0.5), y + 1.5 * ((s / kSub + 0.5) / kSub - 0.5));
-        grey.push_back(static_cast<std::byte>(std::clamp(sum / (kSub * kSub) + noise_of(random) + 0.5, 0.0, 255.0)));
+        grey.push_back(
+            static_cast<std::byte>(std::clamp(sum / (kSub * kSub) + noise_of(random) + 0.5, 0.0, 255.0)));
       }
     return grey;
   }
-  ImageView view(const std::vector<std::byte>& grey) const { return {grey.data(), width_px, height_px, width_px, PixelFormat::Grey8}; }
+  ImageView view(const std::vector<std::byte>& grey) const {
+    return {grey.data(), width_px, height_px, width_px, PixelFormat::Grey8};
+  }
 };
 
 }  // namespace relievo::tests

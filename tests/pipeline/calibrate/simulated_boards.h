@@ -57,7 +57,8 @@ struct Slip {
 
 class BoardSimulator {
  public:
-  BoardSimulator(const SimulatedRig& rig, double noise_px, unsigned seed) : rig_(rig), noise_px_(noise_px), random_(seed) {
+  BoardSimulator(const SimulatedRig& rig, double noise_px, unsigned seed)
+      : rig_(rig), noise_px_(noise_px), random_(seed) {
     input_.pattern = {9, 6, 10};
     input_.width_px = rig.width_px;
     input_.height_px = rig.height_px;
@@ -92,7 +93,9 @@ class BoardSimulator {
   pipeline::CalibratorInput& input() { return input_; }
 
  private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
   double sign() { return uniform(-1, 1) < 0 ? -1 : 1; }
   pipeline::Vec2d noisy(pipeline::Vec2d at) {
     if (noise_px_ > 0) at = {at.x + normal(noise_px_), at.y + normal(noise_px_)};
