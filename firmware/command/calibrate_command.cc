@@ -12,8 +12,8 @@
 
 #include "firmware/command/output_folder.h"
 #include "hal/picture_file.h"
-#include "pipeline/calibrate/calibration_file.h"
-#include "pipeline/calibrate/check_picture.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/board/check_picture.h"
 
 namespace relievo::firmware {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "firmware/command/commands.h"
 #include "firmware/command/wall_time.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
 namespace {

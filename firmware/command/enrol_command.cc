@@ -13,7 +13,7 @@
 #include "firmware/command/subject_lookup.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/pool_size.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
 namespace {

@@ -9,7 +9,7 @@
 #include "firmware/work/pool_size.h"
 #include "firmware/work/reconstruct_job.h"
 #include "hal/monotonic_clock.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "hal/whole_file.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware::measure {
 namespace {

@@ -69,10 +69,11 @@ Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& co
 }
 
 Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context, StageRecord& record) const {
-  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value());
+  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value() && products.matches.has_value());
   record.in = products.mesh->triangles.size();
   RELIEVO_TRY_ASSIGN(products.model, pipeline_.texture(std::move(*products.mesh), *products.pair, context));
   products.mesh.reset();  // it lives on in the model
+  products.model->quality.epipolar_residual_px = static_cast<double>(products.matches->epipolar_residual_px);
   record.out = products.model->texture.rgb.size() / 3;
   return {};
 }

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <iterator>
 
-#include "pipeline/calibrate/calibration_file.h"
-#include "pipeline/calibrate/quality_measures.h"
-#include "pipeline/calibrate/stereo_fit.h"
-#include "pipeline/calibrate/view_selection.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/quality/quality_measures.h"
+#include "pipeline/calibrate/fit/stereo_fit.h"
+#include "pipeline/calibrate/fit/view_selection.h"
 
 namespace relievo::pipeline {
 namespace {

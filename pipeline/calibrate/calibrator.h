@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/calibrate/board_finder.h"
-#include "pipeline/calibrate/quality.h"
+#include "pipeline/calibrate/board/board_finder.h"
+#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {

@@ -18,7 +18,7 @@ struct ModelQuality {
   double width_mm = 0;              // of the surface in the head frame, first to last percentile
   double height_mm = 0;
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
-  double epipolar_residual_px = 0;  // median vertical disagreement of the face's own matches
+  double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
 };
 
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the

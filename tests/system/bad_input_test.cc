@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "hal/picture_file.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/system/relievo_process.h"
 
 namespace relievo::test {

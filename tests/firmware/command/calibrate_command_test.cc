@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "hal/picture_file.h"
-#include "pipeline/calibrate/calibration_file.h"
-#include "tests/pipeline/calibrate/drawn_board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "tests/pipeline/calibrate/board/drawn_board.h"
 
 namespace relievo::tests {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "firmware/measure/rigid_fit.h"
 #include "firmware/measure/true_surface.h"
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::measure {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 
 namespace relievo::tests {

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline::bundle {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "pipeline/calibrate/quality.h"
+#include "pipeline/calibrate/quality/quality.h"
 
 namespace relievo::pipeline {
 namespace {

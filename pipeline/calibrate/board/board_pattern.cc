@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::pipeline {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
-#include "pipeline/calibrate/bundle.h"
+#include "pipeline/calibrate/fit/bundle.h"
 
 namespace relievo::pipeline::bundle {
 namespace {

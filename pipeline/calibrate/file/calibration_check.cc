@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibrate/bundle.h"
+#include "pipeline/calibrate/fit/bundle.h"
 #include "pipeline/calibrate/calibrator.h"
 
 namespace relievo::pipeline {

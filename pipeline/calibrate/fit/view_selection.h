@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibrate/stereo_fit.h"
+#include "pipeline/calibrate/fit/stereo_fit.h"
 
 namespace relievo::pipeline {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hal/base/image_view.h"
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {

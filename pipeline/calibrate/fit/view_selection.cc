@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/view_selection.h"
+#include "pipeline/calibrate/fit/view_selection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/yaml_fields.h"
+#include "pipeline/calibrate/file/yaml_fields.h"
 
 #include <charconv>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hal/base/image_view.h"
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::tests {
 

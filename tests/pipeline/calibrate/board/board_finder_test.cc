@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/calibrate/drawn_board.h"
+#include "tests/pipeline/calibrate/board/drawn_board.h"
 
 namespace relievo::tests {
 namespace {

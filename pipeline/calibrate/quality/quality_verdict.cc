@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "pipeline/calibrate/quality_measures.h"
+#include "pipeline/calibrate/quality/quality_measures.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "pipeline/calibrate/yaml_fields.h"
+#include "pipeline/calibrate/file/yaml_fields.h"
 
 namespace relievo::pipeline {
 namespace {

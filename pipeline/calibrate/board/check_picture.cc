@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/check_picture.h"
+#include "pipeline/calibrate/board/check_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "pipeline/calibrate/bundle.h"
+#include "pipeline/calibrate/fit/bundle.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/calibrate/board_finder.h"
+#include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::pipeline {
 namespace {
