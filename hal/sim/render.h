@@ -10,8 +10,8 @@
 #include <memory>
 
 #include "hal/sim/board_scene.h"
-#include "hal/sim/head_camera.h"
-#include "hal/sim/head_scene.h"
+#include "hal/sim/head/head_scene.h"
+#include "hal/sim/photo/exposure.h"
 #include "hal/sim/rig.h"
 
 namespace relievo::hal::sim {

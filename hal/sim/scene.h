@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "hal/sim/ray_caster.h"
+#include "hal/sim/photo/ray_caster.h"
 #include "hal/sim/vec3.h"
 
 namespace relievo::hal::sim {

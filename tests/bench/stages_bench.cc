@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head_traits.h"
+#include "hal/sim/head/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "tests/bench/peer.h"

@@ -7,11 +7,11 @@
 
 #include <fstream>
 
-#include "hal/sim/capture_file.h"
-#include "hal/sim/folder_media.h"
-#include "hal/sim/manual_clock.h"
-#include "hal/sim/picture_pairs.h"
-#include "hal/sim/silent_trigger.h"
+#include "hal/sim/replay/capture_file.h"
+#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/manual_clock.h"
+#include "hal/sim/replay/picture_pairs.h"
+#include "hal/sim/replay/silent_trigger.h"
 #include "tests/hal/temporary_folder.h"
 
 namespace relievo::hal {

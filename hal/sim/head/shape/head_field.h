@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HeadField: the head as an implicit surface, sculpted in code from HeadTraits: a skull and jaw
+// lofted from measured breadths and depths, with nose, lips, lids, ears and neck blended in.
+// Frame and units: head_traits.h. Thread: any, once built.
+#pragma once
+
+#include <array>
+
+#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/form.h"
+
+namespace relievo::hal::sim {
+
+// Skull, jaw and neck, and the depth of the face where nothing has been added yet.
+class SkullForm {
+ public:
+  explicit SkullForm(const HeadTraits& traits);
+  double distance(Vec3 p) const;
+  double front_z(double x, double y) const;   // of the plain face, without strokes
+ private:
+  double loft(Vec3 p) const;
+  double neck(Vec3 p) const;
+  HeadTraits t_;
+  Curve breadth_, front_, widest_z_, roundness_;
+};
+
+// Muscle, fat and creases: heights in mm to be added along the normal.
+class FaceStrokes {
+ public:
+  FaceStrokes(const HeadTraits& traits);
+  double height(Vec3 p) const;
+
+ private:
+  double brow_and_orbit(double ax, Vec3 p) const;
+  double cheek(double ax, Vec3 p) const;
+  double lower_face(double ax, Vec3 p) const;
+  HeadTraits t_;
+};
+
+class NoseForm {
+ public:
+  NoseForm(const HeadTraits& traits, const SkullForm& skull);
+  double add_to(double field, Vec3 p) const;
+  Vec3 tip() const { return tip_; }
+
+ private:
+  HeadTraits t_;
+  double sn_y_, sn_z_;
+  Vec3 tip_, ala_;
+  std::array<Bead, 3> bridge_;
+  std::array<Bead, 2> wall_;
+};
+
+class MouthForm {
+ public:
+  MouthForm(const HeadTraits& traits, const SkullForm& skull);
+  double add_to(double field, Vec3 p) const;
+  double vermilion(Vec3 p) const;             // 1 on the lips, 0 on the skin
+  double line_y(double x) const;              // where the lips meet
+  double upper_edge(double x) const;          // of the vermilion
+  double lower_edge(double x) const;
+  double half_width() const { return half_width_; }
+
+ private:
+  HeadTraits t_;
+  double half_width_, sto_, upper_mm_, lower_mm_;
+  BeadString upper_, lower_, line_;
+  Curve bow_;
+  double front_;
+};
+
+class EyeForm {
+ public:
+  EyeForm(const HeadTraits& traits, const SkullForm& skull);
+  double add_to(double field, Vec3 p) const;
+  Vec3 centre() const { return centre_; }     // of the person's left eyeball
+  double radius() const { return 12.0; }
+  double along(double ax) const { return (ax - middle_x_) / half_fissure_; }   // -1 inner corner, 1 outer corner
+  double upper_lid(double s) const;
+  double lower_lid(double s) const;
+  Vec3 lid_point(double s, bool upper) const; // on the lid's edge
+
+ private:
+  HeadTraits t_;
+  Vec3 centre_;
+  double middle_x_, half_fissure_;
+};
+
+class EarForm {
+ public:
+  EarForm(const HeadTraits& traits, const SkullForm& skull);
+  double add_to(double field, Vec3 p) const;
+
+ private:
+  Vec3 local(Vec3 p) const;
+  Vec3 root_;
+  Mat3 turn_;
+  double size_;
+  BeadString helix_, antihelix_;
+};
+
+struct HeadField {
+  explicit HeadField(const HeadTraits& traits);
+  double distance(Vec3 p) const;
+  Vec3 gradient(Vec3 p) const;                 // normalised; outward
+  Vec3 warped(Vec3 p) const;                   // where the symmetric sculpture is asked: faces lean
+
+  HeadTraits traits;
+  SkullForm skull;
+  FaceStrokes strokes;
+  NoseForm nose;
+  MouthForm mouth;
+  EyeForm eye;
+  EarForm ear;
+};
+
+}  // namespace relievo::hal::sim

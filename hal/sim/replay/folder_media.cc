@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/sim/replay/folder_media.h"
+
+#include <fcntl.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace relievo::hal {
+
+void FolderMedia::plug(std::filesystem::path root) {
+  const std::lock_guard lock(mutex_);
+  root_ = std::move(root);
+}
+
+void FolderMedia::unplug() {
+  const std::lock_guard lock(mutex_);
+  root_.reset();
+}
+
+std::optional<Medium> FolderMedia::current() {
+  const std::lock_guard lock(mutex_);
+  if (!root_) return std::nullopt;
+  struct statvfs info {};
+  if (::statvfs(root_->c_str(), &info) != 0) return std::nullopt;
+  return Medium{*root_, static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize};
+}
+
+Result<void> FolderMedia::flush_and_eject() {
+  const std::lock_guard lock(mutex_);
+  if (!root_) return Error{Errc::MediaMissing, "there is no stick to eject"};
+  const int folder = ::open(root_->c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return Error{Errc::MediaMissing, "the stick is gone", errno}.at(root_->native());
+  const int failed = ::syncfs(folder) == 0 ? 0 : errno;
+  ::close(folder);
+  if (failed != 0) return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", failed}.at(root_->native());
+  root_.reset();
+  return {};
+}
+
+}  // namespace relievo::hal

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ReplayBoard: a whole appliance around one PairSource. The boards of board.h differ only in theirs.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/board.h"
+#include "hal/monotonic_clock.h"
+#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/null_watchdog.h"
+#include "hal/sim/replay/replay_camera.h"
+#include "hal/sim/replay/silent_trigger.h"
+
+namespace relievo::hal {
+
+class ReplayBoard final : public Board {
+ public:
+  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode)
+      : name_(name), source_(std::move(source)), mode_(mode) {}
+
+  std::string_view name() const override { return name_; }
+  CaptureMode preferred_mode() const override { return mode_; }
+  Camera& left() override { return left_; }
+  Camera& right() override { return right_; }
+  TriggerLine& trigger() override { return trigger_; }
+  RemovableMedia& media() override { return media_; }
+  Clock& clock() override { return clock_; }
+  Watchdog& watchdog() override { return watchdog_; }
+  FolderMedia& folder_media() { return media_; }
+
+ private:
+  std::string_view name_;
+  std::unique_ptr<PairSource> source_;
+  CaptureMode mode_;
+  MonotonicClock clock_;
+  SilentTrigger trigger_{clock_};
+  FolderMedia media_;
+  NullWatchdog watchdog_;
+  ReplayCamera left_{*source_, PairSource::Side::Left, trigger_, mode_};
+  ReplayCamera right_{*source_, PairSource::Side::Right, trigger_, mode_};
+};
+
+}  // namespace relievo::hal

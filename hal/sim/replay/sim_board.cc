@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <map>
+#include <mutex>
+
+#include "hal/sim/board.h"
+#include "hal/sim/replay/replay_board.h"
+
+namespace relievo::hal {
+namespace {
+
+// Exposes both views of a scene once; each further frame only rolls new noise over the same light.
+class RenderedSource final : public PairSource {
+ public:
+  RenderedSource(const SimBoardOptions& options, std::vector<sim::BoardPose> poses)
+      : o_(options.simulation), rig_(sim::make_rig(o_.rig)), pool_(options.threads), poses_(std::move(poses)) {}
+
+  Result<Exposure> expose(Side side, std::uint32_t number) override {
+    const std::lock_guard lock(mutex_);
+    const std::size_t pose = poses_.empty() ? 0 : (number - 1) % poses_.size();
+    if (!exposed_ || pose != pose_) expose_both(pose);
+    sim::SensorOptions sensor = o_.sensor;
+    sensor.grey = o_.scene == sim::SceneKind::Board;
+    const sim::LightPicture& light = side == Side::Left ? left_ : right_;
+    return Exposure{sim::read_sensor(light, sensor, o_.seed * 100000ULL + 2ULL * number + (side == Side::Left ? 0 : 1)), std::chrono::nanoseconds(0)};
+  }
+
+ private:
+  void expose_both(std::size_t pose) {
+    std::unique_ptr<sim::Scene> scene;
+    if (o_.scene == sim::SceneKind::Board) scene = std::make_unique<sim::BoardScene>(o_.board, poses_[pose]);
+    else scene = sim::make_head_scene(sim::make_head(sim::traits_of(o_.seed), pool_), o_.pose, pool_);
+    left_ = sim::expose(*scene, rig_.left, o_.sensor, pool_);
+    right_ = sim::expose(*scene, rig_.right, o_.sensor, pool_);
+    exposed_ = true;
+    pose_ = pose;
+  }
+
+  sim::SimulationOptions o_;
+  sim::SimRig rig_;
+  std::mutex mutex_;
+  ThreadPool pool_;
+  std::vector<sim::BoardPose> poses_;
+  sim::LightPicture left_, right_;
+  bool exposed_ = false;
+  std::size_t pose_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options) {
+  const sim::SimulationOptions& o = options.simulation;
+  RELIEVO_TRY(o.check());
+  std::vector<sim::BoardPose> poses;
+  if (o.scene == sim::SceneKind::Board) {
+    RELIEVO_TRY_ASSIGN(poses, sim::good_board_poses(sim::make_rig(o.rig), o.board, o.board_poses, o.seed, o.pose.distance_mm));
+  }
+  const CaptureMode mode{o.rig.width_px, o.rig.height_px, std::chrono::microseconds(4000)};
+  auto board = std::make_unique<ReplayBoard>("sim", std::make_unique<RenderedSource>(options, std::move(poses)), mode);
+  if (options.media_folder) board->folder_media().plug(*options.media_folder);
+  return std::unique_ptr<Board>(std::move(board));
+}
+
+}  // namespace relievo::hal
