@@ -95,9 +95,8 @@ void name_loose(bool right, std::size_t strays, double limit_px, ViewQuality& vi
 // the worst of these goes first, since it bends the fit of the others.
 bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& views, CameraFit& fit,
                         CalibrationQuality& quality) {
-  constexpr int kFirstTerms = 2;
   for (std::size_t round = 0; round < kMaxBoardPairs; ++round) {
-    if (views.size() < kMinBoardPairs || !fit_camera(input, right, views, kFirstTerms, fit)) return false;
+    if (views.size() < kMinBoardPairs || !fit_camera(input, right, views, fit)) return false;
     const Strays strays = find_strays(input, right, views, fit);
     const auto worst = std::max_element(strays.of_view.begin(), strays.of_view.end(),
                                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
@@ -187,15 +186,12 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   if (!fit_without_strays(input, false, left, left_fit, out.quality) ||
       !fit_without_strays(input, true, right, right_fit, out.quality))
     return undetermined;
-  const int terms = choose_distortion_terms(input, left, right);
-  if (!fit_camera(input, false, left, terms, left_fit) || !fit_camera(input, true, right, terms, right_fit))
-    return undetermined;
   pairs.clear();
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
   if (pairs.size() < kMinBoardPairs)
     return too_few("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
 
-  const CameraFits cameras{left_fit, right_fit, terms};
+  const CameraFits cameras{left_fit, right_fit};
   Selection selection;
   if (!select_views(input, cameras, pairs, selection)) return undetermined;
   out.calibration = calibration_of(selection.fit);

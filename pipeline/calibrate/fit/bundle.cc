@@ -11,9 +11,7 @@ namespace relievo::pipeline::bundle {
 namespace {
 
 using Jacobian = Eigen::Matrix<double, 2, 9>;  // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
-using Globals = Eigen::Matrix<double, kGlobals, kGlobals>;
 constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
-using GlobalVector = Eigen::Matrix<double, kGlobals, 1>;
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -58,7 +56,8 @@ struct Normal {
   std::vector<Eigen::Matrix<double, kGlobals, 6>> b;
   std::vector<Matrix6d> c;
   std::vector<Vector6d> h;
-  double cost = 0;
+  double cost = 0;     // with the priors
+  double squared = 0;  // without
 };
 
 struct Block {
@@ -110,6 +109,38 @@ void add_camera(const Problem& p, View& view, Block block) {
   }
 }
 
+double& parameter(Problem& p, int i) {
+  CameraIntrinsics& c = p.camera[static_cast<std::size_t>(i / kCameraGlobals)];
+  switch (i % kCameraGlobals) {
+    case 0: return c.focal_px.x;
+    case 1: return c.focal_px.y;
+    case 2: return c.centre_px.x;
+    case 3: return c.centre_px.y;
+    default: return c.distortion[i % kCameraGlobals - 4];
+  }
+}
+
+void add_priors(Problem& p, Normal& n) {
+  for (int i = 0; i < 2 * kCameraGlobals; ++i) {
+    const Prior& prior = p.prior[static_cast<std::size_t>(i)];
+    const double weight = p.noise_px2 * prior.weight;
+    const double off = prior.mean - parameter(p, i);
+    n.a(i, i) += weight;
+    n.g(i) += weight * off;
+    n.cost += weight * off * off;
+  }
+  for (int eye = 0; eye < 2; ++eye) {
+    const int at = eye * kCameraGlobals;
+    const double fy = parameter(p, at + 1);
+    if (!(p.aspect_weight[static_cast<std::size_t>(eye)] > 0) || !(std::abs(fy) > 1)) continue;
+    const double weight = p.noise_px2 * p.aspect_weight[static_cast<std::size_t>(eye)] / (fy * fy);
+    const double off = parameter(p, at) - fy;
+    n.a.block<2, 2>(at, at) += weight * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+    n.g.segment<2>(at) += weight * off * Eigen::Vector2d(-1, 1);
+    n.cost += weight * off * off;
+  }
+}
+
 Normal linearise(Problem& p) {
   Normal n;
   n.b.assign(p.views.size(), Eigen::Matrix<double, kGlobals, 6>::Zero());
@@ -123,10 +154,12 @@ Normal linearise(Problem& p) {
     const Block block{n.a, n.g, n.b[v], n.c[v], n.h[v]};
     if (view.seen[0] != nullptr) add_camera<0>(p, view, block);
     if (view.seen[1] != nullptr) add_camera<1>(p, view, block);
-    n.cost += view.squared_px[0] + view.squared_px[1];
+    n.squared += view.squared_px[0] + view.squared_px[1];
     p.residuals += 2 * (view.corners[0] + view.corners[1]);
     view.information = n.c[v];
   }
+  n.cost = n.squared;
+  add_priors(p, n);
   // What is not free neither pulls nor moves.
   for (int i = 0; i < kGlobals; ++i) {
     if (p.free[static_cast<std::size_t>(i)]) continue;
@@ -139,16 +172,6 @@ Normal linearise(Problem& p) {
   return n;
 }
 
-void move(Problem& p, const GlobalVector& by) {
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const auto s = by.segment<9>(eye == 0 ? 0 : 9);
-    CameraIntrinsics& c = p.camera[eye];
-    c.focal_px = {c.focal_px.x + s[0], c.focal_px.y + s[1]};
-    c.centre_px = {c.centre_px.x + s[2], c.centre_px.y + s[3]};
-    for (int i = 0; i < 5; ++i) c.distortion[i] += s[4 + i];
-  }
-  p.right_from_left.step(by.tail<6>());
-}
 
 // One damped step; the Schur complement without damping is kept for the covariance.
 Problem stepped(const Problem& p, const Normal& n, double damping) {
@@ -165,17 +188,17 @@ Problem stepped(const Problem& p, const Normal& n, double damping) {
   }
   const GlobalVector by = s.ldlt().solve(g);
   Problem moved = p;
-  move(moved, by);
+  step_globals(moved, by);
   for (std::size_t v = 0; v < n.c.size(); ++v)
     moved.views[v].left_from_board.step(inverse[v] * (n.h[v] - n.b[v].transpose() * by));
   return moved;
 }
 
 void keep_covariance(Problem& p, const Normal& n) {
-  Globals s = n.a;
+  p.information = n.a;
   for (std::size_t v = 0; v < n.c.size(); ++v)
-    s.noalias() -= n.b[v] * n.c[v].ldlt().solve(n.b[v].transpose());
-  p.covariance = s.ldlt().solve(Globals::Identity());
+    p.information.noalias() -= n.b[v] * n.c[v].ldlt().solve(n.b[v].transpose());
+  p.covariance = p.information.ldlt().solve(Globals::Identity());
   for (int i = 0; i < kGlobals; ++i)
     if (!p.free[static_cast<std::size_t>(i)]) p.covariance(i, i) = 0;
 }
@@ -226,9 +249,33 @@ bool solve(Problem& problem) {
     // A small gain of a strongly damped step says nothing: the valley may be long and curved.
     if (gain <= kSmallGain * normal.cost && damping < kFirm) break;
   }
-  problem.squared_px = normal.cost;
+  problem.squared_px = normal.squared;
   keep_covariance(problem, normal);
   return std::isfinite(normal.cost) && problem.covariance.allFinite();
+}
+
+void step_globals(Problem& p, const GlobalVector& by) {
+  for (int i = 0; i < 2 * kCameraGlobals; ++i) parameter(p, i) += by[i];
+  p.right_from_left.step(by.tail<6>());
+}
+
+std::vector<Problem> without_each_view(const Problem& solved) {
+  std::vector<Problem> without;
+  Problem one = solved;
+  for (const View& view : solved.views) {
+    one.views.assign(1, view);
+    one.prior = {};
+    one.aspect_weight = {};
+    const Normal n = linearise(one);
+    const auto to_pose = n.c[0].ldlt();
+    Globals information = solved.information - (n.a - n.b[0] * to_pose.solve(n.b[0].transpose()));
+    GlobalVector pull = n.b[0] * to_pose.solve(n.h[0]) - n.g;
+    for (int i = 0; i < kGlobals; ++i)
+      if (!solved.free[static_cast<std::size_t>(i)]) information(i, i) = 1;
+    without.push_back(solved);
+    step_globals(without.back(), information.ldlt().solve(pull));
+  }
+  return without;
 }
 
 bool solve_poses(Problem& problem) {

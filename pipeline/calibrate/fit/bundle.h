@@ -44,7 +44,18 @@ struct View {
 
 // Order of the global parameters: nine of each camera (fx fy cx cy k1 k2 p1 p2 k3), then the step of
 // right_from_left.
+inline constexpr int kCameraGlobals = 9;
 inline constexpr int kGlobals = 24;
+using Globals = Eigen::Matrix<double, kGlobals, kGlobals>;
+using GlobalVector = Eigen::Matrix<double, kGlobals, 1>;
+
+// What is known of a parameter before the first picture: normal, weight 1/sigma², 0 for nothing. It
+// stands in for the choice of how many distortion terms to fit: what the pictures do not determine
+// stays near what lenses are like, and its uncertainty is in the covariance.
+struct Prior {
+  double mean = 0;
+  double weight = 0;
+};
 
 struct Problem {
   BoardPattern pattern;
@@ -52,11 +63,14 @@ struct Problem {
   Pose right_from_left;
   std::vector<View> views;
   std::array<bool, kGlobals> free{};  // the others keep their value
+  std::array<Prior, kGlobals> prior{};
+  std::array<double, 2> aspect_weight{};  // of fx / fy being 1, for each camera: 1/sigma²
+  double noise_px2 = 0.01;                // variance of one coordinate of a corner: weighs the priors
   // out:
-  double squared_px = 0;  // of all views
+  double squared_px = 0;  // of all views, without the priors
   int residuals = 0;      // numbers, two a corner
-  Eigen::Matrix<double, kGlobals, kGlobals> covariance =
-      Eigen::Matrix<double, kGlobals, kGlobals>::Zero();  // for 1 px noise; 0 for what is not free
+  Globals information = Globals::Zero();  // of the globals, poses eliminated, corners of 1 px noise, priors in
+  Globals covariance = Globals::Zero();   // its inverse: times noise_px2; 0 for what is not free
 };
 
 // Where a camera sees the board's corner (column, row).
@@ -67,6 +81,13 @@ bool solve(Problem& problem);
 
 // Poses and sums only: the same problem with nothing global free.
 bool solve_poses(Problem& problem);
+
+// Where the globals would go if view `v` had never been taken: one Newton step from the solution, poses
+// adapting (exact for a linear problem). Adds the step to the globals of a copy; its views are untouched.
+std::vector<Problem> without_each_view(const Problem& solved);
+
+// Globals stepped by `by`; for carrying the covariance to whatever is computed from them.
+void step_globals(Problem& problem, const GlobalVector& by);
 
 // A first guess of focal length and poses from the boards' homographies, principal point in the
 // middle (Zhang 2000). False where the views do not determine it.

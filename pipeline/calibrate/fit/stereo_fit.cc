@@ -10,60 +10,21 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kCameraGlobals = 9;
+using bundle::kCameraGlobals;
 constexpr int kFirstDistortion = 4;
-constexpr int kFolds = 5;
 
-void set_free(bundle::Problem& problem, int base, int distortion_terms) {
-  for (int i = 0; i < kFirstDistortion + distortion_terms; ++i)
-    problem.free[static_cast<std::size_t>(base + i)] = true;
-}
+constexpr double kCentreSigma = 0.04;  // of the longer side
+constexpr double kRadialSigma = 0.5;
+constexpr double kTangentialSigma = 0.005;
+constexpr double kAspectSigma = 0.02;
 
-std::size_t place(const CameraFit& fit, int view) {
-  const auto found = std::lower_bound(fit.views.begin(), fit.views.end(), view);
-  RELIEVO_ASSERT(found != fit.views.end() && *found == view);
-  return static_cast<std::size_t>(found - fit.views.begin());
+void set_free(bundle::Problem& problem, int eye, int count) {
+  for (int i = 0; i < count; ++i) problem.free[static_cast<std::size_t>(eye * kCameraGlobals + i)] = true;
 }
 
 const BoardCorners& corners_of(const CalibratorInput& input, bool right, int view) {
   const BoardView& v = input.views[static_cast<std::size_t>(view)];
   return right ? v.right : v.left;
-}
-
-// Squared residuals of boards that had no part in the fit, one a view; empty if a fold fails.
-std::vector<double> held_out(const CalibratorInput& input, bool right, std::span<const int> views,
-                             int terms) {
-  std::vector<double> errors(views.size(), 0);
-  CameraFit all;
-  if (!fit_camera(input, right, views, terms, all)) return {};
-  for (int fold = 0; fold < kFolds; ++fold) {
-    std::vector<int> learn;
-    std::vector<std::size_t> test;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (static_cast<int>(i) % kFolds == fold) test.push_back(i);
-      else learn.push_back(views[i]);
-    }
-    CameraFit fit;
-    if (test.empty() || !fit_camera(input, right, learn, terms, fit)) return {};
-    bundle::Problem judge = fit.problem;
-    judge.views.clear();
-    for (const std::size_t i : test) judge.views.push_back(all.problem.views[i]);
-    if (!bundle::solve_poses(judge)) return {};
-    for (std::size_t k = 0; k < test.size(); ++k) errors[test[k]] = judge.views[k].squared_px[0];
-  }
-  return errors;
-}
-
-// Is the gain in prediction larger than its own standard error?
-bool pays(const std::vector<double>& fewer, const std::vector<double>& more) {
-  const double n = static_cast<double>(fewer.size());
-  double mean = 0;
-  double square = 0;
-  for (std::size_t i = 0; i < fewer.size(); ++i) {
-    mean += (fewer[i] - more[i]) / n;
-    square += (fewer[i] - more[i]) * (fewer[i] - more[i]) / n;
-  }
-  return mean > std::sqrt(std::max(0.0, square - mean * mean) / (n - 1));
 }
 
 bundle::Pose left_from_right_board(const bundle::Pose& right_from_left,
@@ -73,21 +34,52 @@ bundle::Pose left_from_right_board(const bundle::Pose& right_from_left,
           back * (right_from_board.translation_mm - right_from_left.translation_mm)};
 }
 
+void begin_at(const StereoFit& start, StereoFit& fit) {
+  fit.problem.camera = start.problem.camera;
+  fit.problem.right_from_left = start.problem.right_from_left;
+  for (std::size_t k = 0; k < fit.views.size(); ++k) {
+    const auto at = std::find(start.views.begin(), start.views.end(), fit.views[k]);
+    if (at == start.views.end()) continue;
+    const bundle::View& from = start.problem.views[static_cast<std::size_t>(at - start.views.begin())];
+    // A board seen by the right camera alone stands where that camera is: it moves with the relation.
+    fit.problem.views[k].left_from_board = from.left_from_board;
+  }
+}
+
 }  // namespace
 
 double CameraFit::rms_px() const {
   return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1));
 }
-double CameraFit::squared_px(int view) const { return problem.views[place(*this, view)].squared_px[0]; }
-int CameraFit::corners(int view) const { return problem.views[place(*this, view)].corners[0]; }
-const bundle::Pose& CameraFit::pose(int view) const {
-  return problem.views[place(*this, view)].left_from_board;
+double CameraFit::squared_px(int view) const { return problem.views[place(view)].squared_px[0]; }
+int CameraFit::corners(int view) const { return problem.views[place(view)].corners[0]; }
+const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place(view)].left_from_board; }
+std::size_t CameraFit::place(int view) const {
+  const auto found = std::lower_bound(views.begin(), views.end(), view);
+  RELIEVO_ASSERT(found != views.end() && *found == view);
+  return static_cast<std::size_t>(found - views.begin());
+}
+
+double CameraFits::noise_px2() const {
+  return std::max(1e-6, 0.5 * (left.variance_px2 + right.variance_px2));
 }
 
 double StereoFit::rms_px() const { return std::sqrt(paired_squared_px / std::max(paired_corners, 1)); }
 
-bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms,
-                CameraFit& fit) {
+void set_priors(bundle::Problem& p, int eye) {
+  const CameraIntrinsics& c = p.camera[static_cast<std::size_t>(eye)];
+  const double side = std::max(c.width_px, c.height_px);
+  const auto prior = [&](int i, double mean, double sigma) {
+    p.prior[static_cast<std::size_t>(eye * kCameraGlobals + i)] = {mean, 1 / (sigma * sigma)};
+  };
+  prior(2, 0.5 * (c.width_px - 1), kCentreSigma * side);
+  prior(3, 0.5 * (c.height_px - 1), kCentreSigma * side);
+  for (const int radial : {4, 5, 8}) prior(radial, 0, kRadialSigma);
+  for (const int tangential : {6, 7}) prior(tangential, 0, kTangentialSigma);
+  p.aspect_weight[static_cast<std::size_t>(eye)] = 1 / (kAspectSigma * kAspectSigma);
+}
+
+bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, CameraFit& fit) {
   fit.views.assign(views.begin(), views.end());
   bundle::Problem& p = fit.problem;
   p = {};
@@ -96,36 +88,20 @@ bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> v
   p.camera[0].height_px = input.height_px;
   for (const int view : views) p.views.emplace_back(&corners_of(input, right, view), nullptr, bundle::Pose{});
   if (!bundle::first_guess(p)) return false;
-  set_free(p, 0, 0);
+  set_priors(p, 0);
+  p.noise_px2 = 1;
+  set_free(p, 0, kFirstDistortion);
   if (!bundle::solve(p)) return false;
-  set_free(p, 0, distortion_terms);
-  if (!bundle::solve(p)) return false;
-  fit.camera = p.camera[0];
-  const int free = p.residuals - kFirstDistortion - distortion_terms - 6 * static_cast<int>(views.size());
-  if (free <= 0) return false;
-  fit.variance_px2 = p.squared_px / free;
-  return true;
-}
-
-int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left,
-                            std::span<const int> right) {
-  const auto predicted = [&](int terms) {
-    std::vector<double> errors = held_out(input, false, left, terms);
-    const std::vector<double> more = held_out(input, true, right, terms);
-    if (errors.empty() || more.empty()) return std::vector<double>{};
-    errors.insert(errors.end(), more.begin(), more.end());
-    return errors;
-  };
-  int chosen = 1;
-  std::vector<double> best = predicted(chosen);
-  if (best.empty()) return chosen;
-  for (const int terms : {2, 4, 5}) {
-    const std::vector<double> candidate = predicted(terms);
-    if (candidate.empty() || !pays(best, candidate)) continue;
-    chosen = terms;
-    best = candidate;
+  set_free(p, 0, kCameraGlobals);
+  for (int round = 0; round < 2; ++round) {  // the noise weighs the priors, and comes out of the fit
+    if (!bundle::solve(p)) return false;
+    const int free = p.residuals - kCameraGlobals - 6 * static_cast<int>(views.size());
+    if (free <= 0) return false;
+    fit.variance_px2 = p.squared_px / free;
+    p.noise_px2 = std::max(1e-6, fit.variance_px2);
   }
-  return chosen;
+  fit.camera = p.camera[0];
+  return true;
 }
 
 bundle::Pose relation_of(const CameraFits& cameras, int view) {
@@ -136,38 +112,38 @@ bundle::Pose relation_of(const CameraFits& cameras, int view) {
 }
 
 bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> paired,
-                const bundle::Pose& start, bool refine_cameras, StereoFit& fit) {
-  fit.paired.assign(paired.begin(), paired.end());
-  bundle::Problem& p = fit.problem;
-  p = {};
+                const bundle::Pose& relation, const StereoFit* start, StereoFit& fit) {
+  StereoFit made;
+  made.paired.assign(paired.begin(), paired.end());
+  bundle::Problem& p = made.problem;
   p.pattern = input.pattern;
   p.camera = {cameras.left.camera, cameras.right.camera};
-  p.right_from_left = start;
-  const auto is_paired = [&](int view) {
-    return std::find(paired.begin(), paired.end(), view) != paired.end();
+  p.right_from_left = relation;
+  const auto add = [&](int view, bool left, bool right) {
+    made.views.push_back(view);
+    p.views.emplace_back(left ? &corners_of(input, false, view) : nullptr,
+                         right ? &corners_of(input, true, view) : nullptr,
+                         left ? cameras.left.pose(view) : left_from_right_board(relation, cameras.right.pose(view)));
   };
-  for (const int view : paired)
-    p.views.emplace_back(&corners_of(input, false, view), &corners_of(input, true, view),
-                         cameras.left.pose(view));
-  if (refine_cameras) {
-    for (const int view : cameras.left.views)
-      if (!is_paired(view))
-        p.views.emplace_back(&corners_of(input, false, view), nullptr, cameras.left.pose(view));
-    for (const int view : cameras.right.views)
-      if (!is_paired(view))
-        p.views.emplace_back(nullptr, &corners_of(input, true, view),
-                             left_from_right_board(start, cameras.right.pose(view)));
-    set_free(p, 0, cameras.distortion_terms);
-    set_free(p, kCameraGlobals, cameras.distortion_terms);
+  const auto is_paired = [&](int view) { return std::find(paired.begin(), paired.end(), view) != paired.end(); };
+  for (const int view : paired) add(view, true, true);
+  for (const int view : cameras.left.views)
+    if (!is_paired(view)) add(view, true, false);
+  for (const int view : cameras.right.views)
+    if (!is_paired(view)) add(view, false, true);
+  if (start != nullptr) begin_at(*start, made);
+  for (const int eye : {0, 1}) {
+    set_free(p, eye, kCameraGlobals);
+    set_priors(p, eye);
   }
   for (std::size_t i = 2 * kCameraGlobals; i < p.free.size(); ++i) p.free[i] = true;
+  p.noise_px2 = cameras.noise_px2();
   if (!bundle::solve(p)) return false;
-  fit.paired_squared_px = 0;
-  fit.paired_corners = 0;
   for (std::size_t k = 0; k < paired.size(); ++k) {
-    fit.paired_squared_px += p.views[k].squared_px[0] + p.views[k].squared_px[1];
-    fit.paired_corners += p.views[k].corners[0] + p.views[k].corners[1];
+    made.paired_squared_px += p.views[k].squared_px[0] + p.views[k].squared_px[1];
+    made.paired_corners += p.views[k].corners[0] + p.views[k].corners[1];
   }
+  fit = std::move(made);
   return true;
 }
 
@@ -180,7 +156,7 @@ std::vector<double> judge_pairs(const CalibratorInput& input, const CameraFits& 
   std::vector<double> squared;
   // One at a time: a view far off must not hold up the damping of the others.
   for (const int view : views) {
-    p.views = {{&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view)}};
+    p.views.assign(1, {&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view)});
     const bool solved = bundle::solve_poses(p);
     squared.push_back(solved ? p.views[0].squared_px[0] + p.views[0].squared_px[1] : 1e12);
     if (judged != nullptr) judged->push_back(p.views[0]);

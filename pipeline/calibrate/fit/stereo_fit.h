@@ -20,26 +20,28 @@ struct CameraFit {
   double variance_px2 = 0;  // of one coordinate of a corner, the noise
   double rms_px() const;    // over both coordinates of a corner
 
-  // Sum of squares of an input view; its pose. Asserts that the view is one of ours.
+  // Sum of squares of an input view; its pose and its place. Asserts that the view is one of ours.
   double squared_px(int view) const;
   int corners(int view) const;
   const bundle::Pose& pose(int view) const;
+  std::size_t place(int view) const;
 };
 
-// distortion_terms: how many of k1 k2 p1 p2 k3. False where nothing can be determined.
-bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, int distortion_terms,
-                CameraFit& fit);
+// What lenses and sensors are like before the first picture is taken, one standard deviation: principal
+// point 4 % of the longer side off the middle, k1 k2 k3 0.5, p1 p2 0.005, pixels square within 2 %.
+// Wide enough for any lens a face is photographed with; the pictures soon know better. It takes the
+// place of a choice of terms: nothing is fixed, and nothing runs away where the pictures are silent.
+void set_priors(bundle::Problem& problem, int eye);
 
-// How many distortion terms the pictures pay for: more only where boards that had no part in the fit
-// are predicted better, by more than the standard error of that gain.
-int choose_distortion_terms(const CalibratorInput& input, std::span<const int> left,
-                            std::span<const int> right);
+// False where nothing can be determined.
+bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, CameraFit& fit);
 
 // Both cameras. Views in `paired` tie the cameras together; every other board still speaks for the
 // camera that saw it, so that a pair left out costs nothing of the lenses' calibration.
 struct StereoFit {
   bundle::Problem problem;  // the first paired.size() views are the paired ones, in order
   std::vector<int> paired;
+  std::vector<int> views;  // of the input, in the problem's order
   double paired_squared_px = 0;
   int paired_corners = 0;  // of left and right together
   double rms_px() const;   // of the paired views
@@ -48,11 +50,15 @@ struct StereoFit {
 struct CameraFits {
   const CameraFit& left;
   const CameraFit& right;
-  int distortion_terms;
+
+  // No corner is known better than to a thousandth of a pixel.
+  double noise_px2() const;
 };
 
+// Cameras and poses of `start` are where it begins, if given: a fit of nearly the same views is done in
+// two or three steps from there.
 bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> paired,
-                const bundle::Pose& start, bool refine_cameras, StereoFit& fit);
+                const bundle::Pose& relation, const StereoFit* start, StereoFit& fit);
 bundle::Pose relation_of(const CameraFits& cameras, int view);
 
 // Sum of squares of each view of `views` as a pair under the fit's cameras, board pose free.

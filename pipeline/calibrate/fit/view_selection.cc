@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/calibrate/fit/relation_evidence.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr double kDegrees = 6;
 
 double alone(const CameraFits& cameras, int view) {
   return cameras.left.squared_px(view) + cameras.right.squared_px(view);
-}
-
-// No corner is known better than to a thousandth of a pixel.
-double noise_px2(const CameraFits& cameras) {
-  return std::max(1e-6, 0.5 * (cameras.left.variance_px2 + cameras.right.variance_px2));
 }
 
 // P(chi-square of `degrees` <= x), degrees even: a finite sum.
@@ -65,32 +62,75 @@ double excess_of(const CameraFits& cameras, const StereoFit& fit) {
   return sum;
 }
 
-// From one view's own relation to the half that agrees best with what it leads to.
-bool concentrate(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-                 int start, std::size_t half, StereoFit& fit) {
-  const int first[] = {start};
-  if (!fit_stereo(input, cameras, first, relation_of(cameras, start), false, fit)) return false;
-  for (int round = 0; round < kConcentrations; ++round) {
-    std::vector<double> cost = judge_pairs(input, cameras, fit, pairs);
-    for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] -= alone(cameras, pairs[i]);
-    const std::size_t count = round == 0 ? std::max<std::size_t>(3, half / 2) : half;
-    const std::vector<int> chosen = least(pairs, cost, count);
-    if (round > 1 && chosen == fit.paired) break;
-    const bundle::Pose from = fit.problem.right_from_left;
-    if (!fit_stereo(input, cameras, chosen, from, round > 0, fit)) return false;
-  }
-  return true;
+std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
+  std::vector<std::size_t> order(cost.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  order.resize(std::min(count, order.size()));
+  std::sort(order.begin(), order.end());
+  return order;
 }
 
+struct Half {
+  std::vector<std::size_t> places;
+  bundle::Pose relation;
+  double misfit_px2 = 0;
+};
+
+// From one view's own relation to the half that agrees best with what it leads to.
+Half concentrate(std::span<const RelationEvidence> views, bundle::Pose relation, std::size_t half) {
+  Half found;
+  std::vector<double> cost(views.size());
+  for (int round = 0; round < kConcentrations; ++round) {
+    for (std::size_t i = 0; i < views.size(); ++i) cost[i] = misfit_px2(views[i], relation);
+    std::vector<std::size_t> places = calmest(cost, round == 0 ? std::max<std::size_t>(3, half / 2) : half);
+    if (places == found.places) break;
+    found.places = std::move(places);
+    relation = fit_relation(views, found.places, relation);
+  }
+  found.relation = relation;
+  for (const std::size_t v : found.places) found.misfit_px2 += misfit_px2(views[v], relation);
+  return found;
+}
+
+// The halves that every view alone leads to, the calmest first, each once.
+std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pairs) {
+  const std::size_t half = pairs.size() / 2 + 1;
+  const std::vector<RelationEvidence> views = gather_evidence(cameras, pairs);
+  const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
+  std::vector<Half> halves;
+  for (std::size_t s = 0; s < pairs.size(); s += stride) {
+    Half one = concentrate(views, relation_of(cameras, pairs[s]), half);
+    const bool known = std::any_of(halves.begin(), halves.end(), [&](const Half& h) { return h.places == one.places; });
+    if (!known) halves.push_back(std::move(one));
+  }
+  std::stable_sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
+  return halves;
+}
+
+// The evidence takes each camera's lens as its own boards gave it; the last word has the whole fit.
 bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
                StereoFit& best) {
+  constexpr std::size_t kFinalists = 3;
   const std::size_t half = pairs.size() / 2 + 1;
-  const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
+  std::vector<Half> halves = halves_of(cameras, pairs);
+  halves.resize(std::min(halves.size(), kFinalists));
   double least_excess = 0;
   bool found = false;
-  for (std::size_t s = 0; s < pairs.size(); s += stride) {
+  for (const Half& one : halves) {
+    std::vector<int> chosen;
+    for (const std::size_t place : one.places) chosen.push_back(pairs[place]);
     StereoFit fit;
-    if (!concentrate(input, cameras, pairs, pairs[s], half, fit)) continue;
+    if (!fit_stereo(input, cameras, chosen, one.relation, nullptr, fit)) continue;
+    for (int round = 0; round < kConcentrations; ++round) {
+      std::vector<double> cost = judge_pairs(input, cameras, fit, pairs);
+      for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] -= alone(cameras, pairs[i]);
+      chosen = least(pairs, cost, half);
+      if (chosen == fit.paired) break;
+      StereoFit calmer;
+      if (!fit_stereo(input, cameras, chosen, fit.problem.right_from_left, &fit, calmer)) break;
+      fit = std::move(calmer);
+    }
     const double excess = excess_of(cameras, fit);
     if (found && excess >= least_excess) continue;
     found = true;
@@ -103,12 +143,15 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
 double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
   const double used = static_cast<double>(fit.paired.size());
   const double mended = trimming_factor(used / static_cast<double>(pairs));
-  return std::max(noise_px2(cameras), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
+  return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
-// Lets in the cheapest view outside; false when it is a surprise or none is left.
-bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-               StereoFit& fit) {
+// Normal deviate below which a view is let in unasked.
+constexpr double kPlain = 1.5;
+
+// Lets in every view outside that is plainly no surprise, else the cheapest if it is not too great a
+// one; false when none is let in.
+bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& fit) {
   constexpr std::size_t kCandidates = 3;
   std::vector<int> outside;
   for (const int view : pairs)
@@ -120,21 +163,30 @@ bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::spa
   const double used = static_cast<double>(fit.paired.size());
   // A scale from a part of the views is known only as well as that part is large.
   const double degrees = kDegrees * (used - 1) * used / static_cast<double>(pairs.size());
+  const auto deviate = [&](double added) { return surprise(added / kDegrees / spread, kDegrees, degrees); };
+  const auto let_in = [&](std::span<const int> views, StereoFit& wider) {
+    std::vector<int> with = fit.paired;
+    for (const int view : views) with.insert(std::lower_bound(with.begin(), with.end(), view), view);
+    return fit_stereo(input, cameras, with, fit.problem.right_from_left, &fit, wider);
+  };
+  // Judged under a fit that had no regard to it a view costs more than it would add: a safe side.
+  std::vector<int> plain;
+  for (std::size_t i = 0; i < outside.size(); ++i)
+    if (deviate(cost[i]) < kPlain) plain.push_back(outside[i]);
+  if (!plain.empty()) return let_in(plain, fit);
   StereoFit best;
   double least_cost = 0;
   for (const int view : least(outside, cost, kCandidates)) {
-    std::vector<int> with = fit.paired;
-    with.insert(std::lower_bound(with.begin(), with.end(), view), view);
     StereoFit wider;
-    if (!fit_stereo(input, cameras, with, fit.problem.right_from_left, true, wider)) continue;
+    const int one[] = {view};
+    if (!let_in(one, wider)) continue;
     const double added = excess_of(cameras, wider) - excess_of(cameras, fit);
     if (best.paired.empty() || added < least_cost) {
       best = std::move(wider);
       least_cost = added;
     }
   }
-  if (best.paired.empty() || surprise(least_cost / kDegrees / spread, kDegrees, degrees) > kSurprise)
-    return false;
+  if (best.paired.empty() || deviate(least_cost) > kSurprise) return false;
   fit = std::move(best);
   return true;
 }
@@ -144,7 +196,7 @@ bool admit_one(const CalibratorInput& input, const CameraFits& cameras, std::spa
 bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
                   Selection& out) {
   if (!best_half(input, cameras, pairs, out.fit)) return false;
-  while (admit_one(input, cameras, pairs, out.fit)) {
+  while (admit(input, cameras, pairs, out.fit)) {
   }
   out.used = out.fit.paired;
   out.excess = judge_pairs(input, cameras, out.fit, pairs);

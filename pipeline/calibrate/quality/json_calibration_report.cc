@@ -53,7 +53,6 @@ std::string calibration_report_json(const CalibrationQuality& q) {
                                          {"moved_after", name_of(q.moved_after)},
                                          {"moved_after_first", name_of(q.moved_after_first)},
                                          {"moved_after_last", name_of(q.moved_after_last)},
-                                         {"distortion_terms", q.distortion_terms},
                                          {"baseline_mm", q.baseline_mm},
                                          {"working_distance_mm", q.working_distance_mm},
                                          {"depth_sigma_mm", q.depth_sigma_mm},

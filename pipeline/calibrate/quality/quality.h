@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/calibrate/quality/uncertainty.h"
+
 namespace relievo::pipeline {
 
 enum class CalibrationVerdict : std::uint8_t { Pass, Usable, Refuse };
@@ -42,12 +44,12 @@ struct CalibrationQuality {
   int moved_after = -1;        // index of the view after which a camera seems to have moved; -1: none
   int moved_after_first = -1;  // the range in which it may as well have been
   int moved_after_last = -1;
-  int distortion_terms = 0;  // of k1 k2 p1 p2 k3, from the left
   double baseline_mm = 0;
   double working_distance_mm = 0;  // median distance of the boards used
-  // One standard deviation of a head measured there, as far as this calibration is to blame (jackknife):
+  // One standard deviation of a head measured there, as far as this calibration is to blame:
   double depth_sigma_mm = 0;  // of its distance
   double shape_sigma_mm = 0;  // of its shape and size: what stays when it is laid over the true one
+  CalibrationUncertainty uncertainty;
 };
 
 std::string calibration_report_json(const CalibrationQuality& quality);

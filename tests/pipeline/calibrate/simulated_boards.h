@@ -18,11 +18,34 @@ struct SimulatedRig {
   double focal[2] = {1600, 1585};
   double centre[2][2] = {{520, 500}, {505, 522}};
   double distortion[2][5] = {{-0.18, 0.12, 0.0006, -0.0004, 0}, {-0.17, 0.10, -0.0003, 0.0008, 0}};
-  std::array<double, 3> turn = {0.004, -0.30, 0.006};  // right from left, rotation vector
-  std::array<double, 3> shift_mm = {-115, 1.2, 18};
+  std::array<double, 3> turn = {0.004, 0.22, 0.006};  // right from left, rotation vector
+  std::array<double, 3> shift_mm = {-112, 1.2, 25};
   int width_px = 1024;
   int height_px = 1024;
 };
+
+// Another rig for every seed: two cameras that look at a point some 400 to 700 mm away.
+inline SimulatedRig random_rig(unsigned seed) {
+  std::mt19937 random(seed * 7919U);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  SimulatedRig rig;
+  for (int eye = 0; eye < 2; ++eye) {
+    rig.focal[eye] = uniform(1300, 2400);
+    for (double& c : rig.centre[eye]) c = 511.5 + uniform(-30, 30);
+    double* k = rig.distortion[eye];
+    k[0] = uniform(-0.3, 0.1);
+    k[1] = uniform(-0.2, 0.3);
+    k[2] = uniform(-0.002, 0.002);
+    k[3] = uniform(-0.002, 0.002);
+    k[4] = uniform(-0.2, 0.2);
+  }
+  const double baseline = uniform(70, 160);
+  rig.turn = {uniform(-0.02, 0.02), baseline / 500 * uniform(0.7, 1.2), uniform(-0.02, 0.02)};
+  rig.shift_mm = {-baseline * std::cos(rig.turn[1]), uniform(-3, 3), baseline * std::sin(rig.turn[1])};
+  return rig;
+}
 
 using Point = std::array<double, 3>;
 
@@ -65,18 +88,10 @@ class BoardSimulator {
   }
 
   void add(const Slip& slip = {}) {
-    // Tilted up to 35 degrees, somewhere in the common field at 400 to 560 mm.
-    const Point turn = {uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(-0.5, 0.5)};
-    const Point middle = {uniform(-60, 60), uniform(-65, 65), uniform(400, 560)};
     pipeline::BoardView view;
     view.name = std::to_string(input_.views.size());
-    for (int i = 0; i < input_.pattern.corners(); ++i) {
-      Point p = turned(turn, {(i % 9 - 4) * 10.0, (i / 9 - 2.5) * 10.0, 0});
-      for (std::size_t c = 0; c < 3; ++c) p[c] += middle[c];
-      Point q = turned(slip.turn, turned(rig_.turn, p));
-      for (std::size_t c = 0; c < 3; ++c) q[c] += rig_.shift_mm[c] + slip.shift_mm[c];
-      view.left.push_back(noisy(seen_by(rig_, 0, p)));
-      view.right.push_back(noisy(seen_by(rig_, 1, q)));
+    // A photographer's patience: the whole board in both pictures, or as it comes.
+    for (int tries = 0; tries < 200 && !photograph(slip, view); ++tries) {
     }
     input_.views.push_back(std::move(view));
   }
@@ -93,6 +108,27 @@ class BoardSimulator {
   pipeline::CalibratorInput& input() { return input_; }
 
  private:
+  // Tilted up to 35 degrees, somewhere in the common field at 400 to 560 mm. False when a corner is out.
+  bool photograph(const Slip& slip, pipeline::BoardView& view) {
+    const Point turn = {uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(-0.5, 0.5)};
+    const Point middle = {uniform(-60, 60), uniform(-65, 65), uniform(400, 560)};
+    view.left.clear();
+    view.right.clear();
+    bool whole = true;
+    for (int i = 0; i < input_.pattern.corners(); ++i) {
+      Point p = turned(turn, {(i % 9 - 4) * 10.0, (i / 9 - 2.5) * 10.0, 0});
+      for (std::size_t c = 0; c < 3; ++c) p[c] += middle[c];
+      Point q = turned(slip.turn, turned(rig_.turn, p));
+      for (std::size_t c = 0; c < 3; ++c) q[c] += rig_.shift_mm[c] + slip.shift_mm[c];
+      view.left.push_back(noisy(seen_by(rig_, 0, p)));
+      view.right.push_back(noisy(seen_by(rig_, 1, q)));
+      whole = whole && inside(view.left.back()) && inside(view.right.back());
+    }
+    return whole;
+  }
+  bool inside(const pipeline::Vec2d& at) const {
+    return at.x > 5 && at.y > 5 && at.x < rig_.width_px - 5 && at.y < rig_.height_px - 5;
+  }
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/quality/rig_geometry.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace relievo::pipeline {
+
+// Fixed-point iteration; a lens whose picture does not fold over contracts it.
+Eigen::Vector3d ray_of(const CameraIntrinsics& c, const Vec2d& at) {
+  const double u = (at.x - c.centre_px.x) / c.focal_px.x;
+  const double v = (at.y - c.centre_px.y) / c.focal_px.y;
+  const double* k = c.distortion;
+  double x = u;
+  double y = v;
+  for (int i = 0; i < 50; ++i) {
+    const double r2 = x * x + y * y;
+    const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    const double next_x = (u - 2 * k[2] * x * y - k[3] * (r2 + 2 * x * x)) / radial;
+    const double next_y = (v - k[2] * (r2 + 2 * y * y) - 2 * k[3] * x * y) / radial;
+    const double moved = std::abs(next_x - x) + std::abs(next_y - y);
+    x = next_x;
+    y = next_y;
+    if (moved < 1e-14) break;
+  }
+  return {x, y, 1};
+}
+
+Eigen::Vector3d point_of(const bundle::Problem& p, const Vec2d& left, const Vec2d& right) {
+  const Eigen::Matrix3d back = p.right_from_left.rotation.transpose();
+  const Eigen::Vector3d a = ray_of(p.camera[0], left);
+  const Eigen::Vector3d b = back * ray_of(p.camera[1], right);
+  const Eigen::Vector3d c = -(back * p.right_from_left.translation_mm);
+  const double den = a.dot(a) * b.dot(b) - a.dot(b) * a.dot(b);
+  const double s = (c.dot(a) * b.dot(b) - c.dot(b) * a.dot(b)) / den;
+  const double t = (c.dot(a) * a.dot(b) - c.dot(b) * a.dot(a)) / den;
+  return 0.5 * (s * a + c + t * b);
+}
+
+double epipolar_squared(const bundle::Problem& p, const BoardCorners& left, const BoardCorners& right, int& count) {
+  const bundle::Pose& relation = p.right_from_left;
+  double sum = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (!seen(left[i]) || !seen(right[i])) continue;
+    ++count;
+    const Eigen::Vector3d turned = relation.rotation * ray_of(p.camera[0], left[i]);
+    const Eigen::Vector3d line = relation.translation_mm.cross(turned);
+    const double distance = line.dot(ray_of(p.camera[1], right[i])) / line.head<2>().norm();
+    sum += distance * distance;
+  }
+  const double focal = 0.5 * (p.camera[1].focal_px.x + p.camera[1].focal_px.y);
+  return sum * focal * focal;
+}
+
+Probes probes_of(const bundle::Problem& p, const std::vector<Eigen::Vector3d>& points) {
+  Probes probes;
+  for (const Eigen::Vector3d& point : points) {
+    bundle::Pose at;
+    at.translation_mm = point;
+    probes.left.push_back(bundle::project(p.camera[0], at, 0, 0));
+    at.translation_mm = p.right_from_left.rotation * point + p.right_from_left.translation_mm;
+    probes.right.push_back(bundle::project(p.camera[1], at, 0, 0));
+  }
+  return probes;
+}
+
+Cloud cloud_of(const bundle::Problem& p, const Probes& probes) {
+  Cloud cloud(3, static_cast<Eigen::Index>(probes.left.size()));
+  for (std::size_t n = 0; n < probes.left.size(); ++n)
+    cloud.col(static_cast<Eigen::Index>(n)) = point_of(p, probes.left[n], probes.right[n]);
+  return cloud;
+}
+
+Cloud shape_difference(const Cloud& from, const Cloud& to) {
+  const Eigen::Matrix4d lay = Eigen::umeyama(from, to, false);
+  return ((lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>())) - to;
+}
+
+double scale_between(const Cloud& from, const Cloud& to) {
+  const Eigen::Matrix4d lay = Eigen::umeyama(from, to, true);
+  return lay.topLeftCorner<3, 3>().col(0).norm();
+}
+
+}  // namespace relievo::pipeline
