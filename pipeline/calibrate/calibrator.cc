@@ -130,16 +130,18 @@ void name_views(const CalibratorInput& input, CalibrationQuality& quality) {
 }
 
 void name_left_out(const Selection& selection, std::span<const int> pairs, CalibrationQuality& quality) {
+  const double usual = std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
   for (const int pair : pairs) {
     ViewQuality& view = quality.views[static_cast<std::size_t>(pair)];
     if (view.used) continue;
-    const double usual =
-        std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
-        view.excess_px, usual, view.epipolar_rms_px);
+    char text[200];
+    if (quality.moved_after >= 0 && view.excess_px < 2 * usual)
+      std::snprintf(text, sizeof text, "taken on the other side of a camera's move (%s)",
+                    quality.views[static_cast<std::size_t>(quality.moved_after)].name.c_str());
+    else
+      std::snprintf(text, sizeof text,
+                    "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
+                    view.excess_px, usual, view.epipolar_rms_px);
     view.reason = text;
   }
 }
@@ -195,6 +197,9 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   Selection selection;
   if (!select_views(input, cameras, pairs, selection)) return undetermined;
   out.calibration = calibration_of(selection.fit);
+  if (inverse(out.calibration.right_from_left).translation_mm.x < 0)
+    return Error{Errc::PoorGeometry, "the left pictures come from the right camera; exchange the two"}.at(
+        std::to_string(pairs.size()) + " pairs");
   RELIEVO_TRY(check_calibration(out.calibration));
   measure_quality({input, cameras, pairs, selection}, out.quality);
   name_left_out(selection, pairs, out.quality);

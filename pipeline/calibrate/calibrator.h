@@ -31,6 +31,9 @@ struct CalibratorInput {
   int width_px = 0;  // of both cameras
   int height_px = 0;
   std::vector<BoardView> views;
+  // What the distance of the cameras is known to be, from their mount or the calibration before; 0: unknown.
+  // A wrong size of the board's squares cannot be seen without it.
+  double expected_baseline_mm = 0;
 };
 
 struct CalibratorOutput {

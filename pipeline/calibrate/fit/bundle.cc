@@ -7,48 +7,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "pipeline/calibrate/fit/corner_terms.h"
+
 namespace relievo::pipeline::bundle {
 namespace {
 
-using Jacobian = Eigen::Matrix<double, 2, 9>;  // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
 constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-// Pixel of a point in the camera's frame, with its derivatives where asked for.
-Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, Jacobian* by_camera,
-                         Eigen::Matrix<double, 2, 3>* by_point) {
-  const double x = p.x() / p.z();
-  const double y = p.y() / p.z();
-  const double* k = c.distortion;
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double xd = x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x);
-  const double yd = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
-  const double fx = c.focal_px.x;
-  const double fy = c.focal_px.y;
-  if (by_camera != nullptr) {
-    const double r4 = r2 * r2;
-    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x),
-        fx * x * r4 * r2, 0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y,
-        fy * y * r4 * r2;
-  }
-  if (by_point != nullptr) {
-    const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
-    Eigen::Matrix2d by_plane;
-    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x,
-        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
-        radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
-    Eigen::Matrix<double, 2, 3> plane_by_point;
-    plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
-    *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
-  }
-  return {fx * xd + c.centre_px.x, fy * yd + c.centre_px.y};
-}
 
 struct Normal {
   Globals a = Globals::Zero();
@@ -68,44 +32,22 @@ struct Block {
   Vector6d& h;
 };
 
-// The globals of one eye lie together: its camera, and for the right eye the relation behind it.
 template <int kEye>
 void add_camera(const Problem& p, View& view, Block block) {
-  constexpr int kBase = kEye == 0 ? 0 : 9;
-  constexpr int kOwn = kEye == 0 ? 9 : 15;
-  const Pose& relation = p.right_from_left;
-  auto own_a = block.a.template block<kOwn, kOwn>(kBase, kBase);
-  auto own_g = block.g.template segment<kOwn>(kBase);
-  auto own_b = block.b.template middleRows<kOwn>(kBase);
+  using Terms = CornerTerms<kEye>;
+  auto own_a = block.a.template block<Terms::kOwn, Terms::kOwn>(Terms::kBase, Terms::kBase);
+  auto own_g = block.g.template segment<Terms::kOwn>(Terms::kBase);
+  auto own_b = block.b.template middleRows<Terms::kOwn>(Terms::kBase);
   for (int i = 0; i < p.pattern.corners(); ++i) {
-    const Vec2d& at = (*view.seen[kEye])[static_cast<std::size_t>(i)];
-    if (!seen(at)) continue;
+    if (!seen((*view.seen[kEye])[static_cast<std::size_t>(i)])) continue;
     ++view.corners[kEye];
-    const Eigen::Vector3d board((i % p.pattern.columns) * p.pattern.square_mm,
-                                (i / p.pattern.columns) * p.pattern.square_mm, 0);
-    const Eigen::Vector3d turned = view.left_from_board.rotation * board;
-    Eigen::Vector3d here = turned + view.left_from_board.translation_mm;
-    const Eigen::Vector3d turned_left = relation.rotation * here;
-    if constexpr (kEye == 1) here = turned_left + relation.translation_mm;
-    Jacobian by_camera;
-    Eigen::Matrix<double, 2, 3> by_point;
-    const Eigen::Vector2d pixel = pixel_of(p.camera[kEye], here, &by_camera, &by_point);
-    const Eigen::Vector2d residual(at.x - pixel.x(), at.y - pixel.y());
-    view.squared_px[kEye] += here.z() > 0 ? residual.squaredNorm() : kBehind;
-    Eigen::Matrix<double, 2, kOwn> by_own;
-    by_own.template leftCols<9>() = by_camera;
-    Eigen::Matrix<double, 2, 3> by_left = by_point;
-    if constexpr (kEye == 1) {
-      by_own.template rightCols<6>() << by_point * -cross(turned_left), by_point;
-      by_left = by_point * relation.rotation;
-    }
-    Eigen::Matrix<double, 2, 6> by_pose;
-    by_pose << by_left * -cross(turned), by_left;
-    own_a.noalias() += by_own.transpose() * by_own;
-    own_g.noalias() += by_own.transpose() * residual;
-    own_b.noalias() += by_own.transpose() * by_pose;
-    block.c.noalias() += by_pose.transpose() * by_pose;
-    block.h.noalias() += by_pose.transpose() * residual;
+    const Terms t(p, view, i);
+    view.squared_px[kEye] += t.depth_mm > 0 ? t.residual.squaredNorm() : kBehind;
+    own_a.noalias() += t.by_own.transpose() * t.by_own;
+    own_g.noalias() += t.by_own.transpose() * t.residual;
+    own_b.noalias() += t.by_own.transpose() * t.by_pose;
+    block.c.noalias() += t.by_pose.transpose() * t.by_pose;
+    block.h.noalias() += t.by_pose.transpose() * t.residual;
   }
 }
 
@@ -131,6 +73,11 @@ void add_priors(Problem& p, Normal& n) {
   }
   for (int eye = 0; eye < 2; ++eye) {
     const int at = eye * kCameraGlobals;
+    const CameraBelief& belief = p.belief[static_cast<std::size_t>(eye)];
+    const CameraVector away = belief.mean - parameters_of(p.camera[static_cast<std::size_t>(eye)]);
+    n.a.block<kCameraGlobals, kCameraGlobals>(at, at) += belief.information;
+    n.g.segment<kCameraGlobals>(at) += belief.information * away;
+    n.cost += away.dot(belief.information * away);
     const double fy = parameter(p, at + 1);
     if (!(p.aspect_weight[static_cast<std::size_t>(eye)] > 0) || !(std::abs(fy) > 1)) continue;
     const double weight = p.noise_px2 * p.aspect_weight[static_cast<std::size_t>(eye)] / (fy * fy);
@@ -254,6 +201,13 @@ bool solve(Problem& problem) {
   return std::isfinite(normal.cost) && problem.covariance.allFinite();
 }
 
+CameraVector parameters_of(const CameraIntrinsics& c) {
+  CameraVector p;
+  p << c.focal_px.x, c.focal_px.y, c.centre_px.x, c.centre_px.y, c.distortion[0], c.distortion[1], c.distortion[2],
+      c.distortion[3], c.distortion[4];
+  return p;
+}
+
 void step_globals(Problem& p, const GlobalVector& by) {
   for (int i = 0; i < 2 * kCameraGlobals; ++i) parameter(p, i) += by[i];
   p.right_from_left.step(by.tail<6>());
@@ -266,6 +220,7 @@ std::vector<Problem> without_each_view(const Problem& solved) {
     one.views.assign(1, view);
     one.prior = {};
     one.aspect_weight = {};
+    one.belief = {};
     const Normal n = linearise(one);
     const auto to_pose = n.c[0].ldlt();
     Globals information = solved.information - (n.a - n.b[0] * to_pose.solve(n.b[0].transpose()));
@@ -276,6 +231,16 @@ std::vector<Problem> without_each_view(const Problem& solved) {
     step_globals(without.back(), information.ldlt().solve(pull));
   }
   return without;
+}
+
+Globals information_of(const Problem& rig, const View& view) {
+  Problem one = rig;
+  one.views.assign(1, view);
+  one.prior = {};
+  one.aspect_weight = {};
+  one.belief = {};
+  const Normal n = linearise(one);
+  return n.a - n.b[0] * n.c[0].ldlt().solve(n.b[0].transpose());
 }
 
 bool solve_poses(Problem& problem) {

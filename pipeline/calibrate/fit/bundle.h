@@ -57,6 +57,14 @@ struct Prior {
   double weight = 0;
 };
 
+// What is known of one camera's parameters together: normal, for corners of 1 px noise.
+using CameraVector = Eigen::Matrix<double, kCameraGlobals, 1>;
+using CameraMatrix = Eigen::Matrix<double, kCameraGlobals, kCameraGlobals>;
+struct CameraBelief {
+  CameraVector mean = CameraVector::Zero();
+  CameraMatrix information = CameraMatrix::Zero();
+};
+
 struct Problem {
   BoardPattern pattern;
   std::array<CameraIntrinsics, 2> camera;
@@ -65,6 +73,7 @@ struct Problem {
   std::array<bool, kGlobals> free{};  // the others keep their value
   std::array<Prior, kGlobals> prior{};
   std::array<double, 2> aspect_weight{};  // of fx / fy being 1, for each camera: 1/sigma²
+  std::array<CameraBelief, 2> belief{};
   double noise_px2 = 0.01;                // variance of one coordinate of a corner: weighs the priors
   // out:
   double squared_px = 0;  // of all views, without the priors
@@ -72,6 +81,8 @@ struct Problem {
   Globals information = Globals::Zero();  // of the globals, poses eliminated, corners of 1 px noise, priors in
   Globals covariance = Globals::Zero();   // its inverse: times noise_px2; 0 for what is not free
 };
+
+CameraVector parameters_of(const CameraIntrinsics& camera);
 
 // Where a camera sees the board's corner (column, row).
 Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm);
@@ -85,6 +96,9 @@ bool solve_poses(Problem& problem);
 // Where the globals would go if view `v` had never been taken: one Newton step from the solution, poses
 // adapting (exact for a linear problem). Adds the step to the globals of a copy; its views are untouched.
 std::vector<Problem> without_each_view(const Problem& solved);
+
+// What one more view would add to Problem::information at these globals; `rig` without views.
+Globals information_of(const Problem& rig, const View& view);
 
 // Globals stepped by `by`; for carrying the covariance to whatever is computed from them.
 void step_globals(Problem& problem, const GlobalVector& by);

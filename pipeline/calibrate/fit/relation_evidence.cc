@@ -5,9 +5,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "pipeline/calibrate/fit/corner_terms.h"
+
 namespace relievo::pipeline {
 namespace {
 
+using bundle::cross;
 using bundle::Matrix6d;
 using bundle::Pose;
 using bundle::Vector6d;
@@ -17,12 +20,6 @@ struct Miss {
   Matrix6d by_step;  // of `off` by a step of the relation
   Matrix6d weight;   // of `off`, the left camera's freedom taken out
 };
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Miss miss_of(const RelationEvidence& view, const Pose& relation) {
   const Eigen::Matrix3d& r = relation.rotation;
@@ -56,6 +53,55 @@ std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::sp
 double misfit_px2(const RelationEvidence& view, const Pose& right_from_left) {
   const Miss miss = miss_of(view, right_from_left);
   return miss.off.dot(miss.weight * miss.off);
+}
+
+namespace {
+
+using Direction = Eigen::Matrix<double, 6, 3>;
+
+Direction turned_camera(const Pose& relation) {
+  Direction turn;
+  turn << Eigen::Matrix3d::Identity(), -cross(relation.translation_mm);
+  return turn;
+}
+
+Direction carried_board() {
+  Direction carry;
+  carry << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
+  return carry;
+}
+
+// The least misfit with `excused` free in every view.
+double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool camera_turned) {
+  constexpr int kSteps = 4;
+  constexpr double kFirm = 1e-9;  // what the story leaves open of the relation stays as it is
+  double cost = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    Matrix6d sum = Matrix6d::Zero();
+    Vector6d pull = Vector6d::Zero();
+    cost = 0;
+    for (const RelationEvidence& view : views) {
+      const Miss miss = miss_of(view, relation);
+      const Direction excused = camera_turned ? Direction(miss.by_step * turned_camera(relation)) : carried_board();
+      const Direction weighted = miss.weight * excused;
+      const Eigen::Matrix3d inner = excused.transpose() * weighted;
+      const Matrix6d weight = miss.weight - weighted * inner.ldlt().solve(weighted.transpose());
+      const Matrix6d by = miss.by_step.transpose() * weight;
+      sum += by * miss.by_step;
+      pull -= by * miss.off;
+      cost += miss.off.dot(weight * miss.off);
+    }
+    sum.diagonal() *= 1 + kFirm;
+    sum.diagonal().array() += kFirm * sum.trace();
+    if (i < kSteps) relation.step(sum.ldlt().solve(pull));
+  }
+  return cost;
+}
+
+}  // namespace
+
+Stories tell_stories(std::span<const RelationEvidence> views, const Pose& right_from_left) {
+  return {misfit_but(views, right_from_left, true), misfit_but(views, right_from_left, false)};
 }
 
 Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen, Pose right_from_left) {

@@ -31,4 +31,13 @@ double misfit_px2(const RelationEvidence& view, const bundle::Pose& right_from_l
 bundle::Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
                           bundle::Pose right_from_left);
 
+// What stays of the misfit of all views (px²) when in every view the right camera may have turned about
+// its own centre, and when instead the board may have been carried on between the two exposures: three
+// numbers of freedom a view each, the relation fitted anew under either story.
+struct Stories {
+  double camera_turned_px2 = 0;
+  double board_carried_px2 = 0;
+};
+Stories tell_stories(std::span<const RelationEvidence> views, const bundle::Pose& right_from_left);
+
 }  // namespace relievo::pipeline

@@ -34,6 +34,11 @@ bundle::Pose left_from_right_board(const bundle::Pose& right_from_left,
           back * (right_from_board.translation_mm - right_from_left.translation_mm)};
 }
 
+bundle::CameraBelief belief_of(const CameraFit& alone, double slip) {
+  return {bundle::parameters_of(alone.camera),
+          (slip - 1) * alone.problem.information.topLeftCorner<kCameraGlobals, kCameraGlobals>()};
+}
+
 void begin_at(const StereoFit& start, StereoFit& fit) {
   fit.problem.camera = start.problem.camera;
   fit.problem.right_from_left = start.problem.right_from_left;
@@ -112,7 +117,7 @@ bundle::Pose relation_of(const CameraFits& cameras, int view) {
 }
 
 bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> paired,
-                const bundle::Pose& relation, const StereoFit* start, StereoFit& fit) {
+                const bundle::Pose& relation, double slip, const StereoFit* start, StereoFit& fit) {
   StereoFit made;
   made.paired.assign(paired.begin(), paired.end());
   bundle::Problem& p = made.problem;
@@ -137,7 +142,8 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
     set_priors(p, eye);
   }
   for (std::size_t i = 2 * kCameraGlobals; i < p.free.size(); ++i) p.free[i] = true;
-  p.noise_px2 = cameras.noise_px2();
+  p.noise_px2 = slip * cameras.noise_px2();
+  p.belief = {belief_of(cameras.left, slip), belief_of(cameras.right, slip)};
   if (!bundle::solve(p)) return false;
   for (std::size_t k = 0; k < paired.size(); ++k) {
     made.paired_squared_px += p.views[k].squared_px[0] + p.views[k].squared_px[1];

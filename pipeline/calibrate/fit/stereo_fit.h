@@ -57,8 +57,10 @@ struct CameraFits {
 
 // Cameras and poses of `start` are where it begins, if given: a fit of nearly the same views is done in
 // two or three steps from there.
+// slip: variance of the pairs' disagreement over that of the corners, 1 for a firm rig. What slips says
+// little of the lenses: each camera's own boards count `slip` times as much as its ties to the other.
 bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> paired,
-                const bundle::Pose& relation, const StereoFit* start, StereoFit& fit);
+                const bundle::Pose& relation, double slip, const StereoFit* start, StereoFit& fit);
 bundle::Pose relation_of(const CameraFits& cameras, int view);
 
 // Sum of squares of each view of `views` as a pair under the fit's cameras, board pose free.

@@ -62,6 +62,13 @@ double excess_of(const CameraFits& cameras, const StereoFit& fit) {
   return sum;
 }
 
+// Variance of one degree of freedom of the disagreement.
+double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
+  const double used = static_cast<double>(fit.paired.size());
+  const double mended = trimming_factor(used / static_cast<double>(pairs));
+  return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
+}
+
 std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
   std::vector<std::size_t> order(cost.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -121,14 +128,14 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
     std::vector<int> chosen;
     for (const std::size_t place : one.places) chosen.push_back(pairs[place]);
     StereoFit fit;
-    if (!fit_stereo(input, cameras, chosen, one.relation, nullptr, fit)) continue;
+    if (!fit_stereo(input, cameras, chosen, one.relation, 1, nullptr, fit)) continue;
     for (int round = 0; round < kConcentrations; ++round) {
       std::vector<double> cost = judge_pairs(input, cameras, fit, pairs);
       for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] -= alone(cameras, pairs[i]);
       chosen = least(pairs, cost, half);
       if (chosen == fit.paired) break;
       StereoFit calmer;
-      if (!fit_stereo(input, cameras, chosen, fit.problem.right_from_left, &fit, calmer)) break;
+      if (!fit_stereo(input, cameras, chosen, fit.problem.right_from_left, 1, &fit, calmer)) break;
       fit = std::move(calmer);
     }
     const double excess = excess_of(cameras, fit);
@@ -138,12 +145,6 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
     best = std::move(fit);
   }
   return found;
-}
-
-double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
-  const double used = static_cast<double>(fit.paired.size());
-  const double mended = trimming_factor(used / static_cast<double>(pairs));
-  return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
 // Normal deviate below which a view is let in unasked.
@@ -167,7 +168,7 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   const auto let_in = [&](std::span<const int> views, StereoFit& wider) {
     std::vector<int> with = fit.paired;
     for (const int view : views) with.insert(std::lower_bound(with.begin(), with.end(), view), view);
-    return fit_stereo(input, cameras, with, fit.problem.right_from_left, &fit, wider);
+    return fit_stereo(input, cameras, with, fit.problem.right_from_left, 1, &fit, wider);
   };
   // Judged under a fit that had no regard to it a view costs more than it would add: a safe side.
   std::vector<int> plain;
@@ -191,20 +192,35 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   return true;
 }
 
+// Views on the other side of a camera's move belong to another rig, even if some seem to agree.
+void keep_one_side(std::span<const int> pairs, int last_before, std::vector<int>& used) {
+  const int border = pairs[static_cast<std::size_t>(last_before)];
+  const auto split = std::upper_bound(used.begin(), used.end(), border);
+  if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
+  else used.erase(used.begin(), split);
+}
+
 }  // namespace
 
 bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
                   Selection& out) {
-  if (!best_half(input, cameras, pairs, out.fit)) return false;
-  while (admit(input, cameras, pairs, out.fit)) {
+  StereoFit chosen;
+  if (!best_half(input, cameras, pairs, chosen)) return false;
+  while (admit(input, cameras, pairs, chosen)) {
   }
-  out.used = out.fit.paired;
-  out.excess = judge_pairs(input, cameras, out.fit, pairs);
+  out.used = chosen.paired;
+  out.excess = judge_pairs(input, cameras, chosen, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
   out.spread_px2 =
-      std::max(0.0, excess_of(cameras, out.fit)) / (kDegrees * static_cast<double>(out.used.size() - 1));
-  return true;
+      std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * static_cast<double>(out.used.size() - 1));
+  const double spread = std::max(out.spread_px2, cameras.noise_px2());
+  out.moved = change_point(out.excess, spread);
+  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
+  // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
+  // word has the slip's weight, so that a slip does not bend a lens.
+  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(), &chosen,
+                    out.fit);
 }
 
 ChangePoint change_point(std::span<const double> excess, double spread_px2) {

@@ -10,6 +10,7 @@
 //     steps, Rousseeuw and Van Driessen 2006), started from the relation each view alone suggests.
 //  2. Forward search (Atkinson and Riani 2000): the view whose admission costs least is let in as long
 //     as its cost is no surprise (F test of 6 degrees of freedom against the views already in).
+//  3. Where a lasting change is found along the sequence, only the side with more of them is used.
 // The yardstick is the spread of the agreeing views themselves, never less than the corner noise: on
 // a rig that shakes, shaking is normal, and what is left out is what stands out of that.
 #pragma once
@@ -24,16 +25,6 @@ namespace relievo::pipeline {
 // Normal deviate above which a view is left out: one good view in some 30,000.
 inline constexpr double kSurprise = 4.0;
 
-struct Selection {
-  StereoFit fit;
-  std::vector<int> used;       // sorted
-  std::vector<double> excess;  // one a pair given, px² summed, under the final fit
-  double spread_px2 = 0;       // excess of the used views for one degree of freedom
-};
-
-bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-                  Selection& out);
-
 // Where a lasting change of disagreement lies: index into the excesses of the last view before it,
 // with the range a likelihood ratio at 1 % leaves open; -1 without one.
 struct ChangePoint {
@@ -42,5 +33,16 @@ struct ChangePoint {
   int last = -1;
 };
 ChangePoint change_point(std::span<const double> excess, double spread_px2);
+
+struct Selection {
+  StereoFit fit;
+  std::vector<int> used;       // sorted
+  std::vector<double> excess;  // one a pair given, px² summed, under the fit they were chosen by
+  ChangePoint moved;           // by place among the pairs; only one side of it is used
+  double spread_px2 = 0;       // excess of the used views for one degree of freedom
+};
+
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+                  Selection& out);
 
 }  // namespace relievo::pipeline

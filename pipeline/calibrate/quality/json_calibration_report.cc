@@ -19,6 +19,28 @@ const char* word(CalibrationVerdict verdict) {
   return "refuse";
 }
 
+const char* word(SlipCause cause) {
+  switch (cause) {
+    case SlipCause::None:
+      return "none";
+    case SlipCause::CameraTurns:
+      return "camera turns";
+    case SlipCause::BoardCarried:
+      return "board carried on between the exposures";
+  }
+  return "none";
+}
+
+nlohmann::ordered_json uncertainty_json(const CalibrationUncertainty& u) {
+  nlohmann::ordered_json depth = nlohmann::ordered_json::array();
+  for (const DepthUncertainty& d : u.depth)
+    depth.push_back({{"distance_mm", d.distance_mm}, {"sigma_mm", d.sigma_mm}, {"worst_sigma_mm", d.worst_sigma_mm}});
+  nlohmann::ordered_json maps = nlohmann::ordered_json::array();
+  for (const ProjectionMap& map : u.projection)
+    maps.push_back({{"columns", map.columns}, {"rows", map.rows}, {"sigma_px", map.sigma_px}});
+  return {{"slips", u.slips}, {"scale_percent", u.scale_percent}, {"depth", depth}, {"projection_left_right", maps}};
+}
+
 }  // namespace
 
 std::string calibration_report_json(const CalibrationQuality& q) {
@@ -32,7 +54,8 @@ std::string calibration_report_json(const CalibrationQuality& q) {
                      {"epipolar_rms_px", v.epipolar_rms_px},
                      {"excess_px", v.excess_px},
                      {"corners_dropped", v.corners_dropped},
-                     {"distance_mm", v.distance_mm}});
+                     {"distance_mm", v.distance_mm},
+                     {"tilt_deg", v.tilt_deg}});
   const auto name_of = [&q](int view) -> nlohmann::ordered_json {
     if (view < 0) return nullptr;
     return q.views[static_cast<std::size_t>(view)].name;
@@ -50,13 +73,21 @@ std::string calibration_report_json(const CalibrationQuality& q) {
                                          {"coverage_right", q.coverage_right},
                                          {"holds_still", q.holds_still},
                                          {"slip_ratio", q.slip_ratio},
+                                         {"slip_cause", word(q.slip_cause)},
                                          {"moved_after", name_of(q.moved_after)},
                                          {"moved_after_first", name_of(q.moved_after_first)},
                                          {"moved_after_last", name_of(q.moved_after_last)},
                                          {"baseline_mm", q.baseline_mm},
+                                         {"expected_baseline_mm", q.expected_baseline_mm},
+                                         {"tilt_spread_deg", q.tilt_spread_deg},
+                                         {"board_sag_mm", q.board_sag_mm},
+                                         {"board_sag_sigma_mm", q.board_sag_sigma_mm},
+                                         {"board_bent", q.board_bent},
                                          {"working_distance_mm", q.working_distance_mm},
                                          {"depth_sigma_mm", q.depth_sigma_mm},
+                                         {"face_depth_sigma_mm", q.face_depth_sigma_mm},
                                          {"shape_sigma_mm", q.shape_sigma_mm},
+                                         {"uncertainty", uncertainty_json(q.uncertainty)},
                                          {"views", views}};
   // File names need not be UTF-8.
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

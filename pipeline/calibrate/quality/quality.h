@@ -15,6 +15,13 @@ namespace relievo::pipeline {
 
 enum class CalibrationVerdict : std::uint8_t { Pass, Usable, Refuse };
 
+// Why left and right disagree more than corner noise explains.
+enum class SlipCause : std::uint8_t {
+  None,
+  CameraTurns,   // a camera does not hold still
+  BoardCarried,  // the board went on between the two exposures: not taken at the same instant
+};
+
 struct ViewQuality {
   std::string name;
   bool used = false;       // as a pair
@@ -25,6 +32,7 @@ struct ViewQuality {
   double excess_px = 0;        // disagreement of left and right beyond what each camera shows alone
   int corners_dropped = 0;     // single corners that no flat board explains
   double distance_mm = 0;      // of the board's middle from the left camera
+  double tilt_deg = 0;         // of the board, from squarely facing the left camera
 };
 
 struct CalibrationQuality {
@@ -41,13 +49,20 @@ struct CalibrationQuality {
   double coverage_right = 0;
   bool holds_still = true;     // left and right agree as well as each camera alone allows
   double slip_ratio = 1;       // disagreement over what corner noise explains, 1 for a firm rig
+  SlipCause slip_cause = SlipCause::None;
   int moved_after = -1;        // index of the view after which a camera seems to have moved; -1: none
   int moved_after_first = -1;  // the range in which it may as well have been
   int moved_after_last = -1;
   double baseline_mm = 0;
+  double expected_baseline_mm = 0;  // what it was said to be; 0: nothing was said
+  double tilt_spread_deg = 0;       // of the boards used: the median angle between two of them
+  double board_sag_mm = 0;          // peak to valley, estimated from all views
+  double board_sag_sigma_mm = 0;
+  bool board_bent = false;  // more than noise and a thousandth of its size explain
   double working_distance_mm = 0;  // median distance of the boards used
   // One standard deviation of a head measured there, as far as this calibration is to blame:
   double depth_sigma_mm = 0;  // of its distance
+  double face_depth_sigma_mm = 0;  // the same at 560 mm, where faces are
   double shape_sigma_mm = 0;  // of its shape and size: what stays when it is laid over the true one
   CalibrationUncertainty uncertainty;
 };

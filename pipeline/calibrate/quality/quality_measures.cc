@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/calibrate/fit/board_bend.h"
+#include "pipeline/calibrate/fit/relation_evidence.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 #include "pipeline/calibrate/quality/rig_spread.h"
 
@@ -13,6 +15,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kGrid = 8;
+constexpr double kDegrees = 57.29577951308232;
 // A spread of the pairs this many times the corners' noise is no accident of a firm rig.
 constexpr double kSlipsVisibly = 1.3;
 
@@ -36,6 +39,24 @@ double coverage(const CalibratorInput& input, bool right) {
   return static_cast<double>(std::count(covered.begin(), covered.end(), true)) / (kGrid * kGrid);
 }
 
+// Did a camera turn, or did the board go on between the two exposures? The pairs tell together.
+SlipCause cause_of(const Fitted& f) {
+  const Stories stories = tell_stories(gather_evidence(f.cameras, f.pairs), f.selection.fit.problem.right_from_left);
+  return stories.board_carried_px2 < stories.camera_turned_px2 ? SlipCause::BoardCarried : SlipCause::CameraTurns;
+}
+
+// Median angle between two boards' normals: boards held alike do not determine a focal length.
+double tilt_spread(const std::vector<Eigen::Vector3d>& normals) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (std::size_t j = i + 1; j < normals.size(); ++j)
+      angles.push_back(std::acos(std::clamp(normals[i].dot(normals[j]), -1.0, 1.0)) * kDegrees);
+  if (angles.empty()) return 0;
+  const auto half = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+  std::nth_element(angles.begin(), half, angles.end());
+  return *half;
+}
+
 // What a view misses its epipolar lines by when it had no part in the fit.
 double held_out_epipolar(const Fitted& f, const RigSpread& spread) {
   double sum = 0;
@@ -45,6 +66,20 @@ double held_out_epipolar(const Fitted& f, const RigSpread& spread) {
     sum += epipolar_squared(spread.without()[i], view.left, view.right, count);
   }
   return std::sqrt(sum / std::max(count, 1));
+}
+
+// Each camera's boards alone: there nothing that the two cameras do to each other can look like a bend.
+void measure_flatness(const Fitted& f, CalibrationQuality& q) {
+  const BoardBend left = measure_bend(f.cameras.left.problem);
+  const BoardBend right = measure_bend(f.cameras.right.problem);
+  const BoardBend& surer = left.sigma_mm < right.sigma_mm ? left : right;
+  const BoardPattern& pattern = f.input.pattern;
+  const double size_mm = pattern.square_mm * (std::max(pattern.columns, pattern.rows) - 1);
+  q.board_sag_mm = surer.sag_mm;
+  q.board_sag_sigma_mm = surer.sigma_mm;
+  constexpr double kCertain = 5;
+  constexpr double kFlat = 1e-3;
+  q.board_bent = left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > kFlat * size_mm;
 }
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
@@ -57,6 +92,7 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
   std::vector<bundle::View> judged;
   judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
   std::vector<double> distances;
+  std::vector<Eigen::Vector3d> normals;
   const double middle[2] = {0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
                             0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm};
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
@@ -70,11 +106,15 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
     const bundle::Pose& pose = judged[i].left_from_board;
     view.distance_mm =
         (pose.rotation * Eigen::Vector3d(middle[0], middle[1], 0) + pose.translation_mm).norm();
-    if (view.used) distances.push_back(view.distance_mm);
+    view.tilt_deg = std::acos(std::clamp(std::abs(pose.rotation(2, 2)), 0.0, 1.0)) * kDegrees;
+    if (!view.used) continue;
+    distances.push_back(view.distance_mm);
+    normals.emplace_back(pose.rotation.col(2));
   }
   const auto half = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), half, distances.end());
   q.working_distance_mm = *half;
+  q.tilt_spread_deg = tilt_spread(normals);
 }
 
 }  // namespace
@@ -93,17 +133,22 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.slip_ratio = std::sqrt(std::max(1.0, f.selection.spread_px2 / noise));
   // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.
   q.holds_still = q.slip_ratio < 2;
-  const RigSpread spread(fit, noise, q.slip_ratio > kSlipsVisibly);
+  const RigSpread spread(fit, q.slip_ratio > kSlipsVisibly);
   q.held_out_epipolar_px = held_out_epipolar(f, spread);
   q.uncertainty = measure_uncertainty(spread, q.working_distance_mm);
+  constexpr double kFaceMm = 560;
+  q.face_depth_sigma_mm = depth_uncertainty(spread, kFaceMm).sigma_mm;
   q.depth_sigma_mm = depth_uncertainty(spread, q.working_distance_mm).sigma_mm;
   q.shape_sigma_mm = q.uncertainty.shape_sigma_mm;
-  const ChangePoint moved = change_point(f.selection.excess, std::max(f.selection.spread_px2, noise));
+  const ChangePoint& moved = f.selection.moved;
   const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[static_cast<std::size_t>(pair)]; };
   q.moved_after = view_at(moved.likeliest);
   q.moved_after_first = view_at(moved.first);
   q.moved_after_last = view_at(moved.last);
   q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
+  q.expected_baseline_mm = f.input.expected_baseline_mm;
+  if (!q.holds_still || q.used < static_cast<int>(f.pairs.size())) q.slip_cause = cause_of(f);
+  measure_flatness(f, q);
 }
 
 }  // namespace relievo::pipeline

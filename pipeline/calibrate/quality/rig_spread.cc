@@ -8,7 +8,7 @@
 
 namespace relievo::pipeline {
 
-RigSpread::RigSpread(const StereoFit& fit, double noise_px2, bool slips) : likeliest_(fit.problem), slips_(slips) {
+RigSpread::RigSpread(const StereoFit& fit, bool slips) : likeliest_(fit.problem), slips_(slips) {
   std::vector<bundle::Problem> without = bundle::without_each_view(fit.problem);
   without.resize(fit.paired.size());
   without_ = std::move(without);
@@ -20,7 +20,7 @@ RigSpread::RigSpread(const StereoFit& fit, double noise_px2, bool slips) : likel
   const bundle::Globals even = unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<bundle::Globals> eigen(0.5 * (even + even.transpose()));
   for (int i = 0; i < bundle::kGlobals; ++i) {
-    const double length = std::sqrt(std::max(0.0, eigen.eigenvalues()[i]) * noise_px2);
+    const double length = std::sqrt(std::max(0.0, eigen.eigenvalues()[i]) * fit.problem.noise_px2);
     const bundle::GlobalVector step = length * unit.cwiseProduct(eigen.eigenvectors().col(i));
     above_.push_back(likeliest_);
     bundle::step_globals(above_.back(), step);

@@ -17,8 +17,8 @@ namespace relievo::pipeline {
 
 class RigSpread {
  public:
-  // noise_px2: variance of one coordinate of a corner. slips: let the paired views' own spread count.
-  RigSpread(const StereoFit& fit, double noise_px2, bool slips);
+  // slips: let the paired views' own spread count, where it is larger than their covariance says.
+  RigSpread(const StereoFit& fit, bool slips);
 
   using Measure = std::function<Eigen::VectorXd(const bundle::Problem&)>;
   Eigen::VectorXd variance(const Measure& measure) const;

@@ -72,10 +72,12 @@ inline pipeline::Vec2d seen_by(const SimulatedRig& rig, int eye, const Point& p)
           rig.focal[eye] * (y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + rig.centre[eye][1]};
 }
 
-// How far the right camera is from where it belongs, in one view.
+// What is wrong in one view: how far the right camera is from where it belongs, and how far the board
+// went on before the right picture was taken.
 struct Slip {
   Point turn{};
   Point shift_mm{};
+  Point carried_mm{};
 };
 
 class BoardSimulator {
@@ -105,20 +107,26 @@ class BoardSimulator {
   }
   double normal(double sigma) { return std::normal_distribution<double>(0, sigma)(random_); }
 
+  double bend_mm = 0;  // height of the board's short edges over its middle
+  double variety = 1;  // 0: every view alike
+
   pipeline::CalibratorInput& input() { return input_; }
 
  private:
   // Tilted up to 35 degrees, somewhere in the common field at 400 to 560 mm. False when a corner is out.
   bool photograph(const Slip& slip, pipeline::BoardView& view) {
-    const Point turn = {uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(-0.5, 0.5)};
-    const Point middle = {uniform(-60, 60), uniform(-65, 65), uniform(400, 560)};
+    const Point turn = {variety * uniform(-0.6, 0.6), variety * uniform(-0.6, 0.6), variety * uniform(-0.5, 0.5)};
+    const Point middle = {variety * uniform(-60, 60), variety * uniform(-65, 65), 480 + variety * uniform(-80, 80)};
     view.left.clear();
     view.right.clear();
     bool whole = true;
     for (int i = 0; i < input_.pattern.corners(); ++i) {
-      Point p = turned(turn, {(i % 9 - 4) * 10.0, (i / 9 - 2.5) * 10.0, 0});
+      const double u = (i % 9 - 4) / 4.0;
+      Point p = turned(turn, {(i % 9 - 4) * 10.0, (i / 9 - 2.5) * 10.0, bend_mm * u * u});
       for (std::size_t c = 0; c < 3; ++c) p[c] += middle[c];
-      Point q = turned(slip.turn, turned(rig_.turn, p));
+      Point later = p;
+      for (std::size_t c = 0; c < 3; ++c) later[c] += slip.carried_mm[c];
+      Point q = turned(slip.turn, turned(rig_.turn, later));
       for (std::size_t c = 0; c < 3; ++c) q[c] += rig_.shift_mm[c] + slip.shift_mm[c];
       view.left.push_back(noisy(seen_by(rig_, 0, p)));
       view.right.push_back(noisy(seen_by(rig_, 1, q)));

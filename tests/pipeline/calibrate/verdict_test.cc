@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A deliberately bad set of every kind, each with the right reason; and none of them said of a good set.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/calibrate/simulated_boards.h"
+
+namespace relievo::tests {
+namespace {
+
+using pipeline::CalibrationQuality;
+using pipeline::CalibrationVerdict;
+
+bool says(const CalibrationQuality& q, std::string_view words) {
+  return std::any_of(q.reasons.begin(), q.reasons.end(),
+                     [&](const std::string& reason) { return reason.find(words) != std::string::npos; });
+}
+
+CalibrationQuality judged(const pipeline::CalibratorInput& input) {
+  const auto done = pipeline::calibrate(input);
+  EXPECT_TRUE(done) << done.error().what.view();
+  return done ? done->quality : CalibrationQuality{};
+}
+
+TEST(Verdict, AGoodSetPassesAndNothingIsSaidAgainstIt) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    BoardSimulator boards(SimulatedRig{}, 0.03, seed);
+    boards.add(24);
+    boards.input().expected_baseline_mm = 114.8;
+    const CalibrationQuality q = judged(boards.input());
+    EXPECT_TRUE(q.holds_still);
+    EXPECT_FALSE(q.board_bent) << q.board_sag_mm;
+    EXPECT_EQ(q.moved_after, -1);
+    for (const char* words : {"bent", "alike", "hold", "moved", "known to be", "agree with each other", "few"})
+      EXPECT_FALSE(says(q, words)) << words << " seed " << seed;
+  }
+}
+
+TEST(Verdict, TooFew) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 10);
+  boards.add(6);
+  const CalibrationQuality q = judged(boards.input());
+  EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+  EXPECT_TRUE(says(q, "6 pairs are few"));
+}
+
+TEST(Verdict, AllAlike) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 11);
+  boards.variety = 0.06;
+  boards.add(14);
+  const auto done = pipeline::calibrate(boards.input());
+  if (!done) {
+    EXPECT_EQ(done.error().code, Errc::PoorGeometry);
+    return;
+  }
+  EXPECT_EQ(done->quality.verdict, CalibrationVerdict::Refuse);
+  EXPECT_TRUE(says(done->quality, "held alike"));
+}
+
+TEST(Verdict, NotExposedTogether) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    BoardSimulator boards(SimulatedRig{}, 0.05, 20 + seed);
+    for (int i = 0; i < 16; ++i) {
+      Slip slip;  // a hand that carries the board on at some 60 mm/s, 16 ms between the exposures
+      for (double& mm : slip.carried_mm) mm = boards.normal(1.0);
+      boards.add(slip);
+    }
+    const CalibrationQuality q = judged(boards.input());
+    EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+    EXPECT_EQ(q.slip_cause, pipeline::SlipCause::BoardCarried) << seed;
+    EXPECT_TRUE(says(q, "same instant"));
+  }
+}
+
+TEST(Verdict, CamerasThatShake) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    BoardSimulator boards(SimulatedRig{}, 0.05, 30 + seed);
+    for (int i = 0; i < 16; ++i) {
+      Slip slip;
+      for (double& turn : slip.turn) turn = boards.normal(0.003);
+      boards.add(slip);
+    }
+    const CalibrationQuality q = judged(boards.input());
+    EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+    EXPECT_EQ(q.slip_cause, pipeline::SlipCause::CameraTurns) << seed;
+    EXPECT_TRUE(says(q, "turn on their mounts"));
+  }
+}
+
+TEST(Verdict, BumpedCamera) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 40);
+  boards.add(10);
+  const Slip once = boards.random_slip(0.004, 0.5);
+  for (int i = 0; i < 6; ++i) boards.add(once);
+  const CalibrationQuality q = judged(boards.input());
+  EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+  EXPECT_EQ(q.moved_after, 9);
+  EXPECT_TRUE(says(q, "a camera seems to have moved after view 9"));
+}
+
+TEST(Verdict, BentBoard) {
+  for (const double bend_mm : {0.6, -0.6}) {
+    BoardSimulator boards(SimulatedRig{}, 0.05, 50);
+    boards.bend_mm = bend_mm;
+    boards.add(16);
+    const CalibrationQuality q = judged(boards.input());
+    EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+    EXPECT_TRUE(q.board_bent);
+    EXPECT_NEAR(q.board_sag_mm, 0.6, std::max(0.15, 4 * q.board_sag_sigma_mm));
+    EXPECT_TRUE(says(q, "the board is bent by"));
+  }
+}
+
+TEST(Verdict, WrongSquareSize) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 60);
+  boards.add(16);
+  boards.input().pattern.square_mm = 10.3;
+  boards.input().expected_baseline_mm = 114.8;
+  const CalibrationQuality q = judged(boards.input());
+  EXPECT_EQ(q.verdict, CalibrationVerdict::Refuse);
+  EXPECT_TRUE(says(q, "measure a square of the board again"));
+}
+
+TEST(Verdict, SwappedCameras) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 70);
+  boards.add(12);
+  for (pipeline::BoardView& view : boards.input().views) std::swap(view.left, view.right);
+  const auto done = pipeline::calibrate(boards.input());
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::PoorGeometry);
+  EXPECT_NE(done.error().what.view().find("exchange the two"), std::string_view::npos);
+}
+
+TEST(Verdict, ABoardThatMovesInThePicture) {
+  BoardSimulator boards(SimulatedRig{}, 0.6, 80);  // smeared corners
+  boards.add(14);
+  const CalibrationQuality q = judged(boards.input());
+  EXPECT_NE(q.verdict, CalibrationVerdict::Pass);
+  EXPECT_TRUE(says(q, "hold the board still"));
+}
+
+}  // namespace
+}  // namespace relievo::tests
