@@ -73,7 +73,7 @@ Result<void> PipelineStages::texture(Products& products, pipeline::StageContext&
   record.in = products.mesh->triangles.size();
   RELIEVO_TRY_ASSIGN(products.model, pipeline_.texture(std::move(*products.mesh), *products.pair, context));
   products.mesh.reset();  // it lives on in the model
-  products.model->quality.epipolar_residual_px = static_cast<double>(products.matches->epipolar_residual_px);
+  products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
   record.out = products.model->texture.rgb.size() / 3;
   return {};
 }

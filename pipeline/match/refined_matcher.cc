@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/epipolar_alignment.h"
+#include "pipeline/match/epipolar/epipolar_alignment.h"
+#include "pipeline/match/epipolar/shift_field.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -118,13 +119,16 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   const auto& half = pyramids.left[1].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
   densify(field4, field2);
-  const VerticalShift shift = measure_vertical_shift(pyramids.left[1].grey, pyramids.right[1].grey, 1, field2, context);
-  set.epipolar_residual_px = static_cast<float>(shift.rms_px);
-  if (shift.rms_px > options_.align_beyond_px)
-    for (const int level : {0, 1}) shift_rows(shift, level, pyramids.right[static_cast<std::size_t>(level)].grey, context);
+  const EpipolarShift coarse = measure_epipolar_shift(pair, pyramids, field2, EpipolarSearch::Search, context);
+  const bool realign = coarse.residual_px > static_cast<double>(options_.align_beyond_px);
+  if (realign)
+    for (const int level : {0, 1})
+      shift_rows(coarse, level, pyramids.right[static_cast<std::size_t>(level)].grey, context);
   RELIEVO_TRY(refine(1, field2));
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   RELIEVO_TRY(refine(0, field2));
+  const EpipolarShift rest = measure_epipolar_shift(pair, pyramids, field2, EpipolarSearch::Refine, context);
+  set.epipolar_shift = !rest.measured() ? coarse : realign ? sum_of(coarse, rest) : rest;
   for (const Keypoint& keypoint : keypoints.points) {
     Match match{.left_px = keypoint.at_px};
     if (read_field(field2, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px)

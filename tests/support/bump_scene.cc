@@ -75,9 +75,10 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
     for (int x = 0; x < width_px; ++x) {
       const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
       pair.left.grey[k] = static_cast<float>(texture.at(x, y) + normal(random));
-      double from = x + disparity(x, y);  // x_left with x_left - d(x_left) = x
-      for (int i = 0; i < 60; ++i) from = x + disparity(from, y);
-      pair.right.grey[k] = static_cast<float>(right_gain * texture.at(from, y) + right_offset + normal(random));
+      const double row = y - rows_px - rows_tilt * (x - width_px / 2.0);
+      double from = x + disparity(x, row);  // x_left with x_left - d(x_left) = x
+      for (int i = 0; i < 60; ++i) from = x + disparity(from, row);
+      pair.right.grey[k] = static_cast<float>(right_gain * texture.at(from, row) + right_offset + normal(random));
     }
   return pair;
 }

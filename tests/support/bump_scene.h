@@ -25,6 +25,8 @@ struct BumpScene {
   double right_gain = 1.0;    // the right camera sees gain * grey + offset
   double right_offset = 0.0;
   std::uint32_t seed = 1;
+  double rows_px = 0;         // what belongs on row y of the right view stands on y + rows_px + rows_tilt * (x - middle)
+  double rows_tilt = 0;
 
   double disparity(double x, double y) const;
   pipeline::RectifiedPair render(std::pmr::memory_resource* memory) const;

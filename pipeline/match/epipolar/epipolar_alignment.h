@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far corresponding points are from sharing a row after all, measured on the face's own texture,
+// and the right view resampled so that they do.
+//
+// A camera that was nudged, a mount that warmed up or a pair that was not exposed at the same instant
+// leaves a vertical disagreement that is, over one face, nearly linear in the picture. Patches of the
+// surface each say what it is there (local_shifts.h); one field is laid through them, and those that
+// contradict it (highlights, edges) lose their say (shift_field.h).
+//
+// What the same error does along the rows cannot be seen: it changes the depth of the face, not its
+// likeness.
+// Memory: scratch. Results do not depend on the number of threads. Thread: worker.
+#pragma once
+
+#include "pipeline/match/coarse_surface.h"
+#include "pipeline/match/surface_refiner.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::pipeline {
+
+// Search finds shifts of many pixels: from an eighth of the size down, on a surface good to about a
+// pixel of half the size. Refine measures what is left of one, at half the size on a finished surface.
+enum class EpipolarSearch : std::uint8_t { Search, Refine };
+
+// Without measured() where the face has too little texture to tell.
+EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
+                                     EpipolarSearch search, StageContext& context);
+
+// right(x, y) = right(x, y + shift), by cubic convolution along the columns; a picture of one level.
+void shift_rows(const EpipolarShift& shift, int level, Plane<float>& right, StageContext& context);
+
+}  // namespace relievo::pipeline
