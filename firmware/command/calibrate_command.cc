@@ -107,29 +107,6 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
   return input;
 }
 
-void tell(const pipeline::CalibrationQuality& q, std::ostream& out) {
-  char line[320];
-  for (const pipeline::ViewQuality& view : q.views) {
-    if (view.used)
-      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px",
-                    view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
-    else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
-    out << line;
-    if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
-    out << '\n';
-  }
-  std::snprintf(line, sizeof line,
-                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
-                "px, baseline %.2f mm",
-                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
-                q.held_out_epipolar_px, q.baseline_mm);
-  out << line << '\n';
-  const char* const words[] = {"pass", "usable", "refuse"};
-  out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
-  for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
-  out.flush();
-}
-
 std::string file_name(std::string name) {
   std::replace(name.begin(), name.end(), '/', '-');
   return name;
@@ -162,7 +139,32 @@ Result<void> write_report(const Path& folder, const std::vector<PicturePairFiles
   return report.commit();
 }
 
-Result<void> check_output(const Path& output) {
+}  // namespace
+
+void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
+  char line[320];
+  for (const pipeline::ViewQuality& view : q.views) {
+    if (view.used)
+      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px",
+                    view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
+    else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
+    out << line;
+    if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
+    out << '\n';
+  }
+  std::snprintf(line, sizeof line,
+                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
+                "px, baseline %.2f mm",
+                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
+                q.held_out_epipolar_px, q.baseline_mm);
+  out << line << '\n';
+  const char* const words[] = {"pass", "usable", "refuse"};
+  out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
+  for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
+  out.flush();
+}
+
+Result<void> check_calibration_output(const Path& output) {
   std::error_code error;
   const Path folder = output.has_parent_path() ? output.parent_path() : Path(".");
   if (!std::filesystem::is_directory(folder, error))
@@ -172,8 +174,6 @@ Result<void> check_output(const Path& output) {
     return Error{Errc::InvalidInput, "is a folder; name a file such as rig.yml"}.at(output.native());
   return {};
 }
-
-}  // namespace
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
   std::error_code error;
@@ -206,7 +206,7 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
 Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out) {
   const pipeline::BoardPattern pattern{args.corners_across, args.corners_down, args.square_mm};
   RELIEVO_TRY(pattern.check());
-  RELIEVO_TRY(check_output(args.output));
+  RELIEVO_TRY(check_calibration_output(args.output));
   RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));
   if (pairs.size() > pipeline::kMaxBoardPairs)
     return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
@@ -214,7 +214,7 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
   RELIEVO_TRY_ASSIGN(const pipeline::CalibratorInput input, read_views(pairs, pattern, out));
   auto result = pipeline::calibrate(input);
   if (!result) return result.error().at(args.pictures.native() + ": " + std::string(result.error().where()));
-  tell(result->quality, out);
+  tell_quality(result->quality, out);
   if (!args.report.empty()) RELIEVO_TRY(write_report(args.report, pairs, input, *result, out));
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}

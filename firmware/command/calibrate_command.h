@@ -31,6 +31,12 @@ struct PicturePairFiles {
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder);
 
+// Can the file be written? Asked before the work begins.
+Result<void> check_calibration_output(const Path& output);
+
+// One line a view, then the verdict and its reasons.
+void tell_quality(const pipeline::CalibrationQuality& quality, std::ostream& out);
+
 Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out);
 
 }  // namespace relievo::firmware
