@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "storage/text.h"
+
 namespace relievo::firmware {
 namespace {
 
@@ -41,6 +43,10 @@ Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string
     RELIEVO_TRY_ASSIGN(const auto known, store.subject(*id));
     return storage::SubjectChoice(known.id);
   }
+  // Here, and not when the face is to be stored: nobody is photographed in vain.
+  if (!storage::is_name(name_or_number))
+    return Error{Errc::InvalidInput, "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}.at(
+        "--subject");
   RELIEVO_TRY_ASSIGN(const auto found, of_name(store, name_or_number));
   if (!found.empty()) return storage::SubjectChoice(found.front().id);
   return storage::SubjectChoice(storage::NewSubject{std::string(name_or_number)});

@@ -163,6 +163,7 @@ TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
   write_text(here / "file", "no store\n");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"}, "file");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"}, "no.yml");
+  refused({"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"}, "no possible name");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
