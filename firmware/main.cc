@@ -8,6 +8,7 @@
 #include "firmware/work/pool_size.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
+#include "hal/sim/target/target_photo.h"
 #include "storage/sqlite/sqlite_store.h"
 
 namespace relievo::firmware {
@@ -45,12 +46,34 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   return hal::sim::render_to_folder(options, folder, pool_size());
 }
 
+Result<TargetPictures> photograph(const TargetShot& shot) {
+  namespace sim = hal::sim;
+  sim::TargetPhotoOptions options;
+  options.rig.width_px = static_cast<int>(options.rig.width_px * shot.scale);
+  options.rig.height_px = static_cast<int>(options.rig.height_px * shot.scale);
+  options.rig.seed = options.seed = shot.seed;
+  options.threads = pool_size();
+  const OpticalTargets& t = shot.targets;
+  const TargetPlace& p = shot.place;
+  const sim::ArtefactPlace place{p.right_mm, p.down_mm, p.distance_mm, p.pitch_deg, p.yaw_deg, p.roll_deg};
+  const auto take = [&]() -> Result<sim::PicturePair> {
+    switch (shot.kind) {
+      case TargetKind::Board: return photograph_board(options, {t.board_columns, t.board_rows, t.square_mm}, shot.number, shot.count);
+      case TargetKind::Dumbbell: return photograph_dumbbell(options, {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed}, place);
+      case TargetKind::Plate: break;
+    }
+    return photograph_plate(options, {t.plate_width_mm, t.plate_height_mm, shot.seed}, place);
+  };
+  RELIEVO_TRY_ASSIGN(auto pair, take());
+  return TargetPictures{std::move(pair.left), std::move(pair.right)};
+}
+
 }  // namespace
 }  // namespace relievo::firmware
 
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, console};
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, console};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

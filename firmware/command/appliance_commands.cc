@@ -41,6 +41,7 @@ Result<void> run_memory(const MemoryArgs&, Services& services) {
 // What can be wrong before anybody stands in front of the cameras: memory, store, calibration, the
 // algorithms' own files.
 Result<void> run_selftest(const SelfTestArgs& args, Services& services) {
+  if (args.optical) return run_optical_selftest(args, services);
   const BootMemory memory;
   services.console.say("memory       in order: " + mib(memory.all().size()));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));

@@ -172,6 +172,17 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   }
 }
 
+void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
+  CLI::App* command = app.add_subcommand("selftest", "is everything in place?");
+  add_store(*command, args.store);
+  CLI::Option* optical = command->add_flag("--optical", args.optical, "measure known spheres and plates through the whole chain instead (a minute)");
+  command->add_option("-o,--output", args.output, "folder for the report and a picture of every target")->type_name("DIR")->needs(optical);
+  command->add_option("--seed", args.seed, "another rig, other noise")->capture_default_str()->needs(optical);
+  command->add_option("--scale", args.scale, "size of the pictures; the limits grow as their pixels do")
+      ->check(within(0.5, 1))->capture_default_str()->needs(optical);
+  command->callback([&] { chosen = args; });
+}
+
 struct AllArgs {
   CalibrateArgs calibrate;
   CalibrationArgs calibration;
@@ -197,9 +208,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_enrol(app, line.command, args.enrol);
   add_subjects(app, line.command, args.subjects);
   add_simulate(app, line.command, args.simulate);
-  CLI::App* selftest = app.add_subcommand("selftest", "is everything in place?");
-  add_store(*selftest, args.selftest.store);
-  selftest->callback([&] { line.command = args.selftest; });
+  add_selftest(app, line.command, args.selftest);
   app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {

@@ -84,7 +84,13 @@ struct SimulateArgs {
   double right_mm = 0, down_mm = 0;
 };
 
-struct SelfTestArgs { Path store; };
+struct SelfTestArgs {
+  Path store;
+  bool optical = false;           // measure targets instead
+  Path output;                    // of the optical one: report and pictures; empty: none
+  unsigned seed = 1;              // the simulated rig and its noise
+  double scale = 1;               // of its pictures
+};
 struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong

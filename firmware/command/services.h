@@ -9,6 +9,7 @@
 #include <memory>
 #include <string_view>
 
+#include "firmware/checks/optical_target.h"
 #include "firmware/command/command_line.h"
 #include "firmware/command/console.h"
 #include "hal/board.h"
@@ -23,6 +24,8 @@ struct Services {
   std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store;
   // Photographs with the simulated rig, into the folder. Errors: the rig's and the disk's.
   std::function<Result<void>(const SimulateArgs& args, const Path& folder)> simulate;
+  // Photographs the targets of the optical self-test with the simulated rig.
+  Photograph photograph;
   Console& console;
 };
 

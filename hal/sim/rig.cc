@@ -23,7 +23,7 @@ Bent distort(const SimView& v, double x, double y) {
 }
 
 SimView make_view(const RigOptions& o, Random& random) {
-  const double size = o.width_px / 1920.0, p = o.perturbation;
+  const double size = std::max(o.width_px, o.height_px) / 1920.0, p = o.perturbation;
   SimView v;
   v.width_px = o.width_px;
   v.height_px = o.height_px;
@@ -73,8 +73,8 @@ Vec3 SimView::ray(double x_px, double y_px) const {
 }
 
 Result<void> RigOptions::check() const {
-  if (width_px < 64 || height_px < 40 || width_px > 8192 || height_px > 8192)
-    return Error{Errc::InvalidInput, "the simulated picture must be between 64x40 and 8192x8192 px"};
+  if (std::max(width_px, height_px) < 64 || std::min(width_px, height_px) < 40 || std::max(width_px, height_px) > 8192)
+    return Error{Errc::InvalidInput, "the simulated picture must be between 64x40 and 8192x8192 px, or the same upright"};
   if (!(focal_px > 100) || !(baseline_mm > 1) || !(convergence_mm > 50))
     return Error{Errc::InvalidInput, "the simulated rig needs a focal length over 100 px, a baseline over 1 mm and a distance over 50 mm"};
   return {};

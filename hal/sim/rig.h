@@ -39,8 +39,8 @@ struct SimRig {
 };
 
 struct RigOptions {
-  int width_px = 1920, height_px = 1200;
-  double focal_px = 2950;           // at a width of 1920; scales with the width
+  int width_px = 1920, height_px = 1200;   // higher than wide: cameras turned to portrait
+  double focal_px = 2950;           // where the longer side has 1920; scales with it
   double baseline_mm = 140;
   double convergence_mm = 560;      // where both optical axes meet
   std::uint32_t seed = 1;

@@ -176,6 +176,9 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
     all_left += sum_ll.values[k] / n - (sum_left.values[k] / n) * (sum_left.values[k] / n);
     all_right += sum_rr.values[k] / n - (sum_right.values[k] / n) * (sum_right.values[k] / n);
   }
+  // Of pictures without any contrast, a covered lens say, rounding leaves variances below zero.
+  all_left = std::max(all_left, 0.0);
+  all_right = std::max(all_right, 0.0);
   const auto gain = static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
   const float level_scale = 1.0F / static_cast<float>(1 << scene.level);
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
