@@ -18,9 +18,10 @@ using pipeline::CameraIntrinsics;
 using pipeline::StereoCalibration;
 
 constexpr std::string_view kMagic{"RCALIB\0\0", 8};
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kForm = 2;
 constexpr std::size_t kCameraBytes = 9 * 8 + 2 * 4;
-constexpr std::size_t kRecordBytes = 8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 8 + sizeof(Sha256);
+constexpr std::size_t kForm1Bytes = 8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 8 + sizeof(Sha256);
+constexpr std::size_t kForm2Bytes = kForm1Bytes + 8 + 1 + 3 * 8;
 constexpr int kMaxSidePx = 65'536;
 
 void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
@@ -76,50 +77,63 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
   const auto& t = calibration.right_from_left.translation_mm;
   const double baseline_mm = std::hypot(t.x, t.y, t.z);
   if (!is_rotation(calibration.right_from_left.rotation) || !std::isfinite(baseline_mm) ||
-      !(baseline_mm > 0) || !std::isfinite(calibration.rms_px) || calibration.rms_px < 0) {
+      !(baseline_mm > 0) || !std::isfinite(calibration.rms_px) || calibration.rms_px < 0 ||
+      !std::isfinite(calibration.epipolar_shift_px) || calibration.epipolar_shift_px < 0) {
     return Error{Errc::InvalidInput, "the position of the right camera to the left one cannot be right"};
   }
   return {};
 }
 
-std::vector<std::byte> encode_calibration(const StereoCalibration& calibration) {
+std::vector<std::byte> encode_calibration(const StereoCalibration& calibration, const CalibrationFigures& figures) {
   std::vector<std::byte> out;
-  out.reserve(kRecordBytes);
+  out.reserve(kForm2Bytes);
   ByteWriter to(out);
   to.put(bytes_of(kMagic));
-  to.put(kVersion);
+  to.put(kForm);
   to.put(calibration.revision);
   put_camera(to, calibration.left);
   put_camera(to, calibration.right);
   for (const double v : calibration.right_from_left.rotation.m) to.put(v);
   const auto& t = calibration.right_from_left.translation_mm;
-  for (const double v : {t.x, t.y, t.z, calibration.rms_px}) to.put(v);
+  for (const double v : {t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px}) to.put(v);
+  to.put(static_cast<std::uint8_t>(figures.grade));
+  for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm}) to.put(v);
   const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
 }
 
-Result<StereoCalibration> decode_calibration(std::span<const std::byte> bytes) {
+Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   if (bytes.size() < kMagic.size() + 2 || !std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic))) {
     return Error{Errc::StoreCorrupt, "these bytes are no stored calibration"};
   }
   ByteReader from(bytes.subspan(kMagic.size()));
-  if (from.get<std::uint16_t>() != kVersion) {
+  const auto form = from.get<std::uint16_t>();
+  if (form < 1 || form > kForm) {
     return Error{Errc::StoreNewer, "this calibration was stored by a newer version: update Relievo"};
   }
-  if (bytes.size() != kRecordBytes ||
-      !std::ranges::equal(sha256(bytes.first(kRecordBytes - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
+  if (bytes.size() != (form == 1 ? kForm1Bytes : kForm2Bytes) ||
+      !std::ranges::equal(sha256(bytes.first(bytes.size() - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
     return Error{Errc::StoreCorrupt,
                  "a stored calibration is damaged: calibrate again, or activate an earlier one"};
   }
-  StereoCalibration calibration;
+  StoredCalibration stored;
+  StereoCalibration& calibration = stored.calibration;
   calibration.revision = from.get<std::uint32_t>();
   calibration.left = get_camera(from);
   calibration.right = get_camera(from);
   for (double& v : calibration.right_from_left.rotation.m) v = from.get<double>();
   auto& t = calibration.right_from_left.translation_mm;
   for (double* v : {&t.x, &t.y, &t.z, &calibration.rms_px}) *v = from.get<double>();
-  return calibration;
+  if (form == 1) return stored;
+  calibration.epipolar_shift_px = from.get<double>();
+  CalibrationFigures& figures = stored.figures;
+  const auto grade = from.get<std::uint8_t>();
+  if (grade <= static_cast<std::uint8_t>(CalibrationGrade::Refuse)) figures.grade = static_cast<CalibrationGrade>(grade);
+  for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
+    *v = from.get<double>();
+  }
+  return stored;
 }
 
 }  // namespace relievo::storage

@@ -3,8 +3,10 @@
 //
 // The stored form of a calibration: never YAML, whose truncation reads as a wrong number.
 //
-// Little-endian: "RCALIB\0\0" u16 version, u32 revision, the doubles and sizes in the order of
-// StereoCalibration, SHA-256 of all before it. One length only; every double comes back bit for bit.
+// Little-endian: "RCALIB\0\0" u16 form, u32 revision, the doubles and sizes in the order of
+// StereoCalibration; in form 2 epipolar_shift_px after rms_px, then the figures (u8 grade, three
+// doubles); SHA-256 of all before it. One length a form; every double comes back bit for bit.
+// Form 1 is read, form 2 written.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +15,22 @@
 
 #include "hal/base/result.h"
 #include "pipeline/model/calibration.h"
+#include "storage/record.h"
 
 namespace relievo::storage {
 
 // InvalidInput: numbers that are not finite, no focal length, no size, no baseline, no rotation.
 Result<void> check_calibration(const pipeline::StereoCalibration& calibration);
 
-std::vector<std::byte> encode_calibration(const pipeline::StereoCalibration& calibration);
+std::vector<std::byte> encode_calibration(const pipeline::StereoCalibration& calibration,
+                                          const CalibrationFigures& figures = {});
 
-// StoreCorrupt: not such a record, cut, changed. StoreNewer: a version of the form not known here.
-Result<pipeline::StereoCalibration> decode_calibration(std::span<const std::byte> bytes);
+struct StoredCalibration {
+  pipeline::StereoCalibration calibration;
+  CalibrationFigures figures;
+};
+
+// StoreCorrupt: not such a record, cut, changed. StoreNewer: a form not known here.
+Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes);
 
 }  // namespace relievo::storage

@@ -71,13 +71,27 @@ struct Enrolment {
   std::int64_t model_bytes = 0;
 };
 
+enum class CalibrationGrade : std::uint8_t { Unknown, Pass, Usable, Refuse };
+
+// How good a calibration was found when it was made; Unknown and 0 of one that came from a file.
+struct CalibrationFigures {
+  CalibrationGrade grade = CalibrationGrade::Unknown;
+  double held_out_epipolar_px = 0;  // of single corners, in views that had no part in the fit
+  double depth_sigma_mm = 0;        // of a head's distance, one standard deviation
+  double shape_sigma_mm = 0;        // and of its shape
+};
+
 struct CalibrationInfo {
   std::uint32_t revision = 0;
   WallTime created_at;
   std::string note;  // where it came from, as a person would say it
   double rms_px = 0;
+  double epipolar_shift_px = 0;
+  double baseline_mm = 0;
+  CalibrationFigures figures;
   int width_px = 0;
   int height_px = 0;
+  int enrolments = 0;  // made with it
   bool active = false;
 };
 

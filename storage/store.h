@@ -50,7 +50,11 @@ class Store {
   // Stores a calibration under the next revision, which it returns, and makes it the active one.
   // InvalidInput: not finite, or without a focal length or a size.
   virtual Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
-                                                 std::string_view note) = 0;
+                                                 std::string_view note, const CalibrationFigures& figures) = 0;
+  // One whose figures nobody knows: from a file.
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note) {
+    return save_calibration(calibration, note, {});
+  }
   virtual Result<std::vector<CalibrationInfo>> calibrations() = 0;                      // newest first
   virtual Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) = 0;  // NotFound
   virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                 // NotCalibrated

@@ -48,6 +48,7 @@ LIBRARIES = {
     r"toml\+\+/|toml\.hpp$": "toml_",
     r"nlohmann/": "json_",
     r"tiny_gltf\.h$|stb_": "gltf_",
+    r"yaml\.h$|yaml-cpp/": "yaml_",
     r"mimalloc": "mimalloc_",
     r"assimp/": "assimp_",
 }

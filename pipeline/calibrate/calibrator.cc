@@ -202,6 +202,7 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
         std::to_string(pairs.size()) + " pairs");
   RELIEVO_TRY(check_calibration(out.calibration));
   measure_quality({input, cameras, pairs, selection}, out.quality);
+  out.calibration.epipolar_shift_px = out.quality.held_out_shift_px;
   name_left_out(selection, pairs, out.quality);
   judge_quality(out.quality);
   return out;

@@ -25,6 +25,8 @@ struct StereoCalibration {
   CameraIntrinsics right;
   RigidTransform right_from_left;
   double rms_px = 0;            // pair reprojection rms of the views used; 0 where unknown
+  double epipolar_shift_px = 0;  // what a whole board misses its epipolar lines by in a picture that had no part in
+                                 // the fit, rms over the board (offset and tilt); 0 where unknown
   std::uint32_t revision = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SqliteStore: calibrations and settings.
+#include <cmath>
+
 #include "storage/calibration_record.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
@@ -17,7 +19,7 @@ Result<void> SqliteStore::make_active(std::uint32_t revision) {
 }
 
 Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
-                                                    std::string_view note) {
+                                                    std::string_view note, const CalibrationFigures& figures) {
   RELIEVO_TRY(check_calibration(calibration));
   if (note.size() > kMaxTextBytes)
     return Error{Errc::InvalidInput, "the note is longer than the store takes"};
@@ -28,7 +30,7 @@ Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibr
     RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
     pipeline::StereoCalibration numbered = calibration;
     numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
-    const auto record = encode_calibration(numbered);
+    const auto record = encode_calibration(numbered, figures);
     RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
     RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
     RELIEVO_TRY(make_active(numbered.revision));
@@ -40,19 +42,27 @@ Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibr
 
 Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<CalibrationInfo>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision, created_at_ms, note, active, record "
-                                                      "FROM calibration ORDER BY revision DESC"));
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare("SELECT revision, created_at_ms, note, active, record, (SELECT count(*) "
+                                          "FROM enrolment WHERE calibration_revision = revision) "
+                                          "FROM calibration ORDER BY revision DESC"));
     std::vector<CalibrationInfo> found;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return found;
-      RELIEVO_TRY_ASSIGN(const auto calibration, decode_calibration(query.blob(4)));
+      RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(4)));
+      const pipeline::StereoCalibration& calibration = stored.calibration;
+      const pipeline::Vec3d& t = calibration.right_from_left.translation_mm;
       found.push_back({.revision = static_cast<std::uint32_t>(query.integer(0)),
                        .created_at = from_ms(query.integer(1)),
                        .note = std::string(query.text(2)),
                        .rms_px = calibration.rms_px,
+                       .epipolar_shift_px = calibration.epipolar_shift_px,
+                       .baseline_mm = std::hypot(t.x, t.y, t.z),
+                       .figures = stored.figures,
                        .width_px = calibration.left.width_px,
                        .height_px = calibration.left.height_px,
+                       .enrolments = static_cast<int>(query.integer(5)),
                        .active = query.integer(3) != 0});
     }
   });
@@ -62,11 +72,11 @@ namespace {
 
 // The record says itself which revision it is: a swapped one is noticed.
 Result<pipeline::StereoCalibration> record_in(const Statement& query) {
-  RELIEVO_TRY_ASSIGN(const auto calibration, decode_calibration(query.blob(1)));
-  if (calibration.revision != query.integer(0)) {
+  RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(1)));
+  if (stored.calibration.revision != query.integer(0)) {
     return Error{Errc::StoreCorrupt, "a stored calibration stands in the place of another"};
   }
-  return calibration;
+  return stored.calibration;
 }
 
 }  // namespace

@@ -55,8 +55,9 @@ class SqliteStore final : public Store {
   Result<std::vector<Enrolment>> enrolments(SubjectId subject) override;
   Result<Enrolment> enrolment(EnrolmentId id) override;
   Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) override;
-  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
-                                         std::string_view note) override;
+  using Store::save_calibration;
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note,
+                                         const CalibrationFigures& figures) override;
   Result<std::vector<CalibrationInfo>> calibrations() override;
   Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) override;
   Result<pipeline::StereoCalibration> active_calibration() override;

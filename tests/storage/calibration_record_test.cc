@@ -27,9 +27,17 @@ TEST(Sha256, KnowsTheStandardsOwnExample) {  // FIPS 180-2, appendix B.1
 TEST(CalibrationRecord, ReturnsEveryDouble) {
   auto calibration = sample_calibration();
   calibration.revision = 7;
-  const auto back = decode_calibration(encode_calibration(calibration));
-  ASSERT_TRUE(back);
-  EXPECT_EQ(std::memcmp(&*back, &calibration, sizeof(double) * 9), 0);
+  calibration.epipolar_shift_px = 0.0123;
+  const CalibrationFigures figures{CalibrationGrade::Usable, 0.05, 0.31, 0.17};
+  const auto stored = decode_calibration(encode_calibration(calibration, figures));
+  ASSERT_TRUE(stored);
+  const auto* back = &stored->calibration;
+  EXPECT_EQ(std::memcmp(back, &calibration, sizeof(double) * 9), 0);
+  EXPECT_EQ(back->epipolar_shift_px, 0.0123);
+  EXPECT_EQ(stored->figures.grade, CalibrationGrade::Usable);
+  EXPECT_EQ(stored->figures.held_out_epipolar_px, 0.05);
+  EXPECT_EQ(stored->figures.depth_sigma_mm, 0.31);
+  EXPECT_EQ(stored->figures.shape_sigma_mm, 0.17);
   EXPECT_EQ(back->right_from_left.translation_mm.z, calibration.right_from_left.translation_mm.z);
   EXPECT_EQ(back->right.focal_px.y, calibration.right.focal_px.y);
   EXPECT_EQ(back->rms_px, calibration.rms_px);
@@ -48,6 +56,21 @@ TEST(CalibrationRecord, RefusesEveryTruncationAndEveryChangedByte) {
   }
 }
 
+// What stores of before hold: no promise, no figures.
+TEST(CalibrationRecord, ReadsTheFirstForm) {
+  const auto calibration = sample_calibration();
+  auto before = test::calibration_of_first_form(calibration);
+  const auto stored = decode_calibration(before);
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(stored->calibration.right_from_left.translation_mm.z, calibration.right_from_left.translation_mm.z);
+  EXPECT_EQ(stored->calibration.rms_px, calibration.rms_px);
+  EXPECT_EQ(stored->calibration.epipolar_shift_px, 0);
+  EXPECT_EQ(stored->figures.grade, CalibrationGrade::Unknown);
+  EXPECT_EQ(stored->figures.depth_sigma_mm, 0);
+  before[8] = std::byte{3};
+  EXPECT_EQ(decode_calibration(before).error().code, Errc::StoreNewer);
+}
+
 TEST(CalibrationRecord, TellsTheImpossible) {
   EXPECT_TRUE(check_calibration(sample_calibration()));
   const auto refused = [](auto spoil) {
@@ -64,6 +87,7 @@ TEST(CalibrationRecord, TellsTheImpossible) {
     for (double& v : c.right_from_left.rotation.m) v = -v;
   }));
   EXPECT_TRUE(refused([](auto& c) { c.right_from_left.translation_mm = {}; }));
+  EXPECT_TRUE(refused([](auto& c) { c.epipolar_shift_px = std::nan(""); }));
 }
 
 TEST(Text, KnowsNames) {

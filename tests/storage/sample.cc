@@ -11,6 +11,10 @@
 #include <limits>
 #include <random>
 
+#include "storage/byte_order.h"
+#include "storage/calibration_record.h"
+#include "storage/sodium_sha256.h"
+
 namespace relievo::storage::test {
 
 using pipeline::FaceModel;
@@ -67,6 +71,16 @@ pipeline::StereoCalibration sample_calibration() {
                        {-120.5, 0.25, 1.0 / 7}};
   c.rms_px = 0.123;
   return c;
+}
+
+std::vector<std::byte> calibration_of_first_form(const pipeline::StereoCalibration& calibration) {
+  const auto now = encode_calibration(calibration);
+  constexpr std::ptrdiff_t kNewer = 8 + 1 + 3 * 8;  // the shift, the grade, three figures
+  std::vector<std::byte> before(now.begin(), now.end() - static_cast<std::ptrdiff_t>(sizeof(Sha256)) - kNewer);
+  before[8] = std::byte{1};
+  const Sha256 digest = sha256(before);
+  ByteWriter(before).put(digest);
+  return before;
 }
 
 NewEnrolment sample_enrolment(const FaceModel& model) {

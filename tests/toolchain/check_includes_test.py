@@ -60,6 +60,7 @@ PLANTED = [
     ("firmware/main.cc", "#include <unheard_of/library.h>", "no library"),
 ]
 LIBRARY_HEADERS = [
+    "yaml.h", "yaml-cpp/yaml.h",
     "opencv2/core.hpp", "CGAL/Point_set_3.h", "boost/graph/graph.hpp", "embree3/rtcore.h", "sqlite3.h", "sodium.h",
     "gpiod.h", "linux/videodev2.h", "libudev.h", "systemd/sd-daemon.h", "png.h", "jpeglib.h", "zip.h", "SDL2/SDL.h",
     "SDL.h", "GLES3/gl3.h", "EGL/egl.h", "ft2build.h", "hb.h", "CLI/CLI.hpp", "toml++/toml.h", "nlohmann/json.hpp",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/file/calibration_fields.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kRotationTolerance = 1e-5;
 constexpr double kMinBaselineMm = 1;
 constexpr double kMaxBaselineMm = 10'000;
 
-Error wrong(Literal what, const char* where) { return Error{Errc::InvalidInput, what}.at(where); }
+Error wrong(Literal what, std::string_view where) { return Error{Errc::InvalidInput, what}.at(where); }
 
 // Distorted radius over undistorted radius must rise up to the middle of the farther edge, or two
 // rays share one pixel. (The corners may be extrapolated; no face is there.)
@@ -65,27 +65,27 @@ Result<void> check_camera(const CameraIntrinsics& c, const char* matrix, const c
   return {};
 }
 
-Result<void> check_rotation(const Rotation& r) {
+}  // namespace
+
+Result<void> check_rotation(const Rotation& r, std::string_view name) {
   const double* m = r.m;
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) {
       const double dot = m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2];
       if (!(std::abs(dot - (i == j ? 1 : 0)) <= kRotationTolerance))
-        return wrong("the matrix is no rotation; the file is damaged, calibrate again", "R");
+        return wrong("the matrix is no rotation; the file is damaged, calibrate again", name);
     }
   const double determinant = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
                              m[2] * (m[3] * m[7] - m[4] * m[6]);
-  if (!(determinant > 0)) return wrong("the matrix mirrors; the file is damaged, calibrate again", "R");
-  if (!(m[8] > 0)) return wrong("the cameras look away from each other; calibrate again", "R");
+  if (!(determinant > 0)) return wrong("the matrix mirrors; the file is damaged, calibrate again", name);
+  if (!(m[8] > 0)) return wrong("the cameras look away from each other; calibrate again", name);
   return {};
 }
-
-}  // namespace
 
 Result<void> check_calibration(const StereoCalibration& calibration) {
   RELIEVO_TRY(check_camera(calibration.left, "K1", "D1"));
   RELIEVO_TRY(check_camera(calibration.right, "K2", "D2"));
-  RELIEVO_TRY(check_rotation(calibration.right_from_left.rotation));
+  RELIEVO_TRY(check_rotation(calibration.right_from_left.rotation, "R"));
   const Vec3d t = calibration.right_from_left.translation_mm;
   const double baseline = std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z);
   if (!(baseline >= kMinBaselineMm && baseline <= kMaxBaselineMm))
@@ -95,6 +95,8 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
   if (right_x < 0.5 * baseline)
     return wrong("the cameras must stand beside each other, not above or behind", "T");
   if (!(calibration.rms_px >= 0 && calibration.rms_px < 1000)) return wrong("no possible rms", "pair_rms_px");
+  if (!(calibration.epipolar_shift_px >= 0 && calibration.epipolar_shift_px < 1000))
+    return wrong("no possible shift", "epipolar_shift_px");
   return {};
 }
 

@@ -1,8 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// rig.yml: a calibration as a file, in the form of OpenCV's stereo sample (image_width image_height
-// K1 D1 K2 D2 R T; right-from-left, millimetres; 17 digits, so what is read is what was written).
+// A calibration as files: our own rig.yml, and what other tools write.
+//
+//   rig.yml                        OpenCV's stereo YAML: image_width image_height K1 D1 K2 D2 R T (M1 or
+//                                  cameraMatrix1, distCoeffs1 too), right from left, millimetres; 17
+//                                  digits, so what is read is what was written
+//   intrinsics.yml extrinsics.yml  the two files of OpenCV's stereo sample; they do not say how large the
+//                                  pictures are
+//   left.yaml right.yaml           ROS camera_info (camera_info.h), metres
 //
 // OpenCV's own reader takes wrong numbers from a file that was cut short (0.21 becomes 2.1). This
 // one takes a whole document or nothing: every field once, every list closed, every number inside
@@ -25,10 +31,23 @@ namespace relievo::pipeline {
 // A rig.yml of ours has 2 kB; OpenCV's with every by-product less than 20.
 inline constexpr std::size_t kMaxCalibrationFileBytes = 256 * 1024;
 
-Result<StereoCalibration> read_calibration(const std::filesystem::path& file);
-Result<StereoCalibration> parse_calibration(std::string_view text);
+// What the files may leave open.
+struct CalibrationHints {
+  int width_px = 0;  // of the pictures, where the file does not say; 0: it must say
+  int height_px = 0;
+  double unit_mm = 0;  // of the translation; 0: the form's own, 1 for OpenCV's and 1000 for ROS
+};
 
-// Written under a temporary name beside the file, synced and renamed: nobody meets half a file.
+// Where `file` is one of a pair, the other is looked for beside it, by its name (left and right,
+// intrinsics and extrinsics), unless it is named.
+Result<StereoCalibration> read_calibration(const std::filesystem::path& file, const CalibrationHints& hints = {},
+                                           const std::filesystem::path& other = {});
+Result<StereoCalibration> parse_calibration(std::string_view text, const CalibrationHints& hints = {});
+// The two files of a pair, in either order.
+Result<StereoCalibration> parse_calibration_pair(std::string_view one, std::string_view other,
+                                                 const CalibrationHints& hints = {});
+
+// rig.yml, written under a temporary name beside the file, synced and renamed: nobody meets half a file.
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration);
 std::string calibration_text(const StereoCalibration& calibration);
 

@@ -4,186 +4,229 @@
 
 #include <charconv>
 #include <cmath>
-#include <functional>
 #include <set>
+#include <utility>
+
+#include <yaml.h>
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kMaxMatrixCells = 4096;
+constexpr int kDeepest = 32;
+constexpr int kMostCells = 4096;
 
-struct Line {
-  std::string_view text;  // without its end and without blanks at the end
-  int number = 0;
-  bool ended = false;  // by a line feed: the last number of a file that was cut is not
+Error at_line(std::size_t line, Literal what) {
+  return Error{Errc::InvalidInput, what}.at("line " + std::to_string(line));
+}
+
+// One event of libyaml; its memory goes with it.
+class Event {
+ public:
+  Event() = default;
+  ~Event() { yaml_event_delete(&event_); }
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+
+  yaml_event_t* raw() { return &event_; }
+  yaml_event_type_t type() const { return event_.type; }
+  std::size_t line() const { return event_.start_mark.line + 1; }
+  // Of a scalar. Quoted text is text even where it looks like a number.
+  std::string_view text() const {
+    return {reinterpret_cast<const char*>(event_.data.scalar.value), event_.data.scalar.length};
+  }
+  bool plain() const { return event_.data.scalar.style == YAML_PLAIN_SCALAR_STYLE; }
+  bool named() const {
+    switch (event_.type) {
+      case YAML_ALIAS_EVENT: return true;
+      case YAML_SCALAR_EVENT: return event_.data.scalar.anchor != nullptr;
+      case YAML_SEQUENCE_START_EVENT: return event_.data.sequence_start.anchor != nullptr;
+      case YAML_MAPPING_START_EVENT: return event_.data.mapping_start.anchor != nullptr;
+      case YAML_NO_EVENT:
+      case YAML_STREAM_START_EVENT:
+      case YAML_STREAM_END_EVENT:
+      case YAML_DOCUMENT_START_EVENT:
+      case YAML_DOCUMENT_END_EVENT:
+      case YAML_SEQUENCE_END_EVENT:
+      case YAML_MAPPING_END_EVENT: break;
+    }
+    return false;
+  }
+
+ private:
+  yaml_event_t event_{};
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+bool begins(yaml_event_type_t type) {
+  return type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT;
 }
+bool ends(yaml_event_type_t type) { return type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT; }
 
-std::vector<Line> lines_of(std::string_view text) {
-  std::vector<Line> lines;
-  int number = 0;
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    lines.push_back(
-        {line.substr(0, line.find_last_not_of(" \t") + 1), ++number, end != std::string_view::npos});
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return lines;
-}
-
-Error wrong(const Line& line, Literal what) {
-  return Error{Errc::InvalidInput, what}.at("line " + std::to_string(line.number));
-}
-
-// The whole token or nothing.
+// The whole word or nothing.
 template <typename Number>
-bool parse_whole(std::string_view token, Number& number) {
-  if (token.starts_with('+')) token.remove_prefix(1);
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-  return error == std::errc{} && end == token.data() + token.size();
+bool parse_whole(std::string_view word, Number& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc{} && end == word.data() + word.size();
 }
 
-bool is_name(std::string_view key) {
-  return !key.empty() && key.find_first_not_of(
-                             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                             "0123456789_-.") == std::string_view::npos;
-}
-
-// Cuts "key: value" in two; false if the line has no such form.
-bool split(std::string_view line, std::string_view& key, std::string_view& value) {
-  const auto colon = line.find(':');
-  if (colon == std::string_view::npos) return false;
-  key = trimmed(line.substr(0, colon));
-  value = trimmed(line.substr(colon + 1));
-  return is_name(key);
+bool parse_finite(const Event& event, double& number) {
+  return event.plain() && parse_whole(event.text(), number) && std::isfinite(number);
 }
 
 class Reader {
  public:
-  explicit Reader(std::string_view text) : lines_(lines_of(text)) {}
+  // `first_line` lines of the file stand before the text.
+  Reader(std::string_view text, std::size_t first_line)
+      : skipped_(first_line), ready_(yaml_parser_initialize(&parser_) != 0) {
+    if (!ready_) return;
+    yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  }
+  ~Reader() {
+    if (ready_) yaml_parser_delete(&parser_);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
   Result<YamlFields> read() {
-    while (at_ < lines_.size()) {
-      const Line& line = lines_[at_];
-      if (skip_prologue(line)) continue;
-      if (line.text.starts_with("...")) break;
-      RELIEVO_TRY(read_field(line));
+    if (!ready_) return Error{Errc::OutOfMemory, "there is not enough memory to read this file"};
+    RELIEVO_TRY(expect(YAML_STREAM_START_EVENT));
+    RELIEVO_TRY(expect(YAML_DOCUMENT_START_EVENT));
+    RELIEVO_TRY(expect(YAML_MAPPING_START_EVENT));
+    for (;;) {
+      Event key;
+      RELIEVO_TRY(next(key));
+      if (key.type() == YAML_MAPPING_END_EVENT) break;
+      RELIEVO_TRY(read_field(key));
     }
+    RELIEVO_TRY(expect(YAML_DOCUMENT_END_EVENT));
+    RELIEVO_TRY(expect(YAML_STREAM_END_EVENT));
     return std::move(fields_);
   }
 
  private:
-  bool skip_prologue(const Line& line) {
-    const bool nothing = line.text.empty() || line.text.starts_with('#') || line.text.starts_with('%') ||
-                         line.text.starts_with("---");
-    if (nothing) ++at_;
-    return nothing;
-  }
+  Error wrong(const Event& event, Literal what) const { return at_line(skipped_ + event.line(), what); }
 
-  Result<void> read_field(const Line& line) {
-    std::string_view key;
-    std::string_view value;
-    if (line.text.front() == ' ' || !split(line.text, key, value))
-      return wrong(line, "not of the form `name: value`; the file is damaged or no calibration");
-    if (!seen_.emplace(key).second)
-      return wrong(line, "this field is there twice; calibrate again or mend the file");
-    ++at_;
-    if (value.starts_with("!!opencv-matrix")) return read_matrix(key, line);
-    if (!value.empty() && value.front() != '"' && value.front() != '[') {
-      if (!line.ended) return wrong(line, "the file ends inside this line; it was cut short, copy it again");
-      double number = 0;
-      if (parse_whole(value, number) && std::isfinite(number)) fields_.numbers.emplace(key, number);
+  Result<void> next(Event& event) {
+    if (yaml_parser_parse(&parser_, event.raw()) == 0) {
+      const std::size_t line = skipped_ + parser_.problem_mark.line + 1;
+      if (parser_.error == YAML_MEMORY_ERROR)
+        return Error{Errc::OutOfMemory, "there is not enough memory to read this file"};
+      if (parser_.error == YAML_READER_ERROR)
+        return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"}.at(
+            "byte " + std::to_string(parser_.problem_offset));
+      return at_line(line, "is no YAML here; the file was cut short or damaged, copy it again");
     }
-    return skip_indented(value);
-  }
-
-  // A value that is not ours: its indented lines, with every bracket closed.
-  Result<void> skip_indented(std::string_view value) {
-    int open = 0;
-    const auto count = [&open](std::string_view text) {
-      for (const char c : text) open += (c == '[' || c == '{') - (c == ']' || c == '}');
-    };
-    count(value);
-    while (at_ < lines_.size() && (lines_[at_].text.starts_with(' ') || lines_[at_].text.starts_with('-')) &&
-           !lines_[at_].text.starts_with("---"))
-      count(lines_[at_++].text);
-    if (open != 0)
-      return wrong(lines_[at_ - 1], "a bracket is not closed; the file was cut short, copy it again");
+    if (event.named()) return wrong(event, "refers to another field; write the values out");
+    if (begins(event.type()) && ++depth_ > kDeepest)
+      return wrong(event, "is nested deeper than any calibration");
+    if (ends(event.type())) --depth_;
     return {};
   }
 
-  Result<void> read_matrix(std::string_view key, const Line& head) {
+  Result<void> expect(yaml_event_type_t type) {
+    Event event;
+    RELIEVO_TRY(next(event));
+    if (event.type() == type) return {};
+    if (type == YAML_STREAM_END_EVENT) return wrong(event, "a second document follows; give one calibration a file");
+    return wrong(event, "not of the form `name: value`; the file is damaged or no calibration");
+  }
+
+  Result<void> read_field(const Event& key) {
+    if (key.type() != YAML_SCALAR_EVENT || key.text().empty())
+      return wrong(key, "not of the form `name: value`; the file is damaged or no calibration");
+    const std::string name(key.text());
+    if (!seen_.insert(name).second)
+      return wrong(key, "this field is there twice; calibrate again or mend the file");
+    Event value;
+    RELIEVO_TRY(next(value));
+    if (value.type() == YAML_MAPPING_START_EVENT) return read_map(name, value);
+    if (value.type() == YAML_SEQUENCE_START_EVENT) return skip_rest(depth_ - 1);
+    double number = 0;
+    if (parse_finite(value, number)) fields_.numbers.emplace(name, number);
+    else fields_.words.emplace(name, value.text());
+    return {};
+  }
+
+  // Up to the end of what began when the depth was `outside`.
+  Result<void> skip_rest(int outside) {
+    while (depth_ > outside) {
+      Event event;
+      RELIEVO_TRY(next(event));
+    }
+    return {};
+  }
+
+  // A matrix, or some other map, which is stepped over.
+  Result<void> read_map(const std::string& name, const Event& head) {
+    const auto* tag = head_tag(head);
+    const bool must = tag != nullptr && std::string_view(tag).ends_with(":opencv-matrix");
+    const int outside = depth_ - 1;
     YamlMatrix matrix;
-    bool has_type = false;
-    while (at_ < lines_.size() && lines_[at_].text.starts_with(' ')) {
-      const Line& line = lines_[at_];
-      std::string_view name;
-      std::string_view value;
-      if (!split(line.text, name, value)) return wrong(line, "not of the form `name: value` inside a matrix");
-      ++at_;
-      if (name == "rows" || name == "cols") {
-        int& side = name == "rows" ? matrix.rows : matrix.cols;
-        if (!line.ended || side != 0 || !parse_whole(value, side) || side < 1 || side > kMaxMatrixCells)
-          return wrong(line, "rows and cols of a matrix must be small whole numbers");
-      } else if (name == "dt") {
-        has_type = value == "d" || value == "f" || value == "i";
-        if (!line.ended || !has_type) return wrong(line, "the type of a matrix must be d, f or i");
-      } else if (name == "data") {
-        if (!has_type || matrix.rows == 0 || matrix.cols == 0)
-          return wrong(line, "rows, cols and dt must come before the data of a matrix");
-        RELIEVO_TRY(read_data(value, line, matrix));
-        fields_.matrices.emplace(key, std::move(matrix));
-        return {};
-      } else {
-        return wrong(line, "a matrix has rows, cols, dt and data only");
+    bool has_data = false;
+    std::set<std::string, std::less<>> seen;
+    for (;;) {
+      Event key;
+      RELIEVO_TRY(next(key));
+      if (key.type() == YAML_MAPPING_END_EVENT) break;
+      const std::string part(key.type() == YAML_SCALAR_EVENT ? key.text() : std::string_view());
+      if (part != "rows" && part != "cols" && part != "dt" && part != "data") {
+        if (must) return wrong(key, "a matrix has rows, cols, dt and data only");
+        return skip_rest(outside);
       }
+      if (!seen.insert(part).second) return wrong(key, "this part of a matrix is there twice; mend the file");
+      RELIEVO_TRY(read_part(part, matrix));
+      has_data = has_data || part == "data";
     }
-    return wrong(head, "this matrix has no data; the file was cut short or damaged");
-  }
-
-  Result<void> read_data(std::string_view text, const Line& first, YamlMatrix& matrix) {
-    const Line* line = &first;
-    if (!text.starts_with('[')) return wrong(*line, "the data of a matrix must stand in [ ]");
-    text.remove_prefix(1);
-    std::string list;
-    while (text.find(']') == std::string_view::npos) {
-      list.append(text).push_back(' ');
-      if (at_ >= lines_.size() || !lines_[at_].text.starts_with(' '))
-        return wrong(*line, "this list is not closed; the file was cut short, copy it again");
-      line = &lines_[at_++];
-      text = line->text;
-    }
-    const auto close = text.find(']');
-    if (!trimmed(text.substr(close + 1)).empty()) return wrong(*line, "something follows the closed list");
-    list.append(text.substr(0, close));
-    return read_numbers(list, *line, matrix);
-  }
-
-  static Result<void> read_numbers(std::string_view list, const Line& line, YamlMatrix& matrix) {
-    const auto cells = static_cast<std::size_t>(matrix.rows) * static_cast<std::size_t>(matrix.cols);
-    while (true) {
-      const auto comma = list.find(',');
-      double number = 0;
-      if (!parse_whole(trimmed(list.substr(0, comma)), number) || !std::isfinite(number))
-        return wrong(line, "a value in the list above is no finite number");
-      matrix.values.push_back(number);
-      if (matrix.values.size() > cells) break;
-      if (comma == std::string_view::npos) break;
-      list.remove_prefix(comma + 1);
-    }
-    if (matrix.values.size() != cells) return wrong(line, "the list has not rows times cols numbers");
+    if (!has_data || matrix.rows == 0 || matrix.cols == 0)
+      return wrong(head, "this matrix has no rows, no cols or no data; the file was cut short or damaged");
+    if (matrix.values.size() != static_cast<std::size_t>(matrix.rows) * static_cast<std::size_t>(matrix.cols))
+      return wrong(head, "the data of this matrix are not rows times cols numbers");
+    fields_.matrices.emplace(name, std::move(matrix));
     return {};
   }
 
-  std::vector<Line> lines_;
-  std::size_t at_ = 0;
+  static const char* head_tag(const Event& head) {
+    return reinterpret_cast<const char*>(const_cast<Event&>(head).raw()->data.mapping_start.tag);
+  }
+
+  Result<void> read_part(const std::string& part, YamlMatrix& matrix) {
+    Event value;
+    RELIEVO_TRY(next(value));
+    if (part == "data") {
+      if (value.type() != YAML_SEQUENCE_START_EVENT)
+        return wrong(value, "the data of a matrix must be a list of numbers");
+      return read_numbers(matrix.values);
+    }
+    if (value.type() != YAML_SCALAR_EVENT) return wrong(value, "rows, cols and dt of a matrix are one word each");
+    if (part == "dt") {
+      if (value.text() != "d" && value.text() != "f" && value.text() != "i")
+        return wrong(value, "the type of a matrix must be d, f or i");
+      return {};
+    }
+    int& side = part == "rows" ? matrix.rows : matrix.cols;
+    if (!value.plain() || !parse_whole(value.text(), side) || side < 1 || side > kMostCells)
+      return wrong(value, "rows and cols of a matrix must be small whole numbers");
+    return {};
+  }
+
+  Result<void> read_numbers(std::vector<double>& values) {
+    for (;;) {
+      Event event;
+      RELIEVO_TRY(next(event));
+      if (event.type() == YAML_SEQUENCE_END_EVENT) return {};
+      double number = 0;
+      if (event.type() != YAML_SCALAR_EVENT || !parse_finite(event, number))
+        return wrong(event, "a value in this list is no finite number");
+      if (values.size() >= kMostCells) return wrong(event, "this list is longer than any of a calibration");
+      values.push_back(number);
+    }
+  }
+
+  std::size_t skipped_;
+  yaml_parser_t parser_{};
+  bool ready_;
+  int depth_ = 0;
   std::set<std::string, std::less<>> seen_;
   YamlFields fields_;
 };
@@ -193,7 +236,22 @@ class Reader {
 Result<YamlFields> parse_yaml_fields(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
     return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"};
-  return Reader(text).read();
+  const auto last = text.find_last_not_of(" \t\r");
+  if (last == std::string_view::npos)
+    return Error{Errc::InvalidInput, "the calibration is empty; calibrate again"};
+  // YAML would take the beginning of a number for all of it.
+  if (text[last] != '\n' && text[last] != ']' && text[last] != '}')
+    return Error{Errc::InvalidInput, "ends inside a line; the file was cut short, copy it again"};
+  // OpenCV's first line is no YAML.
+  std::size_t skipped = 0;
+  if (text.starts_with("%YAML:")) {
+    const auto end = text.find('\n');
+    if (end == std::string_view::npos)
+      return Error{Errc::InvalidInput, "ends inside a line; the file was cut short, copy it again"};
+    text.remove_prefix(end + 1);
+    skipped = 1;
+  }
+  return Reader(text, skipped).read();
 }
 
 }  // namespace relievo::pipeline

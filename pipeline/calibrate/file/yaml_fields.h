@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The part of YAML that OpenCV's FileStorage writes, read strictly: top-level `key: scalar` and
-// `key: !!opencv-matrix` with rows, cols, dt and data. Other indented values are skipped by key, but
-// brackets and line ends must be whole there too.
+// A calibration's YAML as flat fields: top-level numbers and words, and matrices (rows, cols, data and
+// perhaps dt), as OpenCV's FileStorage and ROS write them. Other values are stepped over by key.
+//
+// libyaml reads, by events: nothing is built that a hostile file could make large or deep. What YAML
+// lets pass and a calibration must not is refused here: a document that was cut (the last line must be
+// ended, or end in a bracket), a field twice, two documents, references, a list of another length than
+// rows times cols, a number that is not finite. A number is decimal and the whole of its word.
 // Errors: InvalidInput; where() is the line number or the field.
+// Thread: any.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -24,6 +30,7 @@ struct YamlMatrix {
 
 struct YamlFields {
   std::map<std::string, double, std::less<>> numbers;
+  std::map<std::string, std::string, std::less<>> words;
   std::map<std::string, YamlMatrix, std::less<>> matrices;
 };
 

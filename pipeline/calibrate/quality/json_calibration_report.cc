@@ -69,6 +69,7 @@ std::string calibration_report_json(const CalibrationQuality& q) {
                                          {"right_rms_px", q.right_rms_px},
                                          {"epipolar_rms_px", q.epipolar_rms_px},
                                          {"held_out_epipolar_px", q.held_out_epipolar_px},
+                                         {"held_out_shift_px", q.held_out_shift_px},
                                          {"coverage_left", q.coverage_left},
                                          {"coverage_right", q.coverage_right},
                                          {"holds_still", q.holds_still},

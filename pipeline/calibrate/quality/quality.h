@@ -45,6 +45,7 @@ struct CalibrationQuality {
   double pair_rms_px = 0;  // both together, used views
   double epipolar_rms_px = 0;
   double held_out_epipolar_px = 0;  // of views that had no part in the fit (leave-out cross-validation)
+  double held_out_shift_px = 0;     // of these, what a whole board misses them by together: corner noise averages out
   double coverage_left = 0;         // share of an 8 x 8 grid over the picture in which a corner was seen
   double coverage_right = 0;
   bool holds_still = true;     // left and right agree as well as each camera alone allows

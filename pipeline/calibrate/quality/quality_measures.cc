@@ -8,6 +8,7 @@
 
 #include "pipeline/calibrate/fit/board_bend.h"
 #include "pipeline/calibrate/fit/relation_evidence.h"
+#include "pipeline/calibrate/quality/held_out_shift.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 #include "pipeline/calibrate/quality/rig_spread.h"
 
@@ -135,6 +136,7 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.holds_still = q.slip_ratio < 2;
   const RigSpread spread(fit, q.slip_ratio > kSlipsVisibly);
   q.held_out_epipolar_px = held_out_epipolar(f, spread);
+  q.held_out_shift_px = held_out_shift(f, spread);
   q.uncertainty = measure_uncertainty(spread, q.working_distance_mm);
   constexpr double kFaceMm = 560;
   q.face_depth_sigma_mm = depth_uncertainty(spread, kFaceMm).sigma_mm;

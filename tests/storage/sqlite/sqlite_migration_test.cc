@@ -111,6 +111,29 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
   }
 }
 
+TEST(SqliteMigration, CalibrationsOfBeforeAreReadAndNewOnesJoinThem) {
+  const TemporaryFolder folder;
+  make_version(folder.path(), 2);
+  auto calibration = test::sample_calibration();
+  calibration.revision = 1;
+  std::string hex;
+  for (const std::byte b : test::calibration_of_first_form(calibration)) {
+    constexpr char kDigits[] = "0123456789abcdef";
+    hex += {kDigits[std::to_integer<int>(b) >> 4], kDigits[std::to_integer<int>(b) & 15]};
+  }
+  Raw(folder / "relievo.db")
+      .run("INSERT INTO calibration (created_at_ms, note, record, active) VALUES (1, 'old', x'" + hex + "', 1)");
+  const auto store = opened(folder.path());
+  ASSERT_TRUE(store);
+  EXPECT_EQ(store->active_calibration()->rms_px, calibration.rms_px);
+  EXPECT_EQ(store->active_calibration()->epipolar_shift_px, 0);
+  calibration.epipolar_shift_px = 0.01;
+  ASSERT_EQ(*store->save_calibration(calibration, "new"), 2u);
+  EXPECT_EQ(store->active_calibration()->epipolar_shift_px, 0.01);
+  EXPECT_TRUE(store->check());
+  EXPECT_EQ(store->calibrations()->size(), 2u);
+}
+
 TEST(SqliteMigration, AFailedMigrationChangesNothing) {
   const TemporaryFolder folder;
   make_version(folder.path(), 1);

@@ -128,7 +128,8 @@ TEST_F(SqliteStoreVerbs, KeepsEveryCalibrationAndOneActive) {
   auto calibration = sample_calibration();
   ASSERT_EQ(*store->save_calibration(calibration, "rig.yml"), 1u);
   calibration.left.focal_px.x += 1;
-  ASSERT_EQ(*store->save_calibration(calibration, "live"), 2u);
+  calibration.epipolar_shift_px = 0.02;
+  ASSERT_EQ(*store->save_calibration(calibration, "live", {CalibrationGrade::Pass, 0.04, 0.2, 0.1}), 2u);
   EXPECT_EQ(store->active_calibration()->revision, 2u);
   EXPECT_EQ(store->active_calibration()->left.focal_px.x, calibration.left.focal_px.x);
   ASSERT_TRUE(store->activate_calibration(1));
@@ -141,6 +142,13 @@ TEST_F(SqliteStoreVerbs, KeepsEveryCalibrationAndOneActive) {
   EXPECT_EQ(all->front().note, "live");
   EXPECT_FALSE(all->front().active);
   EXPECT_TRUE(all->back().active);
+  EXPECT_EQ(all->front().epipolar_shift_px, 0.02);
+  EXPECT_EQ(all->front().figures.grade, CalibrationGrade::Pass);
+  EXPECT_EQ(all->front().figures.held_out_epipolar_px, 0.04);
+  EXPECT_EQ(all->front().figures.depth_sigma_mm, 0.2);
+  EXPECT_EQ(all->back().figures.grade, CalibrationGrade::Unknown);
+  EXPECT_NEAR(all->back().baseline_mm, 120.5, 0.01);
+  EXPECT_EQ(all->back().enrolments, 0);
   calibration.left.focal_px.x = -1;
   EXPECT_EQ(code_of(store->save_calibration(calibration, "")), Errc::InvalidInput);
   const auto model = sample_model(4);
@@ -148,6 +156,7 @@ TEST_F(SqliteStoreVerbs, KeepsEveryCalibrationAndOneActive) {
   enrolment.calibration_revision = 2;
   const auto id = store->add_enrolment(NewSubject{"Ada"}, enrolment);
   EXPECT_EQ(store->enrolment(*id)->calibration_revision, 2u);
+  EXPECT_EQ(store->calibrations()->front().enrolments, 1);
 }
 
 TEST_F(SqliteStoreVerbs, RemembersSettings) {

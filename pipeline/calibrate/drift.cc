@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/drift.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Dense>
+
+namespace relievo::pipeline {
+namespace {
+
+double statistic_of(const EpipolarShift& shift, double expected_px) {
+  const Eigen::Vector3d field(shift.offset_px, shift.slope_x * shift.spread_x_px, shift.slope_y * shift.spread_y_px);
+  const auto& c = shift.covariance_px2;
+  Eigen::Matrix3d covariance;
+  covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Identity();
+  moments(1, 2) = moments(2, 1) = shift.correlation;
+  const double unmoved = expected_px * expected_px + kSkinShiftPx * kSkinShiftPx;
+  const Eigen::Matrix3d usual = covariance + unmoved * moments.inverse();
+  return field.dot(usual.ldlt().solve(field));
+}
+
+DriftVerdict verdict_of(const DriftJudgement& judgement) {
+  // What stands out of a vague measurement stands out.
+  if (judgement.statistic > kDriftStatistic)
+    return judgement.residual_px > kRefusedPx ? DriftVerdict::Refuse : DriftVerdict::Warn;
+  return judgement.sigma_px > kUselessSigmaPx ? DriftVerdict::Unknown : DriftVerdict::Ok;
+}
+
+}  // namespace
+
+DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& calibration) {
+  DriftJudgement judgement;
+  judgement.expected_px = calibration.epipolar_shift_px > 0 ? calibration.epipolar_shift_px : kUnknownPromisePx;
+  if (!shift.measured()) return judgement;
+  judgement.residual_px = shift.residual_px;
+  judgement.sigma_px = shift.sigma_px;
+  judgement.offset_px = shift.offset_px;
+  judgement.slope_x = shift.slope_x;
+  judgement.slope_y = shift.slope_y;
+  judgement.statistic = statistic_of(shift, judgement.expected_px);
+  if (!std::isfinite(judgement.statistic)) return DriftJudgement{.expected_px = judgement.expected_px};
+  judgement.verdict = verdict_of(judgement);
+  return judgement;
+}
+
+std::string_view word(DriftVerdict verdict) {
+  switch (verdict) {
+    case DriftVerdict::Unknown: return "unknown";
+    case DriftVerdict::Ok: return "ok";
+    case DriftVerdict::Warn: return "warn";
+    case DriftVerdict::Refuse: return "refuse";
+  }
+  return "unknown";
+}
+
+std::string sentence(const DriftJudgement& j) {
+  char text[200];
+  switch (j.verdict) {
+    case DriftVerdict::Unknown:
+      return "this face has too little texture to tell whether the cameras have moved";
+    case DriftVerdict::Ok:
+      std::snprintf(text, sizeof text, "the rows of both views agree to %.3f px (%.3f px promised)", j.residual_px,
+                    j.expected_px);
+      break;
+    case DriftVerdict::Warn:
+      std::snprintf(text, sizeof text,
+                    "the rows of both views disagree by %.2f px (%.3f px promised): a camera has moved, calibrate again",
+                    j.residual_px, j.expected_px);
+      break;
+    case DriftVerdict::Refuse:
+      std::snprintf(text, sizeof text,
+                    "the rows of both views disagree by %.2f px (more than %.1f px is refused): a camera has moved, "
+                    "calibrate again",
+                    j.residual_px, kRefusedPx);
+      break;
+  }
+  return text;
+}
+
+}  // namespace relievo::pipeline
