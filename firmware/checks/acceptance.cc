@@ -10,18 +10,24 @@
 namespace relievo::firmware {
 namespace {
 
-using measure::cross, measure::difference, measure::distance, measure::dot, measure::length, measure::scaled, measure::Vec3d;
+using measure::cross, measure::difference, measure::distance, measure::dot, measure::length, measure::scaled,
+    measure::Vec3d;
 
 // How far around a target a surface is looked for: its edge must not be the region's.
 constexpr double kMarginMm = 4;
 
-AcceptanceLine worst_of(std::string measure, double limit_mm) { return {std::move(measure), "nothing", std::nan(""), limit_mm}; }
+const char* const kNothing = "nothing was measured";
 
+AcceptanceLine worst_of(std::string measure, double limit_mm) {
+  return {std::move(measure), kNothing, std::nan(""), limit_mm};
+}
+
+// What is no number is worse than any.
 void keep_worse(AcceptanceLine& line, const std::string& where, double value_mm) {
-  if (std::isnan(line.value_mm) || std::abs(value_mm) > std::abs(line.value_mm)) {
-    line.where = where;
-    line.value_mm = value_mm;
-  }
+  const bool first = line.where == kNothing;
+  if (!first && (std::isnan(line.value_mm) || std::abs(value_mm) <= std::abs(line.value_mm))) return;
+  line.where = where;
+  line.value_mm = value_mm;
 }
 
 Error at_target(const Error& error, const std::string& name) {
@@ -29,8 +35,9 @@ Error at_target(const Error& error, const std::string& name) {
 }
 
 template <typename Form>
-Result<void> show_reading(const TargetMeter& meter, const TargetReading& reading, const Form& form, const std::vector<Vec3d>& points,
-                          const Vec3d& centre_mm, double reach_mm, double range_mm, const ShowTarget& show) {
+Result<void> show_reading(const TargetMeter& meter, const TargetReading& reading, const Form& form,
+                          const std::vector<Vec3d>& points, const Vec3d& centre_mm, double reach_mm,
+                          double range_mm, const ShowTarget& show) {
   if (!show) return {};
   std::vector<double> deviations;
   deviations.reserve(points.size());
@@ -51,18 +58,28 @@ std::vector<Vec3d> cap_of(const std::vector<Vec3d>& surface, const Vec3d& centre
   return cap;
 }
 
-Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot, const Vec3d& centre_mm, const Vec3d& rod,
-                                     const std::string& name, double picture_range_mm, const ShowTarget& show) {
+Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot, const Vec3d& centre_mm,
+                                     const Vec3d& rod, const std::string& name, double picture_range_mm,
+                                     const ShowTarget& show) {
   const double radius = shot.targets.sphere_diameter_mm / 2;
   auto surface = meter.surface_around(centre_mm, radius + kMarginMm);
   if (!surface) return at_target(surface.error(), name);
   const std::vector<Vec3d> cap = cap_of(*surface, centre_mm, rod);
   const auto read = measure::read_sphere(cap, kDiscardShare);
   if (!read) return at_target(read.error(), name);
-  TargetReading reading{name, TargetKind::Dumbbell, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0, {}};
+  TargetReading reading{name,
+                        TargetKind::Dumbbell,
+                        surface->size(),
+                        read->used,
+                        read->discarded,
+                        read->range_mm,
+                        read->rms_mm,
+                        0,
+                        {}};
   reading.size_mm = 2 * read->form.radius_mm - shot.targets.sphere_diameter_mm;
   reading.centre_mm = read->form.centre_mm;
-  RELIEVO_TRY(show_reading(meter, reading, read->form, cap, centre_mm, radius + kMarginMm, picture_range_mm, show));
+  RELIEVO_TRY(
+      show_reading(meter, reading, read->form, cap, centre_mm, radius + kMarginMm, picture_range_mm, show));
   return reading;
 }
 
@@ -76,8 +93,9 @@ AcceptanceLimits limits_at(double scale) {
 bool AcceptanceLine::held() const { return std::abs(value_mm) <= limit_mm; }
 
 std::vector<AcceptanceLine> AcceptanceReport::lines(const AcceptanceLimits& limits) const {
-  std::vector<AcceptanceLine> all{worst_of("probing error, form", limits.form_mm), worst_of("probing error, size", limits.size_mm),
-                                  worst_of("sphere spacing", limits.spacing_mm), worst_of("flatness", limits.flatness_mm)};
+  std::vector<AcceptanceLine> all{
+      worst_of("probing error, form", limits.form_mm), worst_of("probing error, size", limits.size_mm),
+      worst_of("sphere spacing", limits.spacing_mm), worst_of("flatness", limits.flatness_mm)};
   for (const TargetReading& target : targets) {
     if (target.kind == TargetKind::Plate) {
       keep_worse(all[3], target.name, target.range_mm);
@@ -93,32 +111,36 @@ std::vector<AcceptanceLine> AcceptanceReport::lines(const AcceptanceLimits& limi
 Result<void> AcceptanceReport::verdict(const AcceptanceLimits& limits) const {
   for (const AcceptanceLine& line : lines(limits))
     if (!line.held())
-      return Error{Errc::PoorGeometry, "over the limit: the chain does not measure as it should; look at the table and at the pictures of -o"}
+      return Error{Errc::PoorGeometry,
+                   "over the limit: the chain does not measure as it should; look at the table and at the "
+                   "pictures of -o"}
           .at(line.measure + ", " + line.where);
   return {};
 }
 
 // right, down, distance; pitch, yaw, roll.
 std::vector<TargetPlace> dumbbell_places() {
-  return {{0, 0, 560, 0, 0, 0},     {0, 0, 560, 0, 0, 90},    {-25, 0, 520, 0, 0, 45}, {25, 0, 620, 0, 0, -45},
-          {0, -20, 560, 0, 30, 0},  {0, 20, 560, 0, -30, 0},  {15, 0, 590, 30, 0, 90}};
+  return {{0, 0, 560, 0, 0, 0},    {0, 0, 560, 0, 0, 90},   {-25, 0, 520, 0, 0, 45}, {25, 0, 620, 0, 0, -45},
+          {0, -20, 560, 0, 30, 0}, {0, 20, 560, 0, -30, 0}, {15, 0, 590, 30, 0, 90}};
 }
 
 std::vector<TargetPlace> plate_places() {
-  return {{0, 0, 560, 0, 0, 0},    {0, 0, 530, 0, 0, 0},     {0, 0, 650, 0, 0, 90},
-          {0, 0, 570, 0, 30, 0},   {0, 0, 570, 0, -30, 0},   {0, 0, 580, 30, 0, 0}};
+  return {{0, 0, 560, 0, 0, 0},  {0, 0, 530, 0, 0, 0},   {0, 0, 650, 0, 0, 90},
+          {0, 0, 570, 0, 30, 0}, {0, 0, 570, 0, -30, 0}, {0, 0, 580, 30, 0, 0}};
 }
 
-Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm, const ShowTarget& show,
-                              AcceptanceReport& report) {
+Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                              const ShowTarget& show, AcceptanceReport& report) {
   const std::string name = "dumbbell " + std::to_string(shot.number + 1);
-  const Vec3d along = difference(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
+  const Vec3d along =
+      difference(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
   Vec3d centres[2];
   for (const int side : {0, 1}) {
     const double out = side == 0 ? -1 : 1;
     const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
-    RELIEVO_TRY_ASSIGN(const TargetReading reading, measure_sphere(meter, shot, nominal, scaled(along, -out), name + (side == 0 ? " a" : " b"),
-                                                                   picture_range_mm, show));
+    RELIEVO_TRY_ASSIGN(const TargetReading reading,
+                       measure_sphere(meter, shot, nominal, scaled(along, -out),
+                                      name + (side == 0 ? " a" : " b"), picture_range_mm, show));
     centres[side] = reading.centre_mm;
     report.targets.push_back(reading);
   }
@@ -126,11 +148,12 @@ Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double
   return {};
 }
 
-Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm, const ShowTarget& show,
-                           AcceptanceReport& report) {
+Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                           const ShowTarget& show, AcceptanceReport& report) {
   const std::string name = "plate " + std::to_string(shot.number + 1);
   const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
-  const Vec3d x = difference(left_from_target(shot.place, {1, 0, 0}), middle), y = difference(left_from_target(shot.place, {0, 1, 0}), middle);
+  const Vec3d x = difference(left_from_target(shot.place, {1, 0, 0}), middle),
+              y = difference(left_from_target(shot.place, {0, 1, 0}), middle);
   const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
   const double reach = std::hypot(half_width, half_height) + kMarginMm;
   auto surface = meter.surface_around(middle, reach);
@@ -138,11 +161,14 @@ Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double pi
   std::vector<Vec3d> inside;
   for (const Vec3d& p : *surface) {
     const Vec3d from = difference(p, middle);
-    if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm) inside.push_back(p);
+    if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
+      inside.push_back(p);
   }
   const auto read = measure::read_plane(inside, kDiscardShare);
   if (!read) return at_target(read.error(), name);
-  const TargetReading reading{name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0, {}};
+  const TargetReading reading{
+      name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,
+      {}};
   RELIEVO_TRY(show_reading(meter, reading, read->form, inside, middle, reach, picture_range_mm, show));
   report.targets.push_back(reading);
   return {};

@@ -27,7 +27,7 @@ inline constexpr double kCapDeg = 60;
 inline constexpr double kRodMm = 12;
 inline constexpr double kRimMm = 3;
 
-struct AcceptanceLimits {      // mm; what may not be exceeded, either sign
+struct AcceptanceLimits {  // mm; what may not be exceeded, either sign
   double form_mm = 0, size_mm = 0, spacing_mm = 0, flatness_mm = 0;
 };
 // For pictures `scale` (0.5 to 1) times 1920 x 1200: a pixel of smaller ones covers more. README.md
@@ -35,26 +35,26 @@ struct AcceptanceLimits {      // mm; what may not be exceeded, either sign
 AcceptanceLimits limits_at(double scale);
 
 struct TargetReading {
-  std::string name;            // "dumbbell 1 left", "plate 3"
+  std::string name;  // "dumbbell 1 left", "plate 3"
   TargetKind kind = TargetKind::Dumbbell;
-  std::size_t measured = 0;    // points the mesh holds there; used + discarded of them were evaluated
+  std::size_t measured = 0;  // points the mesh holds there; used + discarded of them were evaluated
   std::size_t used = 0, discarded = 0;
-  double range_mm = 0;         // form, or flatness
+  double range_mm = 0;  // form, or flatness
   double rms_mm = 0;
-  double size_mm = 0;          // sphere only
-  measure::Vec3d centre_mm;    // sphere only
+  double size_mm = 0;        // sphere only
+  measure::Vec3d centre_mm;  // sphere only
 };
 
 struct SpacingReading {
-  std::string name;            // "dumbbell 1"
+  std::string name;  // "dumbbell 1"
   double error_mm = 0;
 };
 
-struct AcceptanceLine {        // the worst reading of a measure
+struct AcceptanceLine {  // the worst reading of a measure
   std::string measure;
   std::string where;
   double value_mm = 0, limit_mm = 0;
-  bool held() const;           // false for what is no number
+  bool held() const;  // false for what is no number
 };
 
 struct AcceptanceReport {
@@ -75,9 +75,9 @@ using ShowTarget = std::function<Result<void>(const std::string& name, const hal
 
 // Measures one target that was taken by the meter, and adds its readings to the report.
 // Errors: as TargetMeter, and PoorGeometry where too few points lie on the target; each names it.
-Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm, const ShowTarget& show,
-                              AcceptanceReport& report);
-Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm, const ShowTarget& show,
-                           AcceptanceReport& report);
+Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                              const ShowTarget& show, AcceptanceReport& report);
+Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                           const ShowTarget& show, AcceptanceReport& report);
 
 }  // namespace relievo::firmware

@@ -30,10 +30,12 @@ std::array<std::uint8_t, 3> deviation_colour(double share) {
   const auto level = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
   // Half-way the colour itself still grows darker, so that the ends are told from three quarters.
   const double end = 1 - 0.25 * std::abs(s);
-  return s < 0 ? std::array{level(fade * end), level(fade * end), level(end)} : std::array{level(end), level(fade * end), level(fade * end)};
+  return s < 0 ? std::array{level(fade * end), level(fade * end), level(end)}
+               : std::array{level(end), level(fade * end), level(fade * end)};
 }
 
-DeviationPicture::DeviationPicture(std::span<const std::uint8_t> rgb, int width_px, int height_px, PixelBox box)
+DeviationPicture::DeviationPicture(std::span<const std::uint8_t> rgb, int width_px, int height_px,
+                                   PixelBox box)
     : box_(cut(box, width_px, height_px)) {
   const int w = box_.right - box_.left, h = box_.bottom - box_.top;
   picture_.width_px = 2 * w + kGap;
@@ -42,7 +44,8 @@ DeviationPicture::DeviationPicture(std::span<const std::uint8_t> rgb, int width_
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const std::uint8_t* from = &rgb[offset(width_px, box_.left + x, box_.top + y)];
-      const auto grey = static_cast<std::uint8_t>((from[0] + from[1] + from[2]) / 6 + 30);  // paler: the colours lie on it
+      const auto grey =
+          static_cast<std::uint8_t>((from[0] + from[1] + from[2]) / 6 + 30);  // paler: the colours lie on it
       for (std::size_t c = 0; c < 3; ++c) {
         picture_.bytes[offset(picture_.width_px, x, y) + c] = std::byte{from[c]};
         picture_.bytes[offset(picture_.width_px, w + kGap + x, y) + c] = std::byte{grey};
@@ -51,14 +54,17 @@ DeviationPicture::DeviationPicture(std::span<const std::uint8_t> rgb, int width_
 }
 
 std::uint8_t* DeviationPicture::pixel(int x, int y) {
-  return reinterpret_cast<std::uint8_t*>(&picture_.bytes[offset(picture_.width_px, box_.right - box_.left + kGap + x, y)]);
+  return reinterpret_cast<std::uint8_t*>(
+      &picture_.bytes[offset(picture_.width_px, box_.right - box_.left + kGap + x, y)]);
 }
 
 void DeviationPicture::mark(double x_px, double y_px, double share) {
   const auto colour = deviation_colour(share);
-  const int x0 = static_cast<int>(std::lround(x_px)) - box_.left, y0 = static_cast<int>(std::lround(y_px)) - box_.top;
+  const int x0 = static_cast<int>(std::lround(x_px)) - box_.left,
+            y0 = static_cast<int>(std::lround(y_px)) - box_.top;
   for (int y = std::max(0, y0); y < std::min(y0 + kDot, box_.bottom - box_.top); ++y)
-    for (int x = std::max(0, x0); x < std::min(x0 + kDot, box_.right - box_.left); ++x) std::copy(colour.begin(), colour.end(), pixel(x, y));
+    for (int x = std::max(0, x0); x < std::min(x0 + kDot, box_.right - box_.left); ++x)
+      std::copy(colour.begin(), colour.end(), pixel(x, y));
 }
 
 hal::Picture DeviationPicture::finish() {

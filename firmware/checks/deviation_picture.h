@@ -31,7 +31,7 @@ class DeviationPicture {
   hal::Picture finish();
 
  private:
-  std::uint8_t* pixel(int x, int y);   // of the right half
+  std::uint8_t* pixel(int x, int y);  // of the right half
   PixelBox box_;
   hal::Picture picture_;
 };

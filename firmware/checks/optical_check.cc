@@ -17,8 +17,9 @@ TargetShot series_of(const OpticalCheckOptions& options) {
 
 }  // namespace
 
-Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration, const Photograph& photograph,
-                                         const OpticalCheckOptions& options, const std::atomic<bool>& cancelled,
+Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration,
+                                         const Photograph& photograph, const OpticalCheckOptions& options,
+                                         const std::atomic<bool>& cancelled,
                                          const std::function<void()>& each) {
   RELIEVO_TRY_ASSIGN(TargetMeter meter, TargetMeter::make(calibration, cancelled));
   AcceptanceReport report;
@@ -47,12 +48,15 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
 }
 
 Result<void> OpticalCheckJob::run(JobControl& control) {
-  const auto shots = static_cast<float>(static_cast<std::size_t>(options_.boards) + options_.dumbbells.size() + options_.plates.size());
+  const auto shots = static_cast<float>(static_cast<std::size_t>(options_.boards) +
+                                        options_.dumbbells.size() + options_.plates.size());
   float done = 0;
   const auto each = [&] { control.progress.done.store(++done / shots); };
-  RELIEVO_TRY_ASSIGN(calibration_, calibrate_on_boards(photograph_, series_of(options_), options_.boards, control.cancelled, each));
+  RELIEVO_TRY_ASSIGN(calibration_, calibrate_on_boards(photograph_, series_of(options_), options_.boards,
+                                                       control.cancelled, each));
   measuring_.store(true);
-  RELIEVO_TRY_ASSIGN(report_, measure_targets(calibration_.calibration, photograph_, options_, control.cancelled, each));
+  RELIEVO_TRY_ASSIGN(
+      report_, measure_targets(calibration_.calibration, photograph_, options_, control.cancelled, each));
   if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
   return {};
 }

@@ -18,22 +18,24 @@ namespace relievo::firmware {
 
 struct OpticalCheckOptions {
   std::uint32_t seed = 1;
-  double scale = 1;              // of the pictures
+  double scale = 1;  // of the pictures
   int boards = 14;
   std::vector<TargetPlace> dumbbells = dumbbell_places();
   std::vector<TargetPlace> plates = plate_places();
   OpticalTargets targets;
-  ShowTarget show;               // empty: no pictures
+  ShowTarget show;  // empty: no pictures
 };
 
 // Every target of the options, with this calibration. `each` is called after every one.
-Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration, const Photograph& photograph,
-                                         const OpticalCheckOptions& options, const std::atomic<bool>& cancelled,
+Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration,
+                                         const Photograph& photograph, const OpticalCheckOptions& options,
+                                         const std::atomic<bool>& cancelled,
                                          const std::function<void()>& each);
 
 class OpticalCheckJob final : public Job {
  public:
-  OpticalCheckJob(Photograph photograph, OpticalCheckOptions options) : photograph_(std::move(photograph)), options_(std::move(options)) {}
+  OpticalCheckJob(Photograph photograph, OpticalCheckOptions options)
+      : photograph_(std::move(photograph)), options_(std::move(options)) {}
   Result<void> run(JobControl& control) override;
   std::string_view stage() const { return measuring_.load() ? "Measure" : "Calibrate"; }  // any thread
   const pipeline::CalibratorOutput& calibration() const { return calibration_; }

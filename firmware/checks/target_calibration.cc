@@ -18,8 +18,9 @@ Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline:
 
 }  // namespace
 
-Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photograph, const TargetShot& series, int boards,
-                                                       const std::atomic<bool>& cancelled, const std::function<void()>& each) {
+Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photograph, const TargetShot& series,
+                                                       int boards, const std::atomic<bool>& cancelled,
+                                                       const std::function<void()>& each) {
   pipeline::CalibratorInput input;
   input.pattern = {series.targets.board_columns, series.targets.board_rows, series.targets.square_mm};
   TargetShot shot = series;
@@ -38,7 +39,8 @@ Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photogr
   }
   RELIEVO_TRY_ASSIGN(auto output, pipeline::calibrate(input));
   if (output.quality.verdict == pipeline::CalibrationVerdict::Refuse)
-    return Error{Errc::PoorGeometry, "the calibration on the boards is refused: there is nothing to measure targets with"};
+    return Error{Errc::PoorGeometry,
+                 "the calibration on the boards is refused: there is nothing to measure targets with"};
   return output;
 }
 

@@ -16,7 +16,8 @@
 namespace relievo::firmware {
 
 // `each` is called after every board.
-Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photograph, const TargetShot& series, int boards,
-                                                       const std::atomic<bool>& cancelled, const std::function<void()>& each);
+Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photograph, const TargetShot& series,
+                                                       int boards, const std::atomic<bool>& cancelled,
+                                                       const std::function<void()>& each);
 
 }  // namespace relievo::firmware

@@ -14,8 +14,12 @@ using measure::Vec3d;
 
 struct TargetMeter::Room {
   Room(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
-      : memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), output(memory.output()), scratch(memory.scratch()),
-        pool(pool_size()), context{output, scratch, pool, progress, cancelled}, pipeline(std::move(stages)) {}
+      : memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+        output(memory.output()),
+        scratch(memory.scratch()),
+        pool(pool_size()),
+        context{output, scratch, pool, progress, cancelled},
+        pipeline(std::move(stages)) {}
   BootMemory memory;
   Arena output, scratch;
   ThreadPool pool;
@@ -29,7 +33,8 @@ TargetMeter::TargetMeter() = default;
 TargetMeter::TargetMeter(TargetMeter&&) noexcept = default;
 TargetMeter::~TargetMeter() = default;
 
-Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibration, const std::atomic<bool>& cancelled) {
+Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibration,
+                                      const std::atomic<bool>& cancelled) {
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("grid.min_area_mm2", "300"));  // a sphere of 20 mm, seen within 60 degrees
   RELIEVO_TRY_ASSIGN(auto stages, pipeline::Pipeline::make(set, calibration, {}, pipeline::Region::All));
@@ -41,7 +46,8 @@ Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibra
 Result<void> TargetMeter::take(const TargetPictures& pictures) {
   room_->pair.reset();
   room_->output.reset();
-  RELIEVO_TRY_ASSIGN(room_->pair, room_->pipeline.rectify({pictures.left.view(), pictures.right.view()}, room_->context));
+  RELIEVO_TRY_ASSIGN(room_->pair,
+                     room_->pipeline.rectify({pictures.left.view(), pictures.right.view()}, room_->context));
   return {};
 }
 
@@ -72,17 +78,19 @@ Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, d
   return points;
 }
 
-hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm, const std::vector<Vec3d>& points_mm,
+hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
+                                     const std::vector<Vec3d>& points_mm,
                                      const std::vector<double>& deviations_mm, double range_mm) const {
   const pipeline::RectifiedPair& pair = *room_->pair;
   const Circle circle = circle_around(centre_mm, reach_mm);
-  DeviationPicture picture(pair.left.rgb, pair.width_px, pair.height_px,
-                           {static_cast<int>(circle.x_px - circle.radius_px), static_cast<int>(circle.y_px - circle.radius_px),
-                            static_cast<int>(circle.x_px + circle.radius_px), static_cast<int>(circle.y_px + circle.radius_px)});
+  DeviationPicture picture(
+      pair.left.rgb, pair.width_px, pair.height_px,
+      {static_cast<int>(circle.x_px - circle.radius_px), static_cast<int>(circle.y_px - circle.radius_px),
+       static_cast<int>(circle.x_px + circle.radius_px), static_cast<int>(circle.y_px + circle.radius_px)});
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
-    picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x, pair.focal_px * p.y / p.z + pair.left_centre_px.y,
-                 deviations_mm[i] / range_mm);
+    picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
+                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviations_mm[i] / range_mm);
   }
   return picture.finish();
 }

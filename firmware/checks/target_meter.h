@@ -23,7 +23,8 @@ namespace relievo::firmware {
 
 class TargetMeter {
  public:
-  static Result<TargetMeter> make(const pipeline::StereoCalibration& calibration, const std::atomic<bool>& cancelled);
+  static Result<TargetMeter> make(const pipeline::StereoCalibration& calibration,
+                                  const std::atomic<bool>& cancelled);
   TargetMeter(TargetMeter&&) noexcept;
   ~TargetMeter();
 
@@ -34,15 +35,18 @@ class TargetMeter {
   Result<std::vector<measure::Vec3d>> surface_around(const measure::Vec3d& centre_mm, double reach_mm);
   // The rectified left view around the target, beside it the same with every point coloured by its
   // deviation: blue -range, white 0, red +range, and the scale below.
-  hal::Picture picture_of(const measure::Vec3d& centre_mm, double reach_mm, const std::vector<measure::Vec3d>& points_mm,
+  hal::Picture picture_of(const measure::Vec3d& centre_mm, double reach_mm,
+                          const std::vector<measure::Vec3d>& points_mm,
                           const std::vector<double>& deviations_mm, double range_mm) const;
 
  private:
-  struct Circle { double x_px = 0, y_px = 0, radius_px = 0; };
+  struct Circle {
+    double x_px = 0, y_px = 0, radius_px = 0;
+  };
   TargetMeter();
   Circle circle_around(const measure::Vec3d& centre_mm, double reach_mm) const;
 
-  struct Room;                       // memory, threads and the rectified pair: they stay where they are
+  struct Room;  // memory, threads and the rectified pair: they stay where they are
   std::unique_ptr<Room> room_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "firmware/checks/acceptance_report.h"
 #include "firmware/command/commands.h"
@@ -33,11 +34,16 @@ Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) 
       return {};
     };
   }
+  services.console.say("photographing " + std::to_string(options.boards) + " boards, " +
+                       std::to_string(options.dumbbells.size()) + " dumbbells and " +
+                       std::to_string(options.plates.size()) + " plates: a minute or two");
   OpticalCheckJob job(services.photograph, options);
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.stage(); }));
-  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality)) services.console.say(line);
+  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality))
+    services.console.say(line);
   if (folder) {
-    RELIEVO_TRY(write_text(folder->path() / "report.json", acceptance_json(job.report(), options, job.calibration().quality), args.output));
+    RELIEVO_TRY(write_text(folder->path() / "report.json",
+                           acceptance_json(job.report(), options, job.calibration().quality), args.output));
     RELIEVO_TRY(folder->commit());
     services.console.say("report and pictures: " + args.output.string());
   }

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kFewest = 20;
 
 const Error kTooFew{Errc::PoorGeometry, "too few points for a best fit: the target was hardly seen"};
-const Error kShapeless{Errc::PoorGeometry, "these points determine no sphere or plane: they do not lie on one surface"};
+const Error kShapeless{Errc::PoorGeometry,
+                       "these points determine no sphere or plane: they do not lie on one surface"};
 
 using Row4 = std::array<double, 4>;
 
@@ -70,7 +71,8 @@ Result<Sphere> guess_sphere(const std::vector<Vec3d>& points, const Vec3d& middl
   Row4 x{};
   if (!system.solve(x)) return kShapeless;
   const Vec3d centre{x[0] / 2, x[1] / 2, x[2] / 2};
-  return Sphere{sum(middle, scaled(centre, size)), size * std::sqrt(std::max(0.0, x[3] + dot(centre, centre)))};
+  return Sphere{sum(middle, scaled(centre, size)),
+                size * std::sqrt(std::max(0.0, x[3] + dot(centre, centre)))};
 }
 
 // The direction in which the points spread least: inverse iteration on their covariance.

@@ -20,8 +20,8 @@ struct Sphere {
 };
 
 struct Plane {
-  Vec3d point_mm;    // the middle of the points
-  Vec3d normal;      // unit length, towards -z
+  Vec3d point_mm;  // the middle of the points
+  Vec3d normal;    // unit length, towards -z
 };
 
 Result<Sphere> fit_sphere(const std::vector<Vec3d>& points_mm);
@@ -35,7 +35,7 @@ inline double deviation(const Plane& s, const Vec3d& p) { return dot(difference(
 template <typename Form>
 struct FormReading {
   Form form;
-  double range_mm = 0;             // largest minus smallest deviation of the points used
+  double range_mm = 0;  // largest minus smallest deviation of the points used
   double rms_mm = 0;
   std::size_t used = 0, discarded = 0;
 };

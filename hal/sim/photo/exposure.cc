@@ -105,7 +105,9 @@ LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions
 }
 
 Picture read_sensor(const LightPicture& light, const SensorOptions& s, std::uint64_t noise_seed) {
-  Random random(noise_seed);
+  // Hashed first: neighbouring seeds of Random are neighbouring places of one sequence, and the next
+  // frame's noise would be this one's, a channel further on.
+  Random random(Random(noise_seed).next());
   Picture out;
   out.width_px = light.width_px;
   out.height_px = light.height_px;

@@ -21,7 +21,8 @@ double meet_sphere(Vec3 o, Vec3 d, Vec3 centre, double radius) {
 
 // With the mantle of a cylinder along x from -half to half.
 double meet_rod(Vec3 o, Vec3 d, double half, double radius) {
-  const double a = d.y * d.y + d.z * d.z, b = o.y * d.y + o.z * d.z, c = o.y * o.y + o.z * o.z - radius * radius;
+  const double a = d.y * d.y + d.z * d.z, b = o.y * d.y + o.z * d.z,
+               c = o.y * o.y + o.z * o.z - radius * radius;
   const double root = b * b - a * c;
   if (a < 1e-12 || root < 0) return kNone;
   const double t = (-b - std::sqrt(root)) / a;
@@ -33,9 +34,11 @@ Vec3 grey(double v) { return {v, v, v * 0.98}; }
 }  // namespace
 
 Result<void> Dumbbell::check() const {
-  if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) || !(rod_radius_mm > 0) ||
-      !(rod_radius_mm < diameter_mm / 4))
-    return Error{Errc::InvalidInput, "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod thinner than half of one"};
+  if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) ||
+      !(rod_radius_mm > 0) || !(rod_radius_mm < diameter_mm / 4))
+    return Error{Errc::InvalidInput,
+                 "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
+                 "thinner than half of one"};
   return {};
 }
 
@@ -84,7 +87,8 @@ Sight DumbbellScene::look(Vec3 origin, Vec3 direction) const {
 bool DumbbellScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
   double distance = 0;
   Vec3 normal;
-  const Part part = meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance, normal);
+  const Part part =
+      meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance, normal);
   if (part == Part::None) return false;
   out.point = origin + direction * distance;
   out.normal = pose_.world_from_artefact * normal;
@@ -95,7 +99,9 @@ bool DumbbellScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
 bool DumbbellScene::blocked(Vec3 from, Vec3 direction, double far_mm) const {
   double distance = 0;
   Vec3 normal;
-  return meet(pose_.to_artefact(from), pose_.world_from_artefact.transposed() * direction, distance, normal) != Part::None && distance < far_mm;
+  return meet(pose_.to_artefact(from), pose_.world_from_artefact.transposed() * direction, distance,
+              normal) != Part::None &&
+         distance < far_mm;
 }
 
 Mesh DumbbellScene::solid_mesh() const {
@@ -107,7 +113,9 @@ Mesh DumbbellScene::solid_mesh() const {
     for (int j = 0; j <= kAlong; ++j)
       for (int i = 0; i < kAround; ++i) {
         const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
-        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)} * (dumbbell_.diameter_mm / 2);
+        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
+                                                std::sin(polar) * std::sin(turn), std::cos(polar)} *
+                                               (dumbbell_.diameter_mm / 2);
         mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
       }
     for (std::uint32_t j = 0; j < kAlong; ++j)
@@ -138,7 +146,8 @@ Sight PlateScene::look(Vec3 origin, Vec3 direction) const {
 
 bool PlateScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
   double distance = 0;
-  if (!meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance)) return false;
+  if (!meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance))
+    return false;
   out.point = origin + direction * distance;
   out.normal = pose_.world_from_artefact * Vec3{0, 0, -1};
   out.skin = true;

@@ -18,37 +18,37 @@ namespace relievo::hal::sim {
 
 struct ArtefactPose {
   Mat3 world_from_artefact;
-  Vec3 origin_mm;                    // of the artefact, in world
+  Vec3 origin_mm;  // of the artefact, in world
   Vec3 to_world(Vec3 p) const { return world_from_artefact * p + origin_mm; }
   Vec3 to_artefact(Vec3 p) const { return world_from_artefact.transposed() * (p - origin_mm); }
 };
 
 struct Dumbbell {
-  double diameter_mm = 60;           // of both spheres
-  double spacing_mm = 120;           // between their centres
+  double diameter_mm = 60;  // of both spheres
+  double spacing_mm = 120;  // between their centres
   double rod_radius_mm = 4;
-  std::uint32_t seed = 1;            // of the speckle
-  Result<void> check() const;        // InvalidInput
+  std::uint32_t seed = 1;      // of the speckle
+  Result<void> check() const;  // InvalidInput
 };
 
 struct FlatPlate {
   double width_mm = 240, height_mm = 180;
   std::uint32_t seed = 1;
-  Result<void> check() const;        // InvalidInput
+  Result<void> check() const;  // InvalidInput
 };
 
 class DumbbellScene final : public Scene {
  public:
   DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose) : dumbbell_(dumbbell), pose_(pose) {}
   Sight look(Vec3 origin, Vec3 direction) const override;
-  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;   // skin: the spheres
+  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;  // skin: the spheres
   bool blocked(Vec3 from, Vec3 direction, double far_mm) const override;
-  Mesh solid_mesh() const override;                                          // the spheres
-  Vec3 centre_mm(int sphere) const;                                          // 0 at -x, 1 at +x; in world
+  Mesh solid_mesh() const override;  // the spheres
+  Vec3 centre_mm(int sphere) const;  // 0 at -x, 1 at +x; in world
 
  private:
   enum class Part : std::int8_t { None, Sphere, Rod };
-  Part meet(Vec3 o, Vec3 d, double& distance, Vec3& normal) const;           // artefact frame
+  Part meet(Vec3 o, Vec3 d, double& distance, Vec3& normal) const;  // artefact frame
   Dumbbell dumbbell_;
   ArtefactPose pose_;
 };

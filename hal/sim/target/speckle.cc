@@ -15,7 +15,7 @@ constexpr double kPaper = 0.72, kInk = 0.07;
 double dots(Vec3 p_mm, double cell_mm, std::uint32_t seed) {
   const NearestDot near = nearest_dot(p_mm * (1 / cell_mm), seed);
   const double radius = 0.24 + 0.22 * unit_from_hash(near.hash * 747796405U + 1);
-  const double soft = 0.12 / cell_mm;               // sprayed ink has soft edges
+  const double soft = 0.12 / cell_mm;  // sprayed ink has soft edges
   return 1 - smoothstep(radius - soft, radius + soft, near.distance);
 }
 
@@ -24,7 +24,7 @@ struct Panel {
   double power;
 };
 constexpr std::array<Panel, 2> kPanels{Panel{{-330, -190, 40}, 0.62}, Panel{{470, -200, 60}, 0.46}};
-constexpr double kReferenceMm = 640;                // where a panel's power is what it says
+constexpr double kReferenceMm = 640;  // where a panel's power is what it says
 
 }  // namespace
 
@@ -34,7 +34,7 @@ double speckle(Vec3 p, std::uint32_t seed) {
 }
 
 double matt_light(Vec3 p, Vec3 normal) {
-  double light = 0.16 + 0.05 * -normal.y;           // the room, a little more of it from above
+  double light = 0.16 + 0.05 * -normal.y;  // the room, a little more of it from above
   for (const Panel& panel : kPanels) {
     const Vec3 to = panel.centre_mm - p;
     const double d = length(to);

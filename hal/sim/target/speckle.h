@@ -13,10 +13,10 @@
 
 namespace relievo::hal::sim {
 
-double speckle(Vec3 p_mm, std::uint32_t seed);   // reflectance, 0.06 .. 0.8
+double speckle(Vec3 p_mm, std::uint32_t seed);  // reflectance, 0.06 .. 0.8
 
 // How bright a matt surface stands there: two soft panels beside the cameras and the room's own light.
-double matt_light(Vec3 p_mm, Vec3 normal);       // in world; times reflectance
+double matt_light(Vec3 p_mm, Vec3 normal);  // in world; times reflectance
 
 // What is behind an artefact.
 Vec3 dark_room(Vec3 direction);

@@ -5,7 +5,9 @@
 namespace relievo::hal::sim {
 namespace {
 
-const Error kCut{Errc::PoorGeometry, "the simulated rig does not see the whole target: put it nearer to the middle, or further away"};
+const Error kCut{
+    Errc::PoorGeometry,
+    "the simulated rig does not see the whole target: put it nearer to the middle, or further away"};
 
 bool seen(const SimView& view, Vec3 p, double reach_mm) {
   const double depth = view.depth_mm(p);
@@ -15,9 +17,12 @@ bool seen(const SimView& view, Vec3 p, double reach_mm) {
   return q.x > edge && q.y > edge && q.x < view.width_px - 1 - edge && q.y < view.height_px - 1 - edge;
 }
 
-bool seen(const SimRig& rig, Vec3 p, double reach_mm) { return seen(rig.left, p, reach_mm) && seen(rig.right, p, reach_mm); }
+bool seen(const SimRig& rig, Vec3 p, double reach_mm) {
+  return seen(rig.left, p, reach_mm) && seen(rig.right, p, reach_mm);
+}
 
-PicturePair take(const Scene& scene, const SimRig& rig, const TargetPhotoOptions& options, std::uint64_t noise) {
+PicturePair take(const Scene& scene, const SimRig& rig, const TargetPhotoOptions& options,
+                 std::uint64_t noise) {
   ThreadPool pool(options.threads);
   return render_pair(scene, rig, options.sensor, options.seed * 100000ULL + noise, pool);
 }
@@ -33,20 +38,25 @@ std::uint64_t noise_of(const ArtefactPlace& p) {
 }  // namespace
 
 ArtefactPose ArtefactPlace::pose() const {
-  return {rotation(radians(pitch_deg), radians(yaw_deg), radians(roll_deg)), {right_mm, down_mm, distance_mm}};
+  return {rotation(radians(pitch_deg), radians(yaw_deg), radians(roll_deg)),
+          {right_mm, down_mm, distance_mm}};
 }
 
-Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const BoardPattern& board, int number, int count) {
+Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const BoardPattern& board, int number,
+                                     int count) {
   RELIEVO_TRY(options.rig.check());
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY_ASSIGN(const auto poses, good_board_poses(rig, board, count, options.seed));
-  if (number < 0 || number >= count) return Error{Errc::InvalidInput, "there is no board of this number in the series"};
+  if (number < 0 || number >= count)
+    return Error{Errc::InvalidInput, "there is no board of this number in the series"};
   TargetPhotoOptions grey = options;
   grey.sensor.grey = true;
-  return take(BoardScene(board, poses[static_cast<std::size_t>(number)]), rig, grey, static_cast<std::uint64_t>(number));
+  return take(BoardScene(board, poses[static_cast<std::size_t>(number)]), rig, grey,
+              static_cast<std::uint64_t>(number));
 }
 
-Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const Dumbbell& dumbbell, const ArtefactPlace& place) {
+Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const Dumbbell& dumbbell,
+                                        const ArtefactPlace& place) {
   RELIEVO_TRY(options.rig.check());
   RELIEVO_TRY(dumbbell.check());
   const SimRig rig = make_rig(options.rig);
@@ -56,7 +66,8 @@ Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const
   return take(scene, rig, options, noise_of(place));
 }
 
-Result<PicturePair> photograph_plate(const TargetPhotoOptions& options, const FlatPlate& plate, const ArtefactPlace& place) {
+Result<PicturePair> photograph_plate(const TargetPhotoOptions& options, const FlatPlate& plate,
+                                     const ArtefactPlace& place) {
   RELIEVO_TRY(options.rig.check());
   RELIEVO_TRY(plate.check());
   const SimRig rig = make_rig(options.rig);

@@ -16,7 +16,7 @@ namespace relievo::hal::sim {
 struct TargetPhotoOptions {
   RigOptions rig;
   SensorOptions sensor;
-  std::uint32_t seed = 1;          // of the noise, and of the boards' poses
+  std::uint32_t seed = 1;  // of the noise, and of the boards' poses
   int threads = 2;
 };
 
@@ -28,8 +28,11 @@ struct ArtefactPlace {
 };
 
 // The `number`th of `count` boards in good poses (good_board_poses), in grey.
-Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const BoardPattern& board, int number, int count);
-Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const Dumbbell& dumbbell, const ArtefactPlace& place);
-Result<PicturePair> photograph_plate(const TargetPhotoOptions& options, const FlatPlate& plate, const ArtefactPlace& place);
+Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const BoardPattern& board, int number,
+                                     int count);
+Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const Dumbbell& dumbbell,
+                                        const ArtefactPlace& place);
+Result<PicturePair> photograph_plate(const TargetPhotoOptions& options, const FlatPlate& plate,
+                                     const ArtefactPlace& place);
 
 }  // namespace relievo::hal::sim

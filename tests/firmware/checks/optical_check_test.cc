@@ -37,13 +37,15 @@ OpticalCheckOptions few() {
   return o;
 }
 
-Result<AcceptanceReport> measured(const pipeline::StereoCalibration& calibration, const OpticalCheckOptions& options, const TargetRig& rig = {}) {
+Result<AcceptanceReport> measured(const pipeline::StereoCalibration& calibration,
+                                  const OpticalCheckOptions& options, const TargetRig& rig = {}) {
   const std::atomic<bool> never{false};
   return measure_targets(calibration, rig, options, never, [] {});
 }
 
 const AcceptanceLine& line_of(const std::vector<AcceptanceLine>& lines, const std::string& name) {
-  return *std::find_if(lines.begin(), lines.end(), [&](const AcceptanceLine& l) { return l.measure == name; });
+  return *std::find_if(lines.begin(), lines.end(),
+                       [&](const AcceptanceLine& l) { return l.measure == name; });
 }
 
 TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
@@ -58,7 +60,8 @@ TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
   const auto report = measured(calibrated(), options);
   ASSERT_TRUE(report) << report.error().where() << ": " << report.error().what.view();
   for (const AcceptanceLine& line : report->lines(limits_at(kScale)))
-    EXPECT_TRUE(line.held()) << line.measure << " " << line.value_mm << " mm, limit " << line.limit_mm << " at " << line.where;
+    EXPECT_TRUE(line.held()) << line.measure << " " << line.value_mm << " mm, limit " << line.limit_mm
+                             << " at " << line.where;
   EXPECT_TRUE(report->verdict(limits_at(kScale)));
   ASSERT_EQ(report->targets.size(), 5U);
   ASSERT_EQ(report->spacings.size(), 2U);
@@ -66,11 +69,13 @@ TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
     const auto truth = left_from_target(few().dumbbells[k / 2], {k % 2 == 0 ? -60.0 : 60.0, 0, 0});
     EXPECT_LT(measure::distance(report->targets[k].centre_mm, truth), 1.0) << report->targets[k].name;
     EXPECT_GT(report->targets[k].used, 2000U);
-    EXPECT_LE(static_cast<double>(report->targets[k].discarded), kDiscardShare * static_cast<double>(report->targets[k].used + report->targets[k].discarded));
+    EXPECT_LE(static_cast<double>(report->targets[k].discarded),
+              kDiscardShare * static_cast<double>(report->targets[k].used + report->targets[k].discarded));
     EXPECT_LT(report->targets[k].used, report->targets[k].measured);
   }
   EXPECT_GT(report->targets[4].used, 20000U);
-  EXPECT_EQ(names, (std::vector<std::string>{"dumbbell 1 a", "dumbbell 1 b", "dumbbell 2 a", "dumbbell 2 b", "plate 1"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"dumbbell 1 a", "dumbbell 1 b", "dumbbell 2 a", "dumbbell 2 b",
+                                             "plate 1"}));
 }
 
 TEST(OpticalCheck, ABaselineWrongByOnePercentFailsTheSphereSpacing) {
@@ -84,7 +89,7 @@ TEST(OpticalCheck, ABaselineWrongByOnePercentFailsTheSphereSpacing) {
   ASSERT_TRUE(report);
   const auto lines = report->lines(limits_at(kScale));
   EXPECT_FALSE(line_of(lines, "sphere spacing").held());
-  EXPECT_NEAR(line_of(lines, "sphere spacing").value_mm, 1.2, 0.2);   // one percent of 120 mm
+  EXPECT_NEAR(line_of(lines, "sphere spacing").value_mm, 1.2, 0.2);  // one percent of 120 mm
   EXPECT_FALSE(report->verdict(limits_at(kScale)));
 }
 
@@ -128,12 +133,16 @@ TEST(OpticalCheck, ATargetThatCannotBeMeasuredIsNamed) {
   EXPECT_EQ(cut.error().code, Errc::PoorGeometry);
   // A speckle as good as blank: nothing to match, and the error says where.
   const std::atomic<bool> never{false};
-  const auto blank = measure_targets(calibrated(), [](const TargetShot& shot) {
-    auto pictures = TargetRig{}(shot);
-    if (pictures)
-      for (hal::Picture* p : {&pictures->left, &pictures->right}) std::fill(p->bytes.begin(), p->bytes.end(), std::byte{90});
-    return pictures;
-  }, options, never, [] {});
+  const auto blank = measure_targets(
+      calibrated(),
+      [](const TargetShot& shot) {
+        auto pictures = TargetRig{}(shot);
+        if (pictures)
+          for (hal::Picture* p : {&pictures->left, &pictures->right})
+            std::fill(p->bytes.begin(), p->bytes.end(), std::byte{90});
+        return pictures;
+      },
+      options, never, [] {});
   ASSERT_FALSE(blank);
   EXPECT_EQ(blank.error().where(), "dumbbell 1 a");
 }

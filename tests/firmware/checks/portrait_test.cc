@@ -64,7 +64,8 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
   ASSERT_TRUE(hal::sim::render_to_folder(face, folder.path()));
   Reconstruction reconstruction;
   Console console;
-  const auto done = reconstruction.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig_calibrated.yml", {}, console);
+  const auto done = reconstruction.run(folder.path() / "left.png", folder.path() / "right.png",
+                                       folder.path() / "rig_calibrated.yml", {}, console);
   ASSERT_TRUE(done) << done.error().what.view();
   const auto view = measure::TruthView::read(folder.path());
   const auto surface = measure::read_true_surface(folder.path() / "head.ply");
@@ -75,10 +76,13 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
   EXPECT_GT(m.complete_1mm, 0.85);
   EXPECT_LT(m.outliers_3mm, 0.03);
   const pipeline::ModelQuality& q = reconstruction.report().quality;
-  EXPECT_GT(q.height_mm, 1.1 * q.width_mm);            // a face stands upright in its frame
+  EXPECT_GT(q.height_mm, 1.1 * q.width_mm);  // a face stands upright in its frame
   EXPECT_GT(q.nose_relief_mm, 10);
-  std::printf("portrait: interior median %.3f mm, p95 %.3f mm, complete at 0.5 and 1 mm %.3f %.3f, outliers %.4f, %.0f x %.0f mm\n",
-              m.interior_median_mm, m.accuracy_p95_mm, m.complete_half_mm, m.complete_1mm, m.outliers_3mm, q.width_mm, q.height_mm);
+  std::printf(
+      "portrait: interior median %.3f mm, p95 %.3f mm, complete at 0.5 and 1 mm %.3f %.3f, outliers %.4f, "
+      "%.0f x %.0f mm\n",
+      m.interior_median_mm, m.accuracy_p95_mm, m.complete_half_mm, m.complete_1mm, m.outliers_3mm, q.width_mm,
+      q.height_mm);
 }
 
 }  // namespace

@@ -28,12 +28,16 @@ struct TargetRig {
   Result<TargetPictures> operator()(const TargetShot& shot) const {
     const OpticalTargets& t = true_targets ? *true_targets : shot.targets;
     const TargetPlace& p = shot.place;
-    const hal::sim::ArtefactPlace place{p.right_mm, p.down_mm, p.distance_mm, p.pitch_deg, p.yaw_deg, p.roll_deg};
+    const hal::sim::ArtefactPlace place{p.right_mm,  p.down_mm, p.distance_mm,
+                                        p.pitch_deg, p.yaw_deg, p.roll_deg};
     const auto take = [&]() -> Result<hal::sim::PicturePair> {
       if (shot.kind == TargetKind::Board)
-        return photograph_board(options(shot), {t.board_columns, t.board_rows, t.square_mm}, shot.number, shot.count);
+        return photograph_board(options(shot), {t.board_columns, t.board_rows, t.square_mm}, shot.number,
+                                shot.count);
       if (shot.kind == TargetKind::Dumbbell)
-        return photograph_dumbbell(options(shot), {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed}, place);
+        return photograph_dumbbell(
+            options(shot), {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed},
+            place);
       return photograph_plate(options(shot), {t.plate_width_mm, t.plate_height_mm, shot.seed}, place);
     };
     RELIEVO_TRY_ASSIGN(auto pair, take());

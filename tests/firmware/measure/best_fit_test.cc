@@ -61,7 +61,7 @@ TEST(FitPlane, FindsAnExactOneTowardsTheCamera) {
 
 TEST(ReadForm, TheRangeIsThatOfThePointsThatWereKept) {
   std::vector<Vec3d> points = plate(1000, 0);
-  for (std::size_t k : {3U, 77U, 500U}) points[k].z += 9;   // 3 in 1000
+  for (std::size_t k : {3U, 77U, 500U}) points[k].z += 9;  // 3 in 1000
   const auto all = read_plane(points, 0), most = read_plane(points, 0.003);
   ASSERT_TRUE(all && most);
   EXPECT_GT(all->range_mm, 7);
@@ -73,7 +73,8 @@ TEST(ReadForm, TheRangeIsThatOfThePointsThatWereKept) {
 
 TEST(ReadForm, FourOutliersAreOneMoreThanMayGo) {
   std::vector<Vec3d> points = cap(1000, 0);
-  for (std::size_t k : {3U, 77U, 500U, 900U}) points[k] = sum(kCentre, scaled(difference(points[k], kCentre), 1.1));
+  for (std::size_t k : {3U, 77U, 500U, 900U})
+    points[k] = sum(kCentre, scaled(difference(points[k], kCentre), 1.1));
   const auto most = read_sphere(points, 0.003);
   ASSERT_TRUE(most);
   EXPECT_NEAR(most->range_mm, 0.1 * kRadius, 0.1);
@@ -93,7 +94,7 @@ TEST(ReadForm, PointsThatDetermineNothingAreAnError) {
   EXPECT_EQ(fit_plane(point).error().code, Errc::PoorGeometry);
   EXPECT_EQ(fit_sphere(line).error().code, Errc::PoorGeometry);
   EXPECT_EQ(fit_sphere(point).error().code, Errc::PoorGeometry);
-  EXPECT_EQ(fit_sphere(plate(500, 0)).error().code, Errc::PoorGeometry);   // a plane is a sphere without end
+  EXPECT_EQ(fit_sphere(plate(500, 0)).error().code, Errc::PoorGeometry);  // a plane is a sphere without end
 }
 
 }  // namespace

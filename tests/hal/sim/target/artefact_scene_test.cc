@@ -37,7 +37,8 @@ TEST(DumbbellScene, EveryPointMetLiesOnASphereOrTheRod) {
     if (!scene.solid({0, 0, 0}, ray, s)) continue;
     EXPECT_LT(dot(s.normal, ray), 0);
     const Vec3 p = turned().to_artefact(s.point);
-    const double to_sphere = std::min(length(s.point - scene.centre_mm(0)), length(s.point - scene.centre_mm(1)));
+    const double to_sphere =
+        std::min(length(s.point - scene.centre_mm(0)), length(s.point - scene.centre_mm(1)));
     if (s.skin) {
       ++spheres;
       EXPECT_NEAR(to_sphere, dumbbell.diameter_mm / 2, 1e-6);
@@ -82,7 +83,8 @@ TEST(ArtefactScenes, TheMeshIsTheSurface) {
   }
   const PlateScene plate(FlatPlate{}, turned());
   for (const auto& p : plate.solid_mesh().points) {
-    const Vec3 at = turned().to_artefact({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+    const Vec3 at = turned().to_artefact(
+        {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
     EXPECT_NEAR(at.z, 0, 1e-3);
   }
 }
@@ -101,10 +103,10 @@ TEST(Speckle, IsThereAtEverySizeAndDiffersFromSeedToSeed) {
     other += v * speckle(p, 2);
   }
   const double mean = sum / kCount, variance = squares / kCount - mean * mean;
-  EXPECT_GT(std::sqrt(variance), 0.2);                            // strong
+  EXPECT_GT(std::sqrt(variance), 0.2);                                // strong
   EXPECT_LT(std::abs(other / kCount - mean * mean), 0.1 * variance);  // and another one
   EXPECT_GT(mean, 0.25);
-  EXPECT_LT(mean, 0.55);                                          // half ink, half paper
+  EXPECT_LT(mean, 0.55);  // half ink, half paper
 }
 
 // Grey levels of the picture inside the plate's middle, for what a matcher can work with.
@@ -115,7 +117,8 @@ TEST(TargetPhotos, AreNeitherBlackNorBurntOut) {
     int burnt = 0, dark = 0, light = 0, count = 0;
     for (int y = 110; y < 190; ++y)
       for (int x = 180; x < 300; ++x) {
-        const auto level = static_cast<int>(picture->bytes[3 * static_cast<std::size_t>(y * picture->width_px + x) + 1]);
+        const auto level =
+            static_cast<int>(picture->bytes[3 * static_cast<std::size_t>(y * picture->width_px + x) + 1]);
         burnt += level > 250;
         dark += level < 130;
         light += level > 170;
@@ -128,7 +131,8 @@ TEST(TargetPhotos, AreNeitherBlackNorBurntOut) {
 }
 
 TEST(TargetPhotos, TheSameNumbersGiveTheSamePicture) {
-  const auto a = photograph_dumbbell(small(), Dumbbell{}, {}), b = photograph_dumbbell(small(), Dumbbell{}, {});
+  const auto a = photograph_dumbbell(small(), Dumbbell{}, {}),
+             b = photograph_dumbbell(small(), Dumbbell{}, {});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->left.bytes, b->left.bytes);
   TargetPhotoOptions other = small();
@@ -139,7 +143,8 @@ TEST(TargetPhotos, TheSameNumbersGiveTheSamePicture) {
 }
 
 TEST(TargetPhotos, WhatTheRigDoesNotSeeWholeIsRefused) {
-  EXPECT_EQ(photograph_dumbbell(small(), Dumbbell{}, {150, 0, 560, 0, 0, 0}).error().code, Errc::PoorGeometry);
+  EXPECT_EQ(photograph_dumbbell(small(), Dumbbell{}, {150, 0, 560, 0, 0, 0}).error().code,
+            Errc::PoorGeometry);
   EXPECT_EQ(photograph_plate(small(), FlatPlate{}, {0, 120, 560, 0, 0, 0}).error().code, Errc::PoorGeometry);
   EXPECT_EQ(photograph_board(small(), {40, 40, 20}, 0, 4).error().code, Errc::PoorGeometry);
   EXPECT_EQ(photograph_dumbbell(small(), Dumbbell{60, 50}, {}).error().code, Errc::InvalidInput);
