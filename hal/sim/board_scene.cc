@@ -3,61 +3,98 @@
 #include "hal/sim/board_scene.h"
 
 #include "hal/sim/noise.h"
+#include "hal/sim/photo/ray_caster.h"
 
 namespace relievo::hal::sim {
 namespace {
 
-constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10;
+constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10, kHand = 0.33;
+constexpr int kSamples = 128;           // of a pixel that sees an edge
+constexpr double kGolden = 0.6180339887498949;
 
-bool seen_whole(const SimView& view, const BoardPattern& b, const BoardPose& pose) {
-  for (const double x : {-1.0, static_cast<double>(b.corners_x)})
-    for (const double y : {-1.0, static_cast<double>(b.corners_y)}) {
-      const Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
-      if (view.depth_mm(p) < 50) return false;
-      const Pixel q = view.project(p);
-      if (q.x < 6 || q.y < 6 || q.x > view.width_px - 7 || q.y > view.height_px - 7) return false;
-    }
-  return true;
-}
+Vec3 across(Vec3 direction) { return normalised(Vec3{direction.z, 0, -direction.x}); }
 
 }  // namespace
 
-Result<void> BoardPattern::check() const {
-  if (corners_x < 3 || corners_y < 3 || corners_x > 60 || corners_y > 60)
-    return Error{Errc::InvalidInput, "a board has between 3 and 60 inner corners a side"};
-  if (!(square_mm > 1) || !(square_mm < 500)) return Error{Errc::InvalidInput, "the squares of a board measure between 1 and 500 mm"};
+Result<void> BoardLook::check() const {
+  for (const double share : {lamp, shadow, cover})
+    if (!(share >= 0) || !(share <= 0.98)) return Error{Errc::InvalidInput, "lamp, shadow and cover are shares from 0 to 0.98"};
+  if (!(highlight >= 0) || !(highlight <= 20)) return Error{Errc::InvalidInput, "a highlight is 0 to 20 times as bright as paper"};
   return {};
 }
 
-bool BoardScene::meet(Vec3 origin, Vec3 direction, double& distance, double& x, double& y) const {
+BoardScene::BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look, double pixel_rad)
+    : pattern_(pattern), print_(pattern), pose_(pose), look_(look), pixel_rad_(pixel_rad) {}
+
+bool BoardScene::meet(Vec3 origin, Vec3 direction, Hit& hit) const {
   const Mat3 board_from_world = pose_.world_from_board.transposed();
   const Vec3 o = board_from_world * (origin - pose_.origin_mm), d = board_from_world * direction;
   if (std::abs(d.z) < 1e-9) return false;
-  distance = -o.z / d.z;
-  x = o.x + distance * d.x;
-  y = o.y + distance * d.y;
+  hit.distance = -o.z / d.z;
+  hit.x = o.x + hit.distance * d.x;
+  hit.y = o.y + hit.distance * d.y;
   const double low = -pattern_.square_mm - pattern_.margin_mm;
-  return distance > 0 && x > low && y > low && x < pattern_.corners_x * pattern_.square_mm + pattern_.margin_mm &&
-         y < pattern_.corners_y * pattern_.square_mm + pattern_.margin_mm;
+  return hit.distance > 0 && hit.x > low && hit.y > low && hit.x < pattern_.corners_x * pattern_.square_mm + pattern_.margin_mm &&
+         hit.y < pattern_.corners_y * pattern_.square_mm + pattern_.margin_mm;
+}
+
+// A round hand that comes from the right, a third of the board high.
+bool BoardScene::covered(const Hit& hit) const {
+  if (look_.cover <= 0) return false;
+  const double w = (pattern_.corners_x + 1) * pattern_.square_mm, h = (pattern_.corners_y + 1) * pattern_.square_mm;
+  const double radius = h / 3, reach = pattern_.corners_x * pattern_.square_mm - look_.cover * w + radius;
+  const double y = hit.y - 0.3 * pattern_.corners_y * pattern_.square_mm, x = std::min(hit.x - reach, 0.0);
+  return x * x + y * y < radius * radius;
+}
+
+double BoardScene::light(Vec3 origin, Vec3 direction, const Hit& hit) const {
+  const double w = (pattern_.corners_x + 1) * pattern_.square_mm, h = (pattern_.corners_y + 1) * pattern_.square_mm;
+  const double u = hit.x / w, v = hit.y / h;
+  const Vec3 p = origin + direction * hit.distance;
+  const Vec3 normal{pose_.world_from_board.row[0].z, pose_.world_from_board.row[1].z, pose_.world_from_board.row[2].z};
+  double lit = 0.55 + 0.45 * std::abs(dot(normal, normalised(p - Vec3{-200, -200, 0})));
+  lit *= 1 - look_.lamp * clamp01(u);
+  // The shadow's rim is a few millimetres wide.
+  lit *= 1 - look_.shadow * smoothstep(0.66, 0.68, u + 0.35 * (v - 0.5));
+  return lit * (1 + 0.01 * value_noise(p * 0.02, 5));
+}
+
+double BoardScene::dark_share(Vec3 origin, Vec3 direction, const Hit& hit) const {
+  const BoardPrint::Spot middle = print_.at(hit.x, hit.y);
+  if (pixel_rad_ <= 0) return middle.dark ? 1 : 0;
+  const Vec3 right = across(direction) * pixel_rad_, down = cross(direction, across(direction)) * pixel_rad_;
+  const auto spot = [&](double u, double v) {
+    Hit at;
+    return meet(origin, direction + right * u + down * v, at) ? print_.at(at.x, at.y) : BoardPrint::Spot{false, -1};
+  };
+  bool even = true;
+  for (int k = 0; k < 4 && even; ++k) even = spot(k % 2 - 0.5, k / 2 - 0.5).cell == middle.cell;
+  if (even) return middle.dark ? 1 : 0;
+  int dark = 0;
+  // In pairs across the middle: no direction is favoured.
+  for (int k = 0; k < kSamples / 2; ++k) {
+    const double u = (k + 0.5) / kSamples, v = k * kGolden - std::floor(k * kGolden) - 0.5;
+    dark += (spot(u, v).dark ? 1 : 0) + (spot(-u, -v).dark ? 1 : 0);
+  }
+  return static_cast<double>(dark) / kSamples;
 }
 
 Sight BoardScene::look(Vec3 origin, Vec3 direction) const {
-  double distance = 0, x = 0, y = 0;
-  if (!meet(origin, direction, distance, x, y)) return {{kRoom, kRoom, kRoom}, RayCaster::kFar, -1, false};
-  const double sx = x / pattern_.square_mm, sy = y / pattern_.square_mm;
-  const bool printed = sx > -1 && sy > -1 && sx < pattern_.corners_x && sy < pattern_.corners_y;
-  const int parity = (static_cast<int>(std::floor(sx)) + static_cast<int>(std::floor(sy))) & 1;
-  const Vec3 p = origin + direction * distance;
-  const Vec3 normal{pose_.world_from_board.row[0].z, pose_.world_from_board.row[1].z, pose_.world_from_board.row[2].z};
-  const double lit = 0.55 + 0.45 * std::abs(dot(normal, normalised(p - Vec3{-200, -200, 0})));
-  const double v = (printed && parity == 0 ? kBlack : kWhite) * lit * (1 + 0.01 * value_noise(p * 0.02, 5));
-  return {{v, v, v}, distance, printed ? parity : 2, false};
+  Hit hit;
+  if (!meet(origin, direction, hit)) return {{kRoom, kRoom, kRoom}, RayCaster::kFar, -1, false};
+  const double lit = light(origin, direction, hit);
+  if (covered(hit)) return {{kHand * lit, kHand * lit, kHand * lit}, hit.distance, 3, false};
+  const double dark = dark_share(origin, direction, hit);
+  const double x = hit.x / pattern_.square_mm - 0.4 * pattern_.corners_x, y = hit.y / pattern_.square_mm - 0.4 * pattern_.corners_y;
+  const double v = mix(kWhite, kBlack, dark) * lit + look_.highlight * kWhite * gauss(std::sqrt(x * x + y * y) / 0.7);
+  const std::int32_t body = pixel_rad_ > 0 ? 0 : dark > 0.5 ? 1 : 2;
+  return {{v, v, v}, hit.distance, body, false};
 }
 
 bool BoardScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
-  double distance = 0, x = 0, y = 0;
-  if (!meet(origin, direction, distance, x, y)) return false;
-  out.point = origin + direction * distance;
+  Hit hit;
+  if (!meet(origin, direction, hit)) return false;
+  out.point = origin + direction * hit.distance;
   out.normal = pose_.world_from_board * Vec3{0, 0, -1};
   out.skin = false;
   return true;
@@ -73,28 +110,6 @@ Mesh BoardScene::solid_mesh() const {
   }
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   return mesh;
-}
-
-Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPattern& b, int count, std::uint32_t seed, double distance_mm) {
-  RELIEVO_TRY(b.check());
-  Random random(seed + 0xb0a4dULL);
-  std::vector<BoardPose> poses;
-  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
-  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
-  for (int tries = 0; static_cast<int>(poses.size()) < count && tries < 20000; ++tries) {
-    const auto k = static_cast<int>(poses.size());
-    // Tilts go round the compass, so that no direction is left out by chance.
-    const double compass = 6.283185307 * k / std::max(count, 1) * 3 + random.uniform(-0.3, 0.3), tilt = k == 0 ? 0.03 : random.uniform(0.25, 0.6);
-    const double spread = 1.0 - 0.9 * std::min(1.0, tries / 15000.0);
-    BoardPose pose;
-    pose.world_from_board = rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.35, 0.35));
-    const Vec3 centre = aim * (distance_mm + random.uniform(-60, 110) + 4e-3 * tries) + Vec3{random.uniform(-70, 70), random.uniform(-42, 42), 0} * spread;
-    pose.origin_mm = centre - pose.world_from_board * middle;
-    if (seen_whole(rig.left, b, pose) && seen_whole(rig.right, b, pose)) poses.push_back(pose);
-  }
-  if (static_cast<int>(poses.size()) < count)
-    return Error{Errc::PoorGeometry, "this rig does not see the whole board; choose fewer or smaller squares"};
-  return poses;
 }
 
 }  // namespace relievo::hal::sim

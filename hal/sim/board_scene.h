@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A printed chessboard in any pose. Board frame: origin in the first inner corner, x along a row
+// A printed board in any pose and light. Board frame: origin in the first inner corner, x along a row
 // of corners, y down the rows, z into the board; mm.
 #pragma once
 
@@ -9,17 +9,11 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "hal/sim/board_print.h"
 #include "hal/sim/rig.h"
 #include "hal/sim/scene.h"
 
 namespace relievo::hal::sim {
-
-struct BoardPattern {
-  int corners_x = 10, corners_y = 7;   // inner corners
-  double square_mm = 20;
-  double margin_mm = 15;               // white, around the outer squares
-  Result<void> check() const;
-};
 
 struct BoardPose {
   Mat3 world_from_board;
@@ -27,18 +21,39 @@ struct BoardPose {
   Vec3 to_world(Vec3 p) const { return world_from_board * p + origin_mm; }
 };
 
+// What a calibration has to bear; all 0: an even light on a clean board.
+struct BoardLook {
+  double lamp = 0;       // share of the light lost from the board's left edge to its right
+  double shadow = 0;     // share of the light lost in a shadow over a slanting third of the board
+  double highlight = 0;  // a lamp's mirror image, half a square wide, in units of white paper
+  double cover = 0;      // share of the board's width that a hand reaches over it from the right
+  Result<void> check() const;          // InvalidInput
+};
+
 class BoardScene final : public Scene {
  public:
-  BoardScene(const BoardPattern& pattern, const BoardPose& pose) : pattern_(pattern), pose_(pose) {}
+  // Where `pixel_rad`, the angle of a pixel, is given, a ray collects the light of a whole pixel, and
+  // the camera needs no more than one.
+  BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look = {}, double pixel_rad = 0);
   Sight look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
   bool blocked(Vec3, Vec3, double) const override { return false; }
   Mesh solid_mesh() const override;
 
  private:
-  bool meet(Vec3 origin, Vec3 direction, double& distance, double& x, double& y) const;
+  struct Hit {
+    double distance = 0, x = 0, y = 0;  // mm, on the board
+  };
+  bool meet(Vec3 origin, Vec3 direction, Hit& hit) const;
+  bool covered(const Hit& hit) const;
+  double light(Vec3 origin, Vec3 direction, const Hit& hit) const;
+  double dark_share(Vec3 origin, Vec3 direction, const Hit& hit) const;
+
   BoardPattern pattern_;
+  BoardPrint print_;
   BoardPose pose_;
+  BoardLook look_;
+  double pixel_rad_;
 };
 
 // Poses that show the whole board to both cameras, tilted and spread as a good calibration wants.

@@ -34,7 +34,7 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   SensorOptions sensor = o.sensor;
   sensor.grey = true;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const BoardScene scene(o.board, poses[k]);
+    const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
     RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder, text("_%02d", static_cast<int>(k))));
   }
   return {};
@@ -53,6 +53,7 @@ Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const st
 Result<void> SimulationOptions::check() const {
   RELIEVO_TRY(rig.check());
   RELIEVO_TRY(board.check());
+  RELIEVO_TRY(board_look.check());
   if (board_poses < 1 || board_poses > 200) return Error{Errc::InvalidInput, "choose between 1 and 200 board poses"};
   if (!(std::abs(pose.yaw_deg) <= 60) || !(std::abs(pose.pitch_deg) <= 45) || !(std::abs(pose.roll_deg) <= 60))
     return Error{Errc::InvalidInput, "a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees"};

@@ -23,6 +23,7 @@ struct SimulationOptions {
   std::uint32_t seed = 1;         // the person, or the set of board poses
   HeadPose pose;
   BoardPattern board;
+  BoardLook board_look;
   int board_poses = 14;
   bool board_in_this_pose = false;  // one pair, of the board in `pose`, instead of many poses by seed
   RigOptions rig;
