@@ -18,6 +18,9 @@ namespace {
 // A corner this many standard deviations off is no noise; a board with more than this share of such
 // corners was wrongly found, or its paper is loose.
 constexpr double kStrayCorner = 6;
+// Nor is a corner a stray that is as near as this: pixels do not show a sharp edge any better that runs
+// exactly along them, however quiet the other corners are.
+constexpr double kLeastStrayPx = 0.05;
 constexpr double kLooseShare = 0.15;
 
 Result<void> check_input(const CalibratorInput& input) {
@@ -75,7 +78,7 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end());
   constexpr double kMedianOfDistance = 1.1774;  // in standard deviations of one coordinate
-  Strays strays{std::max(kStrayCorner * *middle / kMedianOfDistance, 1e-3), {}};
+  Strays strays{std::max(kStrayCorner * *middle / kMedianOfDistance, kLeastStrayPx), {}};
   for (const auto& view : off) {
     auto& of_view = strays.of_view.emplace_back();
     for (std::size_t i = 0; i < view.size(); ++i)

@@ -1,14 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Finds the inner corners of a printed chessboard, to a few hundredths of a pixel.
+// Finds the inner corners of a printed board, to about a hundredth of a pixel, in tens of milliseconds.
 //
-// Corners come row by row, `columns` in each row, as the board is seen; which end the order begins
-// at is open (a board turned by half looks the same), so pair_order() makes left and right agree.
+// A chessboard must be in the picture whole, but for a few corners under a highlight or a shadow's
+// rim. Of a ChArUco board any part will do that shows two markers: the markers say which part it is.
+//
+// Corners come row by row, `columns` in each row. A ChArUco board's first corner is always the same
+// one. A chessboard's first corner is the one beside a black corner square where only one turn has it
+// there (columns + rows odd: 10x7); what the colours leave open, half turns, and quarter turns of a
+// board with as many columns as rows, is chosen as the board is seen, and pair_order() makes left and
+// right agree.
 // Pixels, (0, 0) the centre of the top left pixel.
 // Thread: any.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hal/base/image_view.h"
@@ -17,12 +24,24 @@
 
 namespace relievo::pipeline {
 
+enum class BoardKind : std::uint8_t { Chessboard, Charuco };
+
+// A ChArUco board is laid out as OpenCV 4.6 and later draw it: the top left square is black, the
+// markers in the white squares are numbered row by row, out of OpenCV's dictionary of that size.
 struct BoardPattern {
   int columns = 10;  // inner corners, as everywhere in OpenCV
   int rows = 7;
   double square_mm = 20;
+  BoardKind kind = BoardKind::Chessboard;
+  double marker_mm = 0;  // ChArUco: side of a marker; 0: kMarkerShare of a square
+  int marker_bits = 4;   // ChArUco: a side, 4 to 7; the dictionary of 1000 markers of that size
+
+  // Leaves the white rim that edges need, and markers large enough to be read from afar.
+  static constexpr double kMarkerShare = 0.7;
 
   int corners() const { return columns * rows; }
+  int markers() const { return (columns + 1) * (rows + 1) / 2; }
+  double marker_side_mm() const { return marker_mm > 0 ? marker_mm : kMarkerShare * square_mm; }
   Result<void> check() const;
 };
 
@@ -31,12 +50,13 @@ using BoardCorners = std::vector<Vec2d>;
 
 inline bool seen(const Vec2d& corner) { return corner.x == corner.x; }
 
-// Errors: NotFound (no whole board in the picture), InvalidInput (no picture, wrong pattern),
-// LibraryFailed.
+// Errors: NotFound (no whole board, or too little of a ChArUco board), InvalidInput (no picture, wrong
+// pattern), LibraryFailed.
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern);
 
-// Turns `right` by half where its rows run against those of `left`: cameras that stand side by side
-// see a board the same way up.
+// Turns a chessboard's `right` by half, or by quarters where it has as many columns as rows, so that
+// its rows run as those of `left`: cameras that stand side by side see a board the same way up. What
+// ChArUco markers say stays.
 void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPattern& pattern);
 
 }  // namespace relievo::pipeline

@@ -1,36 +1,75 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr int kMostMarkers = 1000;  // of a dictionary
+
+std::size_t index(const BoardPattern& pattern, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(pattern.columns) +
+         static_cast<std::size_t>(column);
+}
+
+BoardCorners half_turned(const BoardCorners& corners) { return {corners.rbegin(), corners.rend()}; }
+
+// Of a board with as many columns as rows.
+BoardCorners quarter_turned(const BoardCorners& corners, const BoardPattern& pattern) {
+  BoardCorners out;
+  for (int row = 0; row < pattern.rows; ++row)
+    for (int column = 0; column < pattern.columns; ++column)
+      out.push_back(corners[index(pattern, row, pattern.rows - 1 - column)]);
+  return out;
+}
+
+// The sum of the steps along all rows.
+Vec2d run_of(const BoardCorners& corners, const BoardPattern& pattern) {
+  Vec2d sum;
+  for (int row = 0; row < pattern.rows; ++row)
+    for (int column = 0; column + 1 < pattern.columns; ++column) {
+      const Vec2d& a = corners[index(pattern, column, row)];
+      const Vec2d& b = corners[index(pattern, column + 1, row)];
+      if (seen(a) && seen(b)) sum = {sum.x + b.x - a.x, sum.y + b.y - a.y};
+    }
+  return sum;
+}
+
+}  // namespace
 
 Result<void> BoardPattern::check() const {
   if (columns < 3 || rows < 3 || columns > 60 || rows > 60)
     return Error{Errc::InvalidInput, "a board has 3 to 60 inner corners a side, as in 10x7"}.at("--corners");
-  if (columns == rows)
-    return Error{Errc::InvalidInput,
-                 "a board with as many columns as rows has no way up; use one such as 10x7"}
-        .at("--corners");
   if (!(square_mm >= 0.1 && square_mm <= 1000))
     return Error{Errc::InvalidInput, "a square must measure 0.1 to 1000 mm"}.at("--square-mm");
+  if (kind == BoardKind::Chessboard) return {};
+  if (!(marker_side_mm() >= 0.3 * square_mm && marker_side_mm() <= 0.9 * square_mm))
+    return Error{Errc::InvalidInput, "a marker measures 0.3 to 0.9 of its square"}.at("--marker-mm");
+  if (marker_bits < 4 || marker_bits > 7)
+    return Error{Errc::InvalidInput, "a marker has 4 to 7 bits a side"}.at("--marker-bits");
+  if (markers() > kMostMarkers)
+    return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"}.at(
+        "--corners");
   return {};
 }
 
 void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPattern& pattern) {
-  const auto along_row = [&pattern](const BoardCorners& corners) {
-    Vec2d sum;
-    for (int r = 0; r < pattern.rows; ++r) {
-      const Vec2d& first = corners[static_cast<std::size_t>(r * pattern.columns)];
-      const Vec2d& last = corners[static_cast<std::size_t>((r + 1) * pattern.columns - 1)];
-      if (seen(first) && seen(last)) sum = {sum.x + last.x - first.x, sum.y + last.y - first.y};
-    }
-    return sum;
+  if (pattern.kind == BoardKind::Charuco) return;
+  const Vec2d a = run_of(left, pattern);
+  const auto agreement = [&](const BoardCorners& corners) {
+    const Vec2d b = run_of(corners, pattern);
+    return a.x * b.x + a.y * b.y;
   };
-  const Vec2d a = along_row(left);
-  const Vec2d b = along_row(right);
-  if (a.x * b.x + a.y * b.y < 0) std::reverse(right.begin(), right.end());
+  BoardCorners turned = half_turned(right);
+  if (agreement(turned) > agreement(right)) right = turned;
+  if (pattern.columns != pattern.rows) return;
+  turned = quarter_turned(right, pattern);
+  if (agreement(turned) > agreement(right)) right = std::move(turned);
+  turned = half_turned(quarter_turned(right, pattern));
+  if (agreement(turned) > agreement(right)) right = std::move(turned);
 }
 
 }  // namespace relievo::pipeline

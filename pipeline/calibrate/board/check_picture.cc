@@ -48,6 +48,7 @@ CheckPicture blank(const ImageView& one) {
 void draw_corners(CheckPicture& picture, const BoardCorners& corners, int offset) {
   constexpr int kArm = 5;
   for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!seen(corners[i])) continue;
     const int x = static_cast<int>(std::lround(corners[i].x));
     const int y = static_cast<int>(std::lround(corners[i].y));
     for (int d = -kArm; d <= kArm; ++d) {

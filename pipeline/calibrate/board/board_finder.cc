@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/board/board_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "pipeline/calibrate/board/grey_pyramid.h"
+#include "pipeline/calibrate/board/lattice.h"
+#include "pipeline/calibrate/board/lattice_growth.h"
+#include "pipeline/calibrate/board/marker_reader.h"
+#include "pipeline/calibrate/board/saddle_finder.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kMinSidePx = 32;
+constexpr std::size_t kMostSaddles = 6000;  // of a picture: the largest board has 3600
+constexpr std::size_t kMostLattices = 12;   // that are looked into
+constexpr int kLeastGroup = 6;              // crossings
+constexpr double kWholeShare = 0.6;         // of a chessboard's corners that must be seen, and
+constexpr double kLineShare = 0.3;          // of those of each outer row and column
+constexpr int kLeastCorners = 8;            // of a ChArUco board
+constexpr double kStrayShare = 0.15;        // of a step, that a crossing may be off its neighbours' lattice
+constexpr double kStrayPx = 0.3;            // and that a refined corner may
+constexpr double kPlainShare = 0.5;         // of a chessboard's square beside an edge: all of it
+
+// The narrowest frame around the lattice whose outer rows and columns are no accident.
+Lattice framed(const Lattice& lattice) {
+  int left = 0, top = 0, columns = lattice.columns(), rows = lattice.rows();
+  const auto part = [&] { return lattice.cut(left, top, columns, rows); };
+  for (bool cut = true; cut && columns > 2 && rows > 2;) {
+    const Lattice now = part();
+    cut = true;
+    if (now.count_row(0) < kLineShare * columns) ++top, --rows;
+    else if (now.count_row(rows - 1) < kLineShare * columns) --rows;
+    else if (now.count_column(0) < kLineShare * rows) ++left, --columns;
+    else if (now.count_column(columns - 1) < kLineShare * rows) --columns;
+    else cut = false;
+  }
+  return part();
+}
+
+bool fits(const Lattice& lattice, const BoardPattern& pattern) {
+  const bool as_it_is = lattice.columns() == pattern.columns && lattice.rows() == pattern.rows;
+  const bool turned = lattice.columns() == pattern.rows && lattice.rows() == pattern.columns;
+  return (as_it_is || turned) && lattice.count() >= kWholeShare * pattern.corners();
+}
+
+// Every way up that the colours allow; of those the one whose rows run most to the right.
+Lattice upright(const Lattice& lattice, const BoardPattern& pattern) {
+  std::optional<Lattice> best;
+  double best_run = 0;
+  bool best_dark = false;
+  Lattice turned = lattice;
+  for (int turns = 0; turns < 4; ++turns, turned = turned.quarter_turned()) {
+    if (turned.columns() != pattern.columns || turned.rows() != pattern.rows) continue;
+    double run = 0;
+    for (int row = 0; row < turned.rows(); ++row)
+      for (int column = 0; column + 1 < turned.columns(); ++column)
+        if (turned.seen(column, row) && turned.seen(column + 1, row))
+          run += turned.node(column + 1, row).at.x - turned.node(column, row).at.x;
+    const bool dark = turned.dark(-1, -1);
+    if (best && std::pair(dark, run) < std::pair(best_dark, best_run)) continue;
+    best = turned;
+    best_run = run;
+    best_dark = dark;
+  }
+  return best ? *best : lattice;
+}
+
+// Room for what the search has overlooked, one line more than the board has: a larger board is none.
+Lattice with_room(const Lattice& lattice, const BoardPattern& pattern) {
+  const int most = std::max(pattern.columns, pattern.rows) + 1;
+  const int wide = std::max(most - lattice.columns(), 1);
+  const int high = std::max(most - lattice.rows(), 1);
+  return lattice.cut(-wide, -high, lattice.columns() + 2 * wide, lattice.rows() + 2 * high);
+}
+
+class Search {
+ public:
+  Search(const ImageView& picture, const BoardPattern& pattern)
+      : pattern_(pattern),
+        pyramid_(picture),
+        clear_share_(pattern.kind == BoardKind::Chessboard
+                         ? kPlainShare
+                         : 0.5 - 0.5 * pattern.marker_side_mm() / pattern.square_mm),
+        full_size_(pyramid_.level(0), clear_share_) {}
+
+  // In a reduced picture first: it has a board's corners, less noise and blur, and few pixels. What is
+  // found of a ChArUco board is asked of the next larger one, too, as long as that knows more.
+  std::optional<Lattice> run() {
+    std::optional<Lattice> best;
+    for (int level = pyramid_.levels() - 1; level >= 0; --level) {
+      auto found = pattern_.kind == BoardKind::Chessboard ? chessboard(level) : charuco(level);
+      const bool more = found && (!best || found->count() > best->count());
+      if (best && !more) break;
+      if (more) best = std::move(found);
+      if (best && (pattern_.kind == BoardKind::Chessboard || best->count() == pattern_.corners())) break;
+    }
+    return best;
+  }
+
+ private:
+  std::vector<Lattice> groups(int level, int least) const {
+    const SmoothPicture smooth(pyramid_.level(level));
+    auto lattices = find_lattices(smooth, find_saddles(smooth, kMostSaddles), least);
+    if (lattices.size() > kMostLattices) lattices.erase(lattices.begin() + kMostLattices, lattices.end());
+    return lattices;
+  }
+
+  std::optional<Lattice> chessboard(int level) {
+    CornerRefiner refiner(pyramid_.level(level), clear_share_);
+    const int least = std::min(pattern_.columns, pattern_.rows);
+    const int most = std::max(pattern_.columns, pattern_.rows);
+    for (const Lattice& group : groups(level, std::max(kLeastGroup, pattern_.corners() / 4))) {
+      if (std::max(group.columns(), group.rows()) > most + 2 ||
+          std::min(group.columns(), group.rows()) > least + 2)
+        continue;
+      Lattice lattice = with_room(group, pattern_);
+      drop_strays(lattice, kStrayShare * step_px(lattice));
+      fill_gaps(refiner, lattice);
+      lattice = framed(lattice);
+      if (!fits(lattice, pattern_)) continue;
+      lattice.scale(1 << level);
+      refine_nodes(full_size_, lattice);
+      fill_gaps(full_size_, lattice);
+      drop_strays(lattice, kStrayPx);
+      if (fits(framed(lattice), pattern_)) return upright(lattice, pattern_);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Lattice> charuco(int level) {
+    if (markers_.empty()) markers_ = marker_modules(pattern_.marker_bits, pattern_.markers());
+    std::optional<Lattice> board;
+    for (Lattice& group : groups(level, kLeastGroup)) {
+      drop_strays(group, kStrayShare * step_px(group));
+      group.scale(1 << level);
+      refine_nodes(full_size_, group);
+      const auto part = place_on_board(full_size_.picture(), group, pattern_, markers_);
+      if (!part) continue;
+      if (!board) board = *part;
+      for (int row = 0; row < pattern_.rows; ++row)
+        for (int column = 0; column < pattern_.columns; ++column)
+          if (!board->seen(column, row)) board->node(column, row) = part->node(column, row);
+    }
+    if (!board) return std::nullopt;
+    fill_gaps(full_size_, *board);
+    drop_strays(*board, kStrayPx);
+    return enough(*board) ? board : std::nullopt;
+  }
+
+  bool enough(const Lattice& lattice) const {
+    int rows = 0;
+    int columns = 0;
+    for (int row = 0; row < lattice.rows(); ++row) rows += lattice.count_row(row) > 1 ? 1 : 0;
+    for (int column = 0; column < lattice.columns(); ++column)
+      columns += lattice.count_column(column) > 1 ? 1 : 0;
+    return lattice.count() >= kLeastCorners && rows >= 2 && columns >= 2;
+  }
+
+  const BoardPattern& pattern_;
+  GreyPyramid pyramid_;
+  double clear_share_;
+  CornerRefiner full_size_;
+  std::vector<std::uint64_t> markers_;
+};
+
+BoardCorners corners_of(const Lattice& lattice) {
+  BoardCorners corners;
+  for (int row = 0; row < lattice.rows(); ++row)
+    for (int column = 0; column < lattice.columns(); ++column)
+      corners.push_back(lattice.seen(column, row) ? lattice.node(column, row).at
+                                                  : Vec2d{std::nan(""), std::nan("")});
+  return corners;
+}
+
+}  // namespace
+
+Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern) {
+  RELIEVO_TRY(pattern.check());
+  if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
+  if (picture.width_px < kMinSidePx || picture.height_px < kMinSidePx)
+    return Error{Errc::NotFound, "no board found"};
+  try {
+    const auto lattice = Search(picture, pattern).run();
+    if (!lattice) return Error{Errc::NotFound, "no board found"};
+    return corners_of(*lattice);
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory, "there is not enough memory to look for a board"};
+  } catch (const std::exception&) {
+    return Error{Errc::LibraryFailed, "the search for the board failed in OpenCV"};
+  }
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/board/corner_refiner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "pipeline/calibrate/board/corner_model.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// The window reaches this share of the way to the next corner: clear of its crossing edges. Beyond
+// the most pixels the lens bends an edge more than its pixels are worth.
+constexpr double kReachShare = 0.42;
+constexpr double kMaxReachPx = 20;
+constexpr double kMinReachPx = 2.5;
+constexpr double kFirstWidthPx = 4;  // of the blurred step: a blur of 1.2 px
+constexpr double kMinWidthPx = 1;
+constexpr double kAngleDeviation = 0.04;  // rad: how far the neighbours' directions may err
+constexpr double kWidthDeviation = 2;     // px
+constexpr int kMaxRounds = 8;
+constexpr double kNearPx = 0.1;  // where the window may be moved
+constexpr double kSettledPx = 0.002;
+// What a corner must be to be trusted.
+constexpr double kMaxDriftShare = 0.2;   // of the distance to the next corner
+constexpr double kMinSwing = 2.5;        // grey levels
+constexpr double kMaxMisfit = 0.08;      // of a half edge's mean residual to the swing, beyond what
+constexpr double kMisfitDeviations = 4;  // noise makes of it
+constexpr double kMaxNoise = 0.6;        // of the residuals to the swing
+// Light and contrast may change so much from the window's middle to its edge, as a share of the swing:
+// a lamp from the side does less, a corner where only three squares meet does more.
+constexpr double kMaxSlope = 0.6;
+constexpr double kMaxSigmaPx = 0.25;
+
+double length(const Vec2d& v) { return std::hypot(v.x, v.y); }
+double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
+
+// The largest share of the steps within which the whole window lies in the picture.
+double reach_inside(const GreyView& picture, const Vec2d& at, const CornerGuess& guess, double share) {
+  const double wide = std::abs(guess.along_row.x) + std::abs(guess.along_column.x);
+  const double high = std::abs(guess.along_row.y) + std::abs(guess.along_column.y);
+  const double room_x = std::min(at.x, picture.width_px - 1 - at.x);
+  const double room_y = std::min(at.y, picture.height_px - 1 - at.y);
+  return std::min({share, room_x / std::max(wide, 1e-9), room_y / std::max(high, 1e-9)});
+}
+
+}  // namespace
+
+std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
+  const double area = cross(guess.along_row, guess.along_column);
+  const double row = length(guess.along_row);
+  const double column = length(guess.along_column);
+  if (!(area > 0.2 * row * column)) return std::nullopt;
+  first_angle_ = {static_cast<float>(std::atan2(guess.along_row.y, guess.along_row.x)),
+                  static_cast<float>(std::atan2(guess.along_column.y, guess.along_column.x))};
+  model_.p[CornerModel::Angle1] = first_angle_[0];
+  model_.p[CornerModel::Angle2] = first_angle_[1];
+  // A coarse fit may move the window; the second has it in the middle of the corner.
+  Vec2d at = guess.at;
+  model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = static_cast<float>(kFirstWidthPx);
+  for (const bool coarse : {true, false}) {
+    if (!gather(guess, at) || !solve(coarse)) return std::nullopt;
+    at = {at.x + static_cast<double>(model_.p[CornerModel::X]),
+          at.y + static_cast<double>(model_.p[CornerModel::Y])};
+    if (length({at.x - guess.at.x, at.y - guess.at.y}) > kMaxDriftShare * std::min(row, column))
+      return std::nullopt;
+    if (coarse && !plausible(guess)) return std::nullopt;
+  }
+  return judged(guess, at);
+}
+
+// The pixels beside the two edges, within reach of both squares' plain parts.
+bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
+  const double width =
+      static_cast<double>(std::max(model_.p[CornerModel::Width1], model_.p[CornerModel::Width2]));
+  const Vec2d& u = guess.along_row;
+  const Vec2d& v = guess.along_column;
+  const double area = cross(u, v);
+  const double longest = std::max(length(u), length(v));
+  const double reach =
+      reach_inside(picture_, at, guess, std::min(kReachShare, kMaxReachPx / std::min(length(u), length(v))));
+  if (!(reach * std::min(length(u), length(v)) >= kMinReachPx)) return false;
+  const double reach_u = std::min(reach, kMaxReachPx / length(u));
+  const double reach_v = std::min(reach, kMaxReachPx / length(v));
+  // Half the strip along each edge: past the blur, before the markers' own blur.
+  const auto strip = [&](double height) {
+    return std::min(1.2 * width + 1.5, std::max(2.0, clear_share_ * height - 0.7 * width));
+  };
+  const double beside_u = strip(area / length(u)) * length(u) / area;  // in steps
+  const double beside_v = strip(area / length(v)) * length(v) / area;
+  window_.clear();
+  window_.reach_px = static_cast<float>(reach * longest);
+  const double wide = reach_u * std::abs(u.x) + reach_v * std::abs(v.x);
+  const double high = reach_u * std::abs(u.y) + reach_v * std::abs(v.y);
+  const int left = std::max(0, static_cast<int>(std::ceil(at.x - wide)));
+  const int right = std::min(picture_.width_px - 1, static_cast<int>(std::floor(at.x + wide)));
+  const int top = std::max(0, static_cast<int>(std::ceil(at.y - high)));
+  const int bottom = std::min(picture_.height_px - 1, static_cast<int>(std::floor(at.y + high)));
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x) {
+      const Vec2d d{x - at.x, y - at.y};
+      const double a = cross(d, v) / area;
+      const double b = cross(u, d) / area;
+      if (std::abs(a) > reach_u || std::abs(b) > reach_v) continue;
+      if (std::abs(b) > beside_u && std::abs(a) > beside_v) continue;
+      const bool along_u = std::abs(b) * beside_v < std::abs(a) * beside_u;
+      const int part = (along_u ? 0 : 4) + ((along_u ? a : b) > 0 ? 2 : 0) + ((along_u ? b : a) > 0 ? 1 : 0);
+      window_.add(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(picture_.row(y)[x]),
+                  static_cast<unsigned char>(part));
+    }
+  window_.pad();
+  return window_.count >= 3 * CornerModel::Count;
+}
+
+bool CornerRefiner::solve(bool coarse) {
+  auto& p = model_.p;
+  if (coarse) {
+    std::fill(p.begin() + CornerModel::Light, p.end(), 0.F);
+    p[CornerModel::X] = p[CornerModel::Y] = 0;
+    sum_up(window_, model_, true, scratch_, sums_);
+    step_linear();
+  }
+  p[CornerModel::X] = p[CornerModel::Y] = 0;  // the window has moved there
+  for (int round = 0; round < kMaxRounds; ++round) {
+    sum_up(window_, model_, coarse || round == 0, scratch_, sums_);
+    const double moved = step_all();
+    if (!(moved < 1e3)) return false;
+    if (moved < (coarse ? kNearPx : kSettledPx)) return true;
+  }
+  return true;
+}
+
+void CornerRefiner::step_linear() {
+  constexpr int kLinear = CornerModel::Count - CornerModel::kShapes;
+  Eigen::Matrix<double, kLinear, kLinear> n = sums_.information.bottomRightCorner<kLinear, kLinear>();
+  n.diagonal().array() += 1e-3;
+  const Eigen::Matrix<double, kLinear, 1> step = n.ldlt().solve(sums_.slope.tail<kLinear>());
+  for (int i = 0; i < kLinear; ++i)
+    model_.p[static_cast<std::size_t>(CornerModel::kShapes + i)] += static_cast<float>(step(i));
+}
+
+// One Gauss-Newton step with weak beliefs about directions and blur; returns how far the corner moved.
+double CornerRefiner::step_all() {
+  auto& p = model_.p;
+  CornerMatrix n = sums_.information;
+  CornerVector g = sums_.slope;
+  const double variance = std::max(sums_.squared / static_cast<double>(window_.count), 0.1);
+  const auto believe = [&](int i, double difference, double deviation) {
+    n(i, i) += variance / (deviation * deviation);
+    g(i) -= variance / (deviation * deviation) * difference;
+  };
+  believe(CornerModel::Angle1, static_cast<double>(p[CornerModel::Angle1] - first_angle_[0]),
+          kAngleDeviation);
+  believe(CornerModel::Angle2, static_cast<double>(p[CornerModel::Angle2] - first_angle_[1]),
+          kAngleDeviation);
+  // Of the blur's two widths only the difference is doubted: a lens is round.
+  const double apart = static_cast<double>(p[CornerModel::Width1] - p[CornerModel::Width2]);
+  believe(CornerModel::Width1, apart, kWidthDeviation);
+  believe(CornerModel::Width2, -apart, kWidthDeviation);
+  n.diagonal().array() += 1e-3;
+  const CornerVector step = n.ldlt().solve(g);
+  if (!step.allFinite()) return 1e9;
+  const double moved = std::hypot(step(CornerModel::X), step(CornerModel::Y));
+  const double widest = static_cast<double>(std::max(p[CornerModel::Width1], p[CornerModel::Width2]));
+  const double scale = std::min(1.0, 0.4 * widest / std::max(moved, 1e-9));
+  for (int i = 0; i < CornerModel::Count; ++i)
+    p[static_cast<std::size_t>(i)] += static_cast<float>(scale * step(i));
+  const auto most = std::max(static_cast<float>(kMinWidthPx), 0.9F * window_.reach_px);
+  for (const int i : {CornerModel::Width1, CornerModel::Width2})
+    p[static_cast<std::size_t>(i)] =
+        std::clamp(p[static_cast<std::size_t>(i)], static_cast<float>(kMinWidthPx), most);
+  return moved;
+}
+
+// What needs no second look.
+bool CornerRefiner::plausible(const CornerGuess& guess) const {
+  const double swing = static_cast<double>(model_.p[CornerModel::Swing]) * (guess.dark ? -1 : 1);
+  if (!(swing >= kMinSwing)) return false;
+  for (const int i : {CornerModel::LightX, CornerModel::LightY, CornerModel::SwingX, CornerModel::SwingY})
+    if (!(std::abs(static_cast<double>(model_.p[static_cast<std::size_t>(i)])) <= kMaxSlope * swing))
+      return false;
+  return true;
+}
+
+std::optional<CornerFit> CornerRefiner::judged(const CornerGuess& guess, const Vec2d& at) const {
+  if (!plausible(guess)) return std::nullopt;
+  const double swing = std::abs(static_cast<double>(model_.p[CornerModel::Swing]));
+  const double variance = sums_.squared / static_cast<double>(window_.count - CornerModel::Count);
+  if (!(variance <= kMaxNoise * kMaxNoise * swing * swing)) return std::nullopt;
+  for (std::size_t k = 0; k < sums_.strip_mean.size(); ++k) {
+    const double noise = kMisfitDeviations * std::sqrt(variance / std::max(sums_.strip_count[k], 1.0));
+    if (!(std::abs(sums_.strip_mean[k]) <= kMaxMisfit * swing + noise)) return std::nullopt;
+  }
+  CornerMatrix n = sums_.information;
+  n.diagonal().array() += 1e-3;
+  const CornerMatrix covariance = n.ldlt().solve(CornerMatrix::Identity());
+  const double worst =
+      std::max(covariance(CornerModel::X, CornerModel::X), covariance(CornerModel::Y, CornerModel::Y));
+  const double sigma = std::sqrt(variance * worst);
+  if (!(sigma <= kMaxSigmaPx)) return std::nullopt;
+  return CornerFit{at, sigma, static_cast<double>(model_.p[CornerModel::Light]), swing};
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Crossings that belong to one chessboard, in the rows and columns in which they lie, whichever way up
+// the board is held. Rows run to the right of columns as x does of y: never mirrored.
+// Inside calibrate/board/ only. Thread: any.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/calibrate/board/corner_refiner.h"
+#include "pipeline/calibrate/board/saddle_finder.h"
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+struct LatticeNode {
+  Vec2d at;           // px
+  double middle = 0;  // grey level between dark and bright
+  double swing = 0;   // half of bright minus dark; 0 where no corner is seen
+  bool seen() const { return swing > 0; }
+};
+
+class Lattice {
+ public:
+  Lattice(int columns, int rows, bool first_dark)
+      : columns_(columns),
+        rows_(rows),
+        first_dark_(first_dark),
+        nodes_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  bool holds(int column, int row) const {
+    return column >= 0 && row >= 0 && column < columns_ && row < rows_;
+  }
+  LatticeNode& node(int column, int row) { return nodes_[index(column, row)]; }
+  const LatticeNode& node(int column, int row) const { return nodes_[index(column, row)]; }
+  bool seen(int column, int row) const { return holds(column, row) && node(column, row).seen(); }
+  // Of the square between node (column, row) and the next of the row and of the column.
+  bool dark(int column, int row) const { return ((column + row) % 2 == 0) == first_dark_; }
+  int count() const;
+  int count_row(int row) const;
+  int count_column(int column) const;
+
+  // columns x rows of it, from (left, top) on; what lies outside is unseen.
+  Lattice cut(int left, int top, int columns, int rows) const;
+  Lattice quarter_turned() const;  // what was the first column, upwards, is the first row
+  void scale(double factor);       // of the places
+
+ private:
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+  int columns_;
+  int rows_;
+  bool first_dark_;
+  std::vector<LatticeNode> nodes_;
+};
+
+// Every chessboard-like group of at least `least` crossings, the largest first.
+std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const Saddle> saddles, int least);
+
+// Where a node must be and how its edges run, from the nodes around it (not itself), by a local
+// homography. No value where too few are seen.
+std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Places where two edges cross and dark meets dark across a corner: what every inner corner of a
+// chessboard looks like, whatever its tilt, blur and light. Inside calibrate/board/ only.
+//
+// Candidates are saddles of the smoothed brightness (negative determinant of the Hessian); each must
+// then show two dark and two bright sectors, alike across the middle, on a circle around it.
+// Thread: any.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/calibrate/board/grey_pyramid.h"
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+// Brightness times 16, slightly smoothed.
+class SmoothPicture {
+ public:
+  explicit SmoothPicture(const GreyView& grey);
+
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
+  const std::int16_t* row(int y) const {
+    return values_.data() + static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(width_px_);
+  }
+  bool holds(float x, float y) const {
+    return x >= 1 && y >= 1 && x < static_cast<float>(width_px_ - 2) &&
+           y < static_cast<float>(height_px_ - 2);
+  }
+  float at(float x, float y) const;  // bilinear; the place must be held
+
+ private:
+  int width_px_;
+  int height_px_;
+  std::vector<std::int16_t> values_;
+};
+
+struct Saddle {
+  float x = 0, y = 0;  // px of the level
+  float contrast = 0;  // between bright and dark, in the picture's grey levels
+  // Where two of the half edges go, unit vectors: turning from the first to the second, x towards y, one
+  // crosses a dark sector. The other two half edges go the opposite ways.
+  std::array<Vec2f, 2> edge{};
+
+  // Half edge k of four in turn: dark lies between 0 and 1 and between 2 and 3.
+  Vec2f ray(int k) const {
+    const Vec2f& e = edge[static_cast<std::size_t>(k % 2)];
+    return k < 2 ? e : Vec2f{-e.x, -e.y};
+  }
+};
+
+// The strongest `most` of all.
+std::vector<Saddle> find_saddles(const SmoothPicture& picture, std::size_t most);
+
+}  // namespace relievo::pipeline
