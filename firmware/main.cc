@@ -41,6 +41,14 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.pose = {args.yaw_deg, args.pitch_deg, args.roll_deg, args.distance_mm, args.right_mm, args.down_mm};
   options.board_in_this_pose = args.board && args.one_pose;
   if (args.pairs > 0) options.board_poses = args.pairs;
+  if (args.board) {
+    const BoardArgs& b = args.printed;
+    options.board = {b.corners_across, b.corners_down, b.square_mm, 0.75 * b.square_mm,
+                     b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard, b.marker_mm, b.marker_bits};
+    options.board_look = {args.lamp, args.shadow, args.highlight, args.cover};
+    options.sensor.defocus_px = args.blur_px;
+    options.sensor.noise = args.noise;
+  }
   options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
   options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
   return hal::sim::render_to_folder(options, folder, pool_size());

@@ -44,6 +44,7 @@ LIBRARIES = {
     r"GLES[23]?/|EGL/|KHR/": "gles_",
     r"ft2build\.h$|freetype": "freetype_",
     r"hb.*\.h$|harfbuzz/": "harfbuzz_",
+    r"cairo(-[a-z]+)?\.h$": "cairo_",
     r"CLI/": "cli11_",
     r"toml\+\+/|toml\.hpp$": "toml_",
     r"nlohmann/": "json_",

@@ -203,8 +203,13 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
   return pairs;
 }
 
+pipeline::BoardPattern pattern_of(const BoardArgs& board) {
+  return {board.corners_across, board.corners_down, board.square_mm,
+          board.charuco ? pipeline::BoardKind::Charuco : pipeline::BoardKind::Chessboard, board.marker_mm, board.marker_bits};
+}
+
 Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out) {
-  const pipeline::BoardPattern pattern{args.corners_across, args.corners_down, args.square_mm};
+  const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY(pattern.check());
   RELIEVO_TRY(check_calibration_output(args.output));
   RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// relievo calibrate DIR --corners 10x7 --square-mm 20 -o rig.yml [--report DIR]
+// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml [--report DIR]
 //
 // Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
 // rig.yml and, where asked for, a folder with report.json and pictures to look at. One line a pair
@@ -28,6 +28,8 @@ struct PicturePairFiles {
   Path left;
   Path right;
 };
+
+pipeline::BoardPattern pattern_of(const BoardArgs& board);
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder);
 

@@ -47,22 +47,45 @@ void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
       ->check(CLI::IsMember({"face", "all"}));
 }
 
-void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
-  CLI::App* command = app.add_subcommand("calibrate", "calibrate the rig from pictures of a chessboard");
-  command->add_option("pictures", args.pictures, "folder with left* and right* pictures")->required()->type_name("DIR");
-  command->add_option_function<std::string>(
+void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
+  auto* corners = command.add_option_function<std::string>(
       "--corners",
-      [&args](const std::string& text) {
-        if (!corner_counts(text, args.corners_across, args.corners_down)) {
+      [&board](const std::string& text) {
+        if (!corner_counts(text, board.corners_across, board.corners_down)) {
           throw CLI::ValidationError("--corners", "wants inner corners across and down, such as 10x7");
         }
       },
-      "inner corners, across x down")->required()->type_name("10x7");
-  command->add_option("--square-mm", args.square_mm, "side of a square")->required()->check(within(0.1, 1000));
-  command->add_option("-o,--output", args.output, "the calibration")->required()->type_name("rig.yml");
+      "inner corners, across x down")->type_name("10x7");
+  auto* square = command.add_option("--square-mm", board.square_mm, "side of a square")->check(within(0.1, 1000));
+  if (required) corners->required(), square->required();
+  command.add_option("--marker-mm", board.marker_mm, "side of a ChArUco marker; default seven tenths of a square")->check(within(0.03, 900));
+  command.add_option("--marker-bits", board.marker_bits, "of a ChArUco marker, a side")->check(CLI::Range(4, 7))->capture_default_str();
+}
+
+void add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
+  command.add_option_function<std::string>(name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
+      ->check(CLI::IsMember({"chessboard", "charuco"}));
+}
+
+void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
+  CLI::App* command = app.add_subcommand("calibrate", "calibrate the rig from pictures of a printed board, or make that board");
+  CLI::Option* pictures = command->add_option("pictures", args.pictures, "folder with left* and right* pictures")->type_name("DIR");
+  add_board_words(*command, args.board, true);
+  add_kind(*command, "--pattern", args.board, "what is printed on it");
+  command->add_option("-o,--output", args.output, "the calibration, or the page")->required()->type_name("rig.yml");
   command->add_option("--report", args.report, "what each pair contributed")->type_name("DIR");
   add_store(*command, args.store);
-  command->callback([&] { chosen = args; });
+  add_kind(*command, "--print-pattern", args.board, "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
+  CLI::Option* print = command->get_option("--print-pattern");
+  for (const char* other : {"pictures", "--pattern", "--report", "--store"}) print->excludes(command->get_option(other));
+  command->callback([&args, &chosen, pictures, print] {
+    if (print->count() > 0) {
+      chosen = PrintPatternArgs{args.board, args.output};
+      return;
+    }
+    if (pictures->count() == 0) throw CLI::RequiredError("DIR with pictures");
+    chosen = args;
+  });
 }
 
 void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) {
@@ -143,12 +166,29 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 
+// What is printed, and how well it is seen.
+void add_simulated_board(CLI::App& command, SimulateArgs& args) {
+  args.printed = {10, 7, 20};
+  add_kind(command, "--pattern", args.printed, "what is printed on it");
+  add_board_words(command, args.printed, false);
+  command.add_option("--blur-px", args.blur_px, "of the lens, standard deviation")->check(within(0, 5))->capture_default_str();
+  command.add_option("--noise", args.noise, "of the sensor, times the usual")->check(within(0, 20))->capture_default_str();
+  const auto share = [&command](const char* name, double& value, const char* what) {
+    command.add_option(name, value, what)->check(within(0, 0.98));
+  };
+  share("--lamp", args.lamp, "share of the light lost from the board's left to its right");
+  share("--shadow", args.shadow, "share of the light lost in a shadow over a third of it");
+  share("--cover", args.cover, "share of its width that a hand covers");
+  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")->check(within(0, 20));
+}
+
 void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
   command->require_subcommand(1);
   for (const bool board : {true, false}) {
-    CLI::App* sub = board ? command->add_subcommand("board", "a chessboard (10x7 inner corners, 20 mm) in many poses, or in the one that is given")
+    CLI::App* sub = board ? command->add_subcommand("board", "a printed board in many poses, or in the one that is given")
                           : command->add_subcommand("face", "a face made of a seed");
+    if (board) add_simulated_board(*sub, args);
     sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()->type_name("DIR");
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();

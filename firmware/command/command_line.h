@@ -16,14 +16,28 @@ namespace relievo::firmware {
 
 using Path = std::filesystem::path;
 
-struct CalibrateArgs {
-  Path pictures;
-  int corners_across = 0;
+// The printed board.
+struct BoardArgs {
+  int corners_across = 0;         // inner corners
   int corners_down = 0;
   double square_mm = 0;
+  bool charuco = false;           // else a chessboard
+  double marker_mm = 0;           // ChArUco; 0: the usual share of a square
+  int marker_bits = 4;
+};
+
+struct CalibrateArgs {
+  Path pictures;
+  BoardArgs board;
   Path output;
   Path report;  // empty: none
   Path store;   // empty: not stored
+};
+
+// calibrate --print-pattern
+struct PrintPatternArgs {
+  BoardArgs board;
+  Path output;
 };
 
 struct CalibrationArgs {
@@ -75,6 +89,10 @@ struct SimulateArgs {
   bool board = false;             // the chessboard; else a face
   Path output;
   unsigned seed = 1;
+  BoardArgs printed;
+  double lamp = 0, shadow = 0, cover = 0, highlight = 0;
+  double blur_px = 0.55;
+  double noise = 1;               // times the usual
   int pairs = 0;                  // 0: the rig's own choice
   double scale = 1;               // of the picture's width and height
   bool truth = false;             // write down what is true, beside the pictures
@@ -95,7 +113,7 @@ struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
-using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
+using CommandArgs = std::variant<NothingArgs, CalibrateArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
                                  SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs>;
 
 struct CommandLine {

@@ -10,6 +10,7 @@
 namespace relievo::firmware {
 
 Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services);
+Result<void> run_print_pattern(const PrintPatternArgs& args, Services& services);
 Result<void> run_calibration(const CalibrationArgs& args, Services& services);
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services);
 Result<void> run_compare(const CompareArgs& args, Services& services);

@@ -29,7 +29,7 @@ class CalibrateCommand : public ::testing::Test {
       : folder_(fs::temp_directory_path() / ("relievo_calibrate_" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "in");
-    args_ = {folder_ / "in", 9, 6, 20, folder_ / "rig.yml", {}, {}};
+    args_ = {folder_ / "in", {9, 6, 20}, folder_ / "rig.yml", {}, {}};
   }
   ~CalibrateCommand() override { fs::remove_all(folder_); }
 
@@ -96,12 +96,12 @@ TEST_F(CalibrateCommand, RefusesTooFewViewsAndWrongNumbers) {
   picture("left1.png", 320, true);
   picture("right1.png", 320, true);
   EXPECT_EQ(error(), Errc::PoorGeometry);
-  args_.corners_across = 8;
+  args_.board.corners_across = 8;
   EXPECT_EQ(error(), Errc::InvalidInput);
-  args_.corners_across = 9;
-  args_.square_mm = 0;
+  args_.board.corners_across = 9;
+  args_.board.square_mm = 0;
   EXPECT_EQ(error(), Errc::InvalidInput);
-  args_.square_mm = 20;
+  args_.board.square_mm = 20;
   args_.output = folder_ / "no/such/folder/rig.yml";
   EXPECT_EQ(error(), Errc::NotFound);
 }
@@ -113,9 +113,9 @@ class MeasuredPictures : public CalibrateCommand {
     const char* data = std::getenv("RELIEVO_TEST_DATA");
     if (data == nullptr) return false;
     args_.pictures = fs::path(data) / name;
-    args_.corners_across = across;
-    args_.corners_down = down;
-    args_.square_mm = square_mm;
+    args_.board.corners_across = across;
+    args_.board.corners_down = down;
+    args_.board.square_mm = square_mm;
     return fs::is_directory(args_.pictures);
   }
   std::set<std::string> left_out(const pipeline::CalibrationQuality& quality) {
@@ -167,7 +167,7 @@ TEST_F(MeasuredPictures, AFirmRigPasses) {
 }
 
 TEST_F(MeasuredPictures, OpenCvsOwnPairs) {
-  args_ = {"/usr/share/doc/opencv-doc/examples/data", 9, 6, 30, folder_ / "rig.yml", {}, {}};
+  args_ = {"/usr/share/doc/opencv-doc/examples/data", {9, 6, 30}, folder_ / "rig.yml", {}, {}};
   if (!fs::exists(args_.pictures / "left01.jpg")) GTEST_SKIP() << "Debian's opencv-doc is not installed";
   std::ostringstream out;
   const auto done = firmware::run_calibrate(args_, out);

@@ -27,9 +27,9 @@ TEST(CommandLine, Reconstruct) {
 TEST(CommandLine, Calibrate) {
   const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"});
   const auto& args = std::get<CalibrateArgs>(line.command);
-  EXPECT_EQ(args.corners_across, 10);
-  EXPECT_EQ(args.corners_down, 7);
-  EXPECT_EQ(args.square_mm, 20);
+  EXPECT_EQ(args.board.corners_across, 10);
+  EXPECT_EQ(args.board.corners_down, 7);
+  EXPECT_EQ(args.board.square_mm, 20);
 }
 
 TEST(CommandLine, VerbsOfSubjects) {
