@@ -99,6 +99,7 @@ std::string report_of(const Appliance& appliance, const PipelineStages& stages, 
 }  // namespace
 
 Result<void> run_enrol(const EnrolArgs& args, Services& services) {
+  RELIEVO_TRY(check_subject(args.subject));
   RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
   RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));

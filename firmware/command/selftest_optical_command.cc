@@ -6,6 +6,7 @@
 
 #include "firmware/checks/acceptance_report.h"
 #include "firmware/command/commands.h"
+#include "firmware/command/interrupt.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/watched_job.h"
 
@@ -21,6 +22,7 @@ std::string file_name(std::string name) {
 
 // The report and the pictures are written whatever the verdict: a failure wants to be looked at.
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) {
+  (void)interrupted();  // from here on Ctrl-C is ours: nothing half-written stays behind
   std::optional<OutputFolder> folder;
   OpticalCheckOptions options;
   options.seed = args.seed;

@@ -38,15 +38,17 @@ Result<storage::Subject> find_subject(storage::Store& store, std::string_view na
   return found.front();
 }
 
+Result<void> check_subject(std::string_view name_or_number) {
+  if (storage::is_name(name_or_number)) return {};
+  return Error{Errc::InvalidInput, "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}.at(
+      "--subject");
+}
+
 Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number) {
   if (const auto id = number_in(name_or_number)) {
     RELIEVO_TRY_ASSIGN(const auto known, store.subject(*id));
     return storage::SubjectChoice(known.id);
   }
-  // Here, and not when the face is to be stored: nobody is photographed in vain.
-  if (!storage::is_name(name_or_number))
-    return Error{Errc::InvalidInput, "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}.at(
-        "--subject");
   RELIEVO_TRY_ASSIGN(const auto found, of_name(store, name_or_number));
   if (!found.empty()) return storage::SubjectChoice(found.front().id);
   return storage::SubjectChoice(storage::NewSubject{std::string(name_or_number)});

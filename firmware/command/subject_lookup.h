@@ -12,6 +12,8 @@
 
 namespace relievo::firmware {
 
+// Could somebody have this name? Asked before anything is opened: nobody is photographed in vain.
+Result<void> check_subject(std::string_view name_or_number);
 Result<storage::Subject> find_subject(storage::Store& store, std::string_view name_or_number);
 // The one of that name, or somebody new.
 Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number);
