@@ -8,6 +8,7 @@
 #include <string>
 
 #include "firmware/command/calibrate_command.h"
+#include "firmware/command/calibration_history.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/interrupt.h"
 
@@ -51,7 +52,8 @@ Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& servic
     if (args.store.empty()) return {};
     RELIEVO_TRY_ASSIGN(const auto store, services.open_store(args.store, true));
     RELIEVO_TRY_ASSIGN(const auto revision,
-                       store->save_calibration(result.calibration, "calibrated from " + args.pictures.filename().string()));
+                       store->save_calibration(result.calibration, "calibrated from " + args.pictures.filename().string(),
+                                               figures_of(result.quality)));
     services.console.say("stored: calibration " + std::to_string(revision) + ", in use from now on");
     return {};
   } catch (const Stopped&) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "firmware/command/calibration_words.h"
 #include "firmware/command/command_line.h"
 
 namespace relievo::firmware {
@@ -86,28 +87,6 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
     if (pictures->count() == 0) throw CLI::RequiredError("DIR with pictures");
     chosen = args;
   });
-}
-
-void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) {
-  CLI::App* command = app.add_subcommand("calibration", "the calibrations in the store");
-  command->require_subcommand(1);
-  using Verb = CalibrationArgs::Verb;
-  const auto verb = [&](const char* name, const char* help, Verb which) {
-    CLI::App* sub = command->add_subcommand(name, help);
-    add_store(*sub, args.store);
-    sub->callback([&args, &chosen, which] {
-      args.verb = which;
-      chosen = args;
-    });
-    return sub;
-  };
-  verb("list", "every calibration, the newest last", Verb::List);
-  verb("show", "the numbers of one", Verb::Show)
-      ->add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
-  verb("import", "take one from a file", Verb::Import)->add_option("file", args.file)->required()->type_name("rig.yml");
-  CLI::App* out = verb("export", "write one to a file", Verb::Export);
-  out->add_option("-o,--output", args.file)->required()->type_name("rig.yml");
-  out->add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
 }
 
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {

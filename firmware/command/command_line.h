@@ -41,9 +41,15 @@ struct PrintPatternArgs {
 };
 
 struct CalibrationArgs {
-  enum class Verb { List, Show, Import, Export } verb = Verb::List;
-  Path file;    // import, export
-  int revision = 0;  // 0: the one in use
+  enum class Verb { List, Show, Import, Export, Activate } verb = Verb::List;
+  Path file;                          // import: what is read; export: what is written
+  Path other;                         // import: the other half of a pair; empty: beside the first
+  int width_px = 0, height_px = 0;    // import: of the pictures, where the files do not say
+  double unit_mm = 0;                 // import: of the translation; 0: the form's own
+  std::string note;                   // import; empty: from which file
+  Path source;                        // export: a file instead of the store
+  bool ros = false;                   // export: a folder with left.yaml and right.yaml
+  int revision = 0;                   // 0: the one in use
   Path store;
 };
 

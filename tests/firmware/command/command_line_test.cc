@@ -32,6 +32,33 @@ TEST(CommandLine, Calibrate) {
   EXPECT_EQ(args.board.square_mm, 20);
 }
 
+TEST(CommandLine, VerbsOfCalibration) {
+  using Verb = CalibrationArgs::Verb;
+  const auto args = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "calibration");
+    return std::get<CalibrationArgs>(parse(words).command);
+  };
+  EXPECT_EQ(args({"list"}).verb, Verb::List);
+  EXPECT_EQ(args({"activate", "3", "--store", "s"}).revision, 3);
+  const auto import = args({"import", "intrinsics.yml", "extrinsics.yml", "--image-size", "640x480", "--unit-mm", "25.4", "--note", "bench 2"});
+  EXPECT_EQ(import.verb, Verb::Import);
+  EXPECT_EQ(import.file, "intrinsics.yml");
+  EXPECT_EQ(import.other, "extrinsics.yml");
+  EXPECT_EQ(import.width_px, 640);
+  EXPECT_EQ(import.height_px, 480);
+  EXPECT_EQ(import.unit_mm, 25.4);
+  EXPECT_EQ(import.note, "bench 2");
+  const auto out = args({"export", "-o", "folder", "--as", "ros", "--calibration", "rig.yml"});
+  EXPECT_TRUE(out.ros);
+  EXPECT_EQ(out.source, "rig.yml");
+  for (const std::vector<const char*>& wrong : std::vector<std::vector<const char*>>{
+           {"calibration", "activate"}, {"calibration", "activate", "0"}, {"calibration", "import"},
+           {"calibration", "import", "a.yml", "--image-size", "640"}, {"calibration", "import", "a.yml", "--image-size", "4x4"},
+           {"calibration", "import", "a.yml", "--unit-mm", "nan"}, {"calibration", "import", "a.yml", "--unit-mm", "0"},
+           {"calibration", "export", "-o", "x", "--as", "xml"}, {"calibration", "export", "-o", "x", "2", "--calibration", "y"}})
+    EXPECT_EQ(parse(wrong).exit_code, 2) << wrong.back();
+}
+
 TEST(CommandLine, VerbsOfSubjects) {
   EXPECT_EQ(std::get<SubjectsArgs>(parse({"subjects", "list"}).command).verb, SubjectsArgs::Verb::List);
   const auto line = parse({"subjects", "export", "Ada", "-o", "out", "--store", "s"});
