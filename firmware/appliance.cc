@@ -85,12 +85,20 @@ void Appliance::handle(Event event) {
 
 void Appliance::note(const Error& error) { problem_ = error; }
 
+void Appliance::note(const pipeline::DriftJudgement& drift) {
+  drift_ = drift;
+  if (drift.verdict == pipeline::DriftVerdict::Ok) calibration_note_.clear();
+  if (drift.verdict == pipeline::DriftVerdict::Warn || drift.verdict == pipeline::DriftVerdict::Refuse)
+    calibration_note_ = pipeline::sentence(drift);
+}
+
 void Appliance::heard(const JobReport& report) {
   if (report.job != job_) return;  // of a state that was left
   running_ = nullptr;
   job_ = 0;
   const State state = machine_.state();
   if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
+  if (state == State::Match && session_.products().drift) note(*session_.products().drift);
   if (report.error) {
     note(*report.error);
     handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : Event::StageFailed);
@@ -119,6 +127,7 @@ bool Appliance::enter_capture(const Change& change) {
   if (change.from == State::Idle) {
     attempt_ = 0;
     problem_.reset();
+    drift_.reset();
     records_.clear();
     if (const Result<void> opened = session_.open(next_subject_); !opened) {
       note(opened.error());

@@ -49,6 +49,10 @@ class Appliance {
   float progress() const;
   int attempt() const { return attempt_; }
   const std::optional<Error>& problem() const { return problem_; }
+  // Of the last face that was matched: have the cameras moved?
+  const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
+  // For the technician: what the last face that could tell said against the calibration; else empty.
+  std::string_view calibration_note() const { return calibration_note_; }
   const EnrolmentSession& session() const { return session_; }
   // Of the present or last session; kept until the next begins.
   const std::vector<StageRecord>& records() const { return records_; }
@@ -63,6 +67,7 @@ class Appliance {
   void stop_job();
   void heard(const JobReport& report);
   void note(const Error& error);
+  void note(const pipeline::DriftJudgement& drift);
 
   hal::Board& board_;
   Machine machine_;
@@ -75,6 +80,8 @@ class Appliance {
   std::string next_subject_;
   int attempt_ = 0;
   std::optional<Error> problem_;
+  std::optional<pipeline::DriftJudgement> drift_;
+  std::string calibration_note_;
   std::vector<StageRecord> records_;
   std::function<void(const Change&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state

@@ -19,6 +19,7 @@
 #include "firmware/boot_memory.h"
 #include "firmware/capture/stereo_slot.h"
 #include "hal/base/arena.h"
+#include "pipeline/calibrate/drift.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/point_cloud.h"
@@ -32,6 +33,7 @@ struct Products {
   std::optional<pipeline::StereoFrame> frame;
   std::optional<pipeline::RectifiedPair> pair;
   std::optional<pipeline::MatchSet> matches;
+  std::optional<pipeline::DriftJudgement> drift;  // what the matches say of the calibration
   std::optional<pipeline::PointCloud> cloud;
   std::optional<pipeline::FaceMesh> mesh;
   std::optional<pipeline::FaceModel> model;

@@ -27,6 +27,7 @@ struct ViewState {
   float progress = 0;                  // 0 to 1 within the present state; 0 where nothing runs
   pipeline::Advice advice = pipeline::Advice::None;
   std::string_view problem;            // one sentence for a person; empty when all is well
+  std::string_view calibration_note;   // for the technician: the cameras have moved; empty when all is well
   std::string_view subject;            // who is being enrolled
   int attempt = 0;                     // 1 for the first capture of a session
   const pipeline::StereoFrame* frame = nullptr;  // the pictures of this session, once taken

@@ -98,6 +98,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   command->add_option_function<std::string>(
       "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; }, "axes of the model")
       ->check(CLI::IsMember({"head", "camera"}));
+  command->add_flag("--despite-drift", args.despite_drift, "go on though the cameras have moved since they were calibrated");
   add_algorithms(*command, args.algorithms);
   command->callback([&] { chosen = args; });
 }

@@ -65,6 +65,7 @@ struct ReconstructArgs {
   Path calibration;
   Path output;
   bool camera_frame = false;      // --frame camera
+  bool despite_drift = false;     // go on though the cameras have moved
   AlgorithmArgs algorithms;
 };
 

@@ -37,7 +37,7 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto truth, measure::TruthView::read(args.truth));
   RELIEVO_TRY_ASSIGN(const auto head, measure::read_true_surface(args.truth / "head.ply"));
   Reconstruction reconstruction;
-  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console));
+  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console, WhenMoved::GoOn));
   MeasureJob job(reconstruction.model().mesh, truth, head);
   RELIEVO_TRY(run_watched(job, services.console, [] { return "Measure"; }));
 

@@ -28,10 +28,11 @@ struct Calibrated {
 };
 
 // Looked for before anything is made: without one no store appears.
-Result<Calibrated> find_calibration(const EnrolArgs& args, Services& services) {
+Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMode& mode, Services& services) {
   Calibrated found;
   if (!args.calibration.empty()) {
-    RELIEVO_TRY_ASSIGN(found.calibration, pipeline::read_calibration(args.calibration));
+    RELIEVO_TRY_ASSIGN(found.calibration,
+                       pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0}));
     found.name = args.calibration.string();
     return found;
   }
@@ -83,6 +84,7 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
     console.say("Capture      attempt " + std::to_string(appliance.attempt()));
   } else if (change.event == Event::StageDone && change.from != State::Store) {
     console.say(line_of(appliance.records().back()));
+    if (change.from == State::Match && appliance.drift()) console.say(line_of(*appliance.drift()));
   } else if (change.event == Event::StageFailed && change.to == State::Capture) {
     console.say(std::string(name_of(change.from)) + ": " + std::string(appliance.problem()->what.view()) + "; once more");
   }
@@ -91,9 +93,17 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
 std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
                       const pipeline::FaceModel& model) {
   Report report{calibrated.name, stages.pipeline().algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
-                model.quality};
+                model.quality, appliance.drift()};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   return report_json(report);
+}
+
+// The log of events remembers every face that spoke against the calibration; nobody's name goes into it.
+Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated, storage::Store& store) {
+  using pipeline::DriftVerdict;
+  const auto& drift = appliance.drift();
+  if (!drift || (drift->verdict != DriftVerdict::Warn && drift->verdict != DriftVerdict::Refuse)) return {};
+  return store.append_audit({"calibration.drift", {}, calibrated.name + ": " + sentence(*drift)});
 }
 
 }  // namespace
@@ -101,7 +111,7 @@ std::string report_of(const Appliance& appliance, const PipelineStages& stages, 
 Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY(check_subject(args.subject));
   RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
-  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, services));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, board->preferred_mode(), services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
   RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
@@ -124,11 +134,11 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   records = &appliance;
   appliance.set_subject(args.subject);
   appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
-  if (const Result<void> done = drive(appliance, services.console); !done) {
-    return done.error().where().empty() ? done.error().at(args.board) : done.error();
-  }
+  const Result<void> done = drive(appliance, services.console);
+  const Result<void> logged = log_drift(appliance, calibrated, *store);
+  if (!done) return done.error().where().empty() ? done.error().at(args.board) : done.error();
   services.console.say("stored: " + args.subject + ", enrolment " + std::to_string(static_cast<std::int64_t>(enrolment)));
-  return {};
+  return logged;
 }
 
 }  // namespace relievo::firmware

@@ -12,6 +12,13 @@ namespace {
 
 double milliseconds_of(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-6; }
 
+nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>& drift) {
+  if (!drift) return nullptr;
+  return {{"verdict", word(drift->verdict)}, {"residual_px", drift->residual_px}, {"sigma_px", drift->sigma_px},
+          {"offset_px", drift->offset_px},   {"slope_x", drift->slope_x},         {"slope_y", drift->slope_y},
+          {"expected_px", drift->expected_px}};
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -41,7 +48,8 @@ std::string report_json(const Report& report) {
                     {"width_mm", q.width_mm},
                     {"height_mm", q.height_mm},
                     {"nose_relief_mm", q.nose_relief_mm},
-                    {"epipolar_residual_px", q.epipolar_residual_px}}}};
+                    {"epipolar_residual_px", q.epipolar_residual_px}}},
+                  {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

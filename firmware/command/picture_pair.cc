@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "pipeline/calibrate/file/calibration_file.h"
+
 namespace relievo::firmware {
 namespace {
 
@@ -11,8 +13,7 @@ std::string size_of(int width_px, int height_px) { return std::to_string(width_p
 
 }  // namespace
 
-Result<PicturePair> read_pair(const std::filesystem::path& left, const std::filesystem::path& right,
-                              const pipeline::StereoCalibration& calibration) {
+Result<PicturePair> read_pair(const std::filesystem::path& left, const std::filesystem::path& right) {
   PicturePair pair;
   RELIEVO_TRY_ASSIGN(pair.left, hal::read_picture(left));
   RELIEVO_TRY_ASSIGN(pair.right, hal::read_picture(right));
@@ -22,12 +23,18 @@ Result<PicturePair> read_pair(const std::filesystem::path& left, const std::file
     return Error{Errc::InvalidInput, "the two pictures differ in size: give a left and a right one of the same shot"}
         .at(right.string() + " (" + right_size + ", left " + left_size + ")");
   }
-  const std::string calibrated = size_of(calibration.left.width_px, calibration.left.height_px);
-  if (left_size != calibrated) {
-    return Error{Errc::InvalidInput, "the calibration is for pictures of another size: calibrate at this one"}
-        .at(left.string() + " (" + left_size + ", calibrated " + calibrated + ")");
-  }
   return pair;
+}
+
+Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair, const std::filesystem::path& file,
+                                                         const std::filesystem::path& left) {
+  RELIEVO_TRY_ASSIGN(const auto calibration,
+                     pipeline::read_calibration(file, {pair.left.width_px, pair.left.height_px, 0}));
+  const std::string pictured = size_of(pair.left.width_px, pair.left.height_px);
+  const std::string calibrated = size_of(calibration.left.width_px, calibration.left.height_px);
+  if (pictured == calibrated) return calibration;
+  return Error{Errc::InvalidInput, "the calibration is for pictures of another size: calibrate at this one"}
+      .at(left.string() + " (" + pictured + ", calibrated " + calibrated + ")");
 }
 
 }  // namespace relievo::firmware

@@ -11,7 +11,8 @@ namespace relievo::firmware {
 
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   Reconstruction reconstruction;
-  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console));
+  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console,
+                                 args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   const auto frame = args.camera_frame ? storage::ExportFrame::Camera : storage::ExportFrame::Head;
@@ -22,6 +23,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   RELIEVO_TRY(folder.commit());
 
   for (const StageRecord& stage : reconstruction.report().stages) services.console.say(line_of(stage));
+  services.console.say(line_of(*reconstruction.report().drift));
   const pipeline::ModelQuality& q = reconstruction.report().quality;
   char line[160];
   std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,

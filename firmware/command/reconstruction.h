@@ -12,6 +12,7 @@
 #include "firmware/command/console.h"
 #include "firmware/command/report.h"
 #include "firmware/session.h"
+#include "firmware/work/pipeline_stages.h"
 
 namespace relievo::firmware {
 
@@ -20,7 +21,7 @@ class Reconstruction {
   Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
   // Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const Path& left, const Path& right, const Path& calibration, const AlgorithmArgs& algorithms,
-                   Console& console);
+                   Console& console, WhenMoved when_moved = WhenMoved::Refuse);
   const pipeline::FaceModel& model() const { return *session_.products().model; }
   const Report& report() const { return report_; }
 

@@ -16,6 +16,10 @@ std::string line_of(const StageRecord& stage) {
   return line;
 }
 
+std::string line_of(const pipeline::DriftJudgement& drift) {
+  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
+}
+
 std::uint64_t peak_rss_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

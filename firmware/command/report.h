@@ -7,10 +7,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/work/stage_record.h"
+#include "pipeline/calibrate/drift.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::firmware {
@@ -22,9 +24,11 @@ struct Report {
   std::chrono::nanoseconds total{0};     // pictures in memory to textured model in memory
   std::uint64_t peak_rss_bytes = 0;
   pipeline::ModelQuality quality;
+  std::optional<pipeline::DriftJudgement> drift;  // none where nothing was matched
 };
 
 std::string line_of(const StageRecord& stage);   // for a terminal
+std::string line_of(const pipeline::DriftJudgement& drift);
 std::string report_json(const Report& report);
 std::uint64_t peak_rss_bytes();          // of this process, up to now
 

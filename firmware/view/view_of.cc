@@ -36,6 +36,7 @@ ui::ViewState view_of(const Appliance& appliance) {
     view.problem = appliance.problem()->what.view();
     if (appliance.problem()->code == Errc::NoFace) view.advice = pipeline::Advice::NoFace;
   }
+  view.calibration_note = appliance.calibration_note();
   if (!appliance.session().is_open()) return view;
   view.subject = appliance.session().subject();
   // While a job runs, the products are the worker's; before Review nothing of them is shown.

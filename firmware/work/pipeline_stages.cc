@@ -3,6 +3,7 @@
 #include "firmware/work/pipeline_stages.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "hal/base/assert.h"
@@ -17,6 +18,12 @@ std::uint64_t pixels(const ImageView& view) {
 std::uint64_t accepted(const pipeline::MatchSet& matches) {
   return static_cast<std::uint64_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
                                                   [](const pipeline::Match& m) { return m.rejected_by == 0; }));
+}
+
+Error moved(const pipeline::DriftJudgement& drift) {
+  char place[64];
+  std::snprintf(place, sizeof place, "rows %.2f px apart", drift.residual_px);
+  return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(place);
 }
 
 }  // namespace
@@ -48,7 +55,9 @@ Result<void> PipelineStages::match(Products& products, pipeline::StageContext& c
   RELIEVO_TRY_ASSIGN(products.pair, pipeline_.rectify(*products.frame, context));
   RELIEVO_TRY_ASSIGN(products.matches, pipeline_.match(*products.pair, context));
   record.out = accepted(*products.matches);
-  return {};
+  products.drift = pipeline::judge_drift(products.matches->epipolar_shift, pipeline_.calibration());
+  if (products.drift->verdict != pipeline::DriftVerdict::Refuse || when_moved_ == WhenMoved::GoOn) return {};
+  return moved(*products.drift);
 }
 
 Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageContext& context,

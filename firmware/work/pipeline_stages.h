@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// PipelineStages: the four stages of the machine, done by pipeline::Pipeline.
-// Errors: the stage's own. Thread: worker.
+// PipelineStages: the four stages of the machine, done by pipeline::Pipeline. Matching also judges whether
+// the cameras have moved since they were calibrated (products.drift).
+// Errors: the stage's own; NotCalibrated after Match where they have moved too far to be measured with,
+// unless told to go on. Thread: worker.
 #pragma once
 
 #include "firmware/work/stage_runner.h"
@@ -10,9 +12,12 @@
 
 namespace relievo::firmware {
 
+enum class WhenMoved : std::uint8_t { Refuse, GoOn };
+
 class PipelineStages final : public StageRunner {
  public:
-  explicit PipelineStages(pipeline::Pipeline pipeline) : pipeline_(std::move(pipeline)) {}
+  explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse)
+      : pipeline_(std::move(pipeline)), when_moved_(when_moved) {}
   const pipeline::Pipeline& pipeline() const { return pipeline_; }
   Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override;
 
@@ -23,6 +28,7 @@ class PipelineStages final : public StageRunner {
   Result<void> texture(Products& products, pipeline::StageContext& context, StageRecord& record) const;
 
   pipeline::Pipeline pipeline_;
+  WhenMoved when_moved_;
 };
 
 }  // namespace relievo::firmware

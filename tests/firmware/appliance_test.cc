@@ -71,9 +71,11 @@ class TestStages final : public StageRunner {
  public:
   std::deque<std::pair<State, Errc>> errors;
   std::atomic<bool> waiting{false};
+  std::optional<pipeline::DriftJudgement> drift;
   std::string ran;
   Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override {
     ran += name_of(stage).substr(0, 2);
+    if (stage == State::Match) products.drift = drift;
     if (!errors.empty() && errors.front().first == stage) {
       const Errc code = errors.front().second;
       errors.pop_front();
@@ -240,6 +242,43 @@ TEST_F(ApplianceTest, APulledCameraIsAFaultAndForgets) {
   ASSERT_TRUE(reach(State::Fault));
   EXPECT_EQ(appliance.problem()->code, Errc::Disconnected);
   EXPECT_TRUE(memory_is_wiped());
+}
+
+TEST_F(ApplianceTest, ACameraThatMovedIsTheTechniciansBusiness) {
+  using pipeline::DriftVerdict;
+  const auto enrol = [this] {
+    EXPECT_TRUE(reach(State::Idle));
+    appliance.ask(ui::Intent::Begin);
+    EXPECT_TRUE(reach(State::Review));
+    appliance.ask(ui::Intent::Cancel);
+  };
+  const auto note = [this] { return std::string(view_of(appliance).calibration_note); };
+  enrol();
+  EXPECT_FALSE(appliance.drift()) << "nothing was judged";
+  EXPECT_EQ(note(), "");
+  stages.drift = {.verdict = DriftVerdict::Warn, .residual_px = 0.31, .expected_px = 0.02};
+  enrol();
+  EXPECT_EQ(appliance.drift()->verdict, DriftVerdict::Warn);
+  EXPECT_NE(note().find("0.31 px"), std::string::npos) << note();
+  EXPECT_EQ(view_of(appliance).problem, "") << "the person is not bothered";
+  stages.drift->verdict = DriftVerdict::Unknown;  // the next face cannot tell
+  enrol();
+  EXPECT_NE(note(), "");
+  stages.drift->verdict = DriftVerdict::Ok;
+  enrol();
+  EXPECT_EQ(note(), "");
+}
+
+TEST_F(ApplianceTest, ACameraThatMovedTooFarIsAFault) {
+  stages.drift = {.verdict = pipeline::DriftVerdict::Refuse, .residual_px = 2.5, .expected_px = 0.02};
+  stages.errors = {{State::Match, Errc::NotCalibrated}};
+  ASSERT_TRUE(reach(State::Idle));
+  appliance.ask(ui::Intent::Begin);
+  ASSERT_TRUE(reach(State::Fault));
+  EXPECT_EQ(appliance.problem()->code, Errc::NotCalibrated);
+  EXPECT_NE(std::string(view_of(appliance).calibration_note).find("calibrate again"), std::string::npos);
+  EXPECT_TRUE(memory_is_wiped());
+  EXPECT_EQ(kept, "");
 }
 
 TEST_F(ApplianceTest, ATechnicianComesAndGoes) {
