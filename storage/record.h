@@ -55,7 +55,7 @@ struct Consent {
 struct NewEnrolment {
   const pipeline::FaceModel& model;
   Consent consent;
-  std::uint32_t calibration_revision = 0;  // 0: made with a calibration that is not in the store
+  std::uint32_t calibration_revision = 0;  // 0: made with one that is not in the store
   std::string_view algorithms;             // the set of algorithms, TOML
   std::string_view report_json;
 };

@@ -55,6 +55,10 @@ class Store {
   Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note) {
     return save_calibration(calibration, note, {});
   }
+  // The revision of one that somebody else keeps, in a file: its own where the store has the same
+  // numbers already, else the next. Which one is active stays as it is. InvalidInput as above.
+  virtual Result<std::uint32_t> know_calibration(const pipeline::StereoCalibration& calibration,
+                                                 std::string_view note) = 0;
   virtual Result<std::vector<CalibrationInfo>> calibrations() = 0;                      // newest first
   virtual Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) = 0;  // NotFound
   virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                 // NotCalibrated

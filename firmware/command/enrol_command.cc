@@ -24,7 +24,8 @@ constexpr const char* kConsentWording = "operator-1";
 struct Calibrated {
   pipeline::StereoCalibration calibration;
   std::string name;             // for the report
-  std::uint32_t revision = 0;   // 0: not from the store
+  std::string note;             // for the store: without the folders, which may be somebody's
+  std::uint32_t revision = 0;   // 0: of a file, and the store does not know it yet
 };
 
 // Looked for before anything is made: without one no store appears.
@@ -34,12 +35,13 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     RELIEVO_TRY_ASSIGN(found.calibration,
                        pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0}));
     found.name = args.calibration.string();
+    found.note = args.calibration.filename().string();
     return found;
   }
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
   RELIEVO_TRY_ASSIGN(found.calibration, store->active_calibration());
   found.revision = found.calibration.revision;
-  found.name = "store revision " + std::to_string(found.revision);
+  found.name = found.note = "store revision " + std::to_string(found.revision);
   return found;
 }
 
@@ -103,7 +105,7 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
   using pipeline::DriftVerdict;
   const auto& drift = appliance.drift();
   if (!drift || (drift->verdict != DriftVerdict::Warn && drift->verdict != DriftVerdict::Refuse)) return {};
-  return store.append_audit({"calibration.drift", {}, calibrated.name + ": " + sentence(*drift)});
+  return store.append_audit({"calibration.drift", {}, calibrated.note + ": " + sentence(*drift)});
 }
 
 }  // namespace
@@ -126,8 +128,12 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
     const auto now = std::chrono::floor<std::chrono::milliseconds>(board->clock().wall_now());
     const std::string report = report_of(*records, stages, calibrated, model);
     const std::string algorithms = stages.pipeline().algorithms().to_text();
-    RELIEVO_TRY_ASSIGN(enrolment, store->add_enrolment(subject, {model, {kConsentWording, "en", now}, calibrated.revision,
-                                                                 algorithms, report}));
+    // What a model was measured with must be found again, also when the file is gone.
+    std::uint32_t revision = calibrated.revision;
+    if (revision == 0) {
+      RELIEVO_TRY_ASSIGN(revision, store->know_calibration(calibrated.calibration, "of an enrolment, from " + calibrated.note));
+    }
+    RELIEVO_TRY_ASSIGN(enrolment, store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
     return {};
   };
   Appliance appliance({*board, stages, memory, pool, keep});

@@ -18,25 +18,61 @@ Result<void> SqliteStore::make_active(std::uint32_t revision) {
   return {};
 }
 
-Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
-                                                    std::string_view note, const CalibrationFigures& figures) {
-  RELIEVO_TRY(check_calibration(calibration));
+namespace {
+
+Result<void> check_entry(const pipeline::StereoCalibration& calibration, std::string_view note) {
   if (note.size() > kMaxTextBytes)
     return Error{Errc::InvalidInput, "the note is longer than the store takes"};
+  return check_calibration(calibration);
+}
+
+}  // namespace
+
+Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCalibration& calibration,
+                                                      std::string_view note,
+                                                      const CalibrationFigures& figures, WallTime at) {
+  RELIEVO_TRY_ASSIGN(auto insert,
+                     database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
+                                        "VALUES (?, ?, zeroblob(0), 0)"));
+  RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
+  pipeline::StereoCalibration numbered = calibration;
+  numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
+  const auto record = encode_calibration(numbered, figures);
+  RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
+  RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
+  RELIEVO_TRY(append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+  return numbered.revision;
+}
+
+Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
+                                                    std::string_view note, const CalibrationFigures& figures) {
+  RELIEVO_TRY(check_entry(calibration, note));
   return change([&](WallTime at) -> Result<std::uint32_t> {
-    RELIEVO_TRY_ASSIGN(auto insert,
-                       database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
-                                          "VALUES (?, ?, zeroblob(0), 0)"));
-    RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
-    pipeline::StereoCalibration numbered = calibration;
-    numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
-    const auto record = encode_calibration(numbered, figures);
-    RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
-    RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
-    RELIEVO_TRY(make_active(numbered.revision));
-    RELIEVO_TRY(
-        append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
-    return numbered.revision;
+    RELIEVO_TRY_ASSIGN(const std::uint32_t revision, insert_calibration(calibration, note, figures, at));
+    RELIEVO_TRY(make_active(revision));
+    return revision;
+  });
+}
+
+Result<std::uint32_t> SqliteStore::revision_of(const pipeline::StereoCalibration& calibration) {
+  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT record FROM calibration ORDER BY revision DESC"));
+  pipeline::StereoCalibration wanted = calibration;
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) return 0;
+    RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(0)));
+    wanted.revision = stored.calibration.revision;
+    if (encode_calibration(stored.calibration) == encode_calibration(wanted)) return wanted.revision;
+  }
+}
+
+Result<std::uint32_t> SqliteStore::know_calibration(const pipeline::StereoCalibration& calibration,
+                                                    std::string_view note) {
+  RELIEVO_TRY(check_entry(calibration, note));
+  return change([&](WallTime at) -> Result<std::uint32_t> {
+    RELIEVO_TRY_ASSIGN(const std::uint32_t known, revision_of(calibration));
+    if (known != 0) return known;
+    return insert_calibration(calibration, note, {}, at);
   });
 }
 

@@ -58,6 +58,8 @@ class SqliteStore final : public Store {
   using Store::save_calibration;
   Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note,
                                          const CalibrationFigures& figures) override;
+  Result<std::uint32_t> know_calibration(const pipeline::StereoCalibration& calibration,
+                                         std::string_view note) override;
   Result<std::vector<CalibrationInfo>> calibrations() override;
   Result<pipeline::StereoCalibration> calibration(std::uint32_t revision) override;
   Result<pipeline::StereoCalibration> active_calibration() override;
@@ -78,6 +80,10 @@ class SqliteStore final : public Store {
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                        std::span<const std::byte> blob, WallTime at);
+  Result<std::uint32_t> insert_calibration(const pipeline::StereoCalibration& calibration,
+                                           std::string_view note, const CalibrationFigures& figures,
+                                           WallTime at);
+  Result<std::uint32_t> revision_of(const pipeline::StereoCalibration& calibration);  // 0: not in the store
   Result<void> make_active(std::uint32_t revision);
   Result<std::vector<std::byte>> model_bytes(EnrolmentId id);
   Result<void> check_pages();

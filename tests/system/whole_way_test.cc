@@ -68,6 +68,18 @@ class WholeWay : public RelievoProcess {
     ASSERT_TRUE(pipeline::write_calibration(here / file, turned(*rig, px / rig->right.focal_px.y, 0, 0)));
   }
 
+  void name_a_calibration_of_a_file(const std::string& file) {
+    std::vector<std::string> words = enrol_words();
+    words[4] = "Bob";
+    words.insert(words.end(), {"--calibration", file});
+    EXPECT_NE(done(words).out.find("Calibration  warn"), std::string::npos);
+    EXPECT_NE(done({"subjects", "show", "Bob", "--store", "store"}).out.find("calibration 2"), std::string::npos);
+    const std::string list = done({"calibration", "list", "--store", "store"}).out;
+    EXPECT_NE(list.find("*    1"), std::string::npos) << "to measure with one is not to put it in use: " << list;
+    EXPECT_NE(list.find("1  of an enrolment, from " + file), std::string::npos) << list;
+    done({"subjects", "erase", "Bob", "--store", "store"});
+  }
+
   void notice_a_knock() {
     const auto reconstruct = [](const std::string& calibration) {
       return std::vector<std::string>{"reconstruct", "face/left.png", "face/right.png", "--calibration", calibration, "-o", "knocked"};
@@ -77,6 +89,7 @@ class WholeWay : public RelievoProcess {
     EXPECT_NE(done(reconstruct("nudged.yml")).out.find("Calibration  warn"), std::string::npos);
     EXPECT_NE(read_text(here / "knocked/report.json").find("\"verdict\": \"warn\""), std::string::npos);
     fs::remove_all(here / "knocked");
+    name_a_calibration_of_a_file("nudged.yml");
     knock(3, "knocked.yml");
     refused(reconstruct("knocked.yml"), "face/left.png", "calibrate again");
     std::vector<std::string> words = reconstruct("knocked.yml");

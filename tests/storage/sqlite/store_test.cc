@@ -159,6 +159,27 @@ TEST_F(SqliteStoreVerbs, KeepsEveryCalibrationAndOneActive) {
   EXPECT_EQ(store->calibrations()->front().enrolments, 1);
 }
 
+TEST_F(SqliteStoreVerbs, KnowsACalibrationByItsNumbers) {
+  auto calibration = sample_calibration();
+  EXPECT_EQ(*store->know_calibration(calibration, "rig.yml"), 1u);
+  EXPECT_EQ(code_of(store->active_calibration()), Errc::NotCalibrated) << "to know one is not to use it";
+  calibration.epipolar_shift_px += 1e-16;
+  ASSERT_EQ(*store->save_calibration(calibration, "live", {CalibrationGrade::Pass, 0.04, 0.2, 0.1}), 2u);
+  reopen();
+  EXPECT_EQ(*store->know_calibration(sample_calibration(), "again"), 1u);
+  calibration.revision = 77;
+  EXPECT_EQ(*store->know_calibration(calibration, "again"), 2u);
+  EXPECT_EQ(store->active_calibration()->revision, 2u);
+  calibration.right.distortion[0] += 1e-9;
+  EXPECT_EQ(*store->know_calibration(calibration, "another"), 3u);
+  EXPECT_EQ(store->active_calibration()->revision, 2u);
+  EXPECT_EQ(store->calibrations()->size(), 3u);
+  EXPECT_EQ(store->calibrations()->front().note, "another");
+  EXPECT_EQ(store->calibration(3)->right.distortion[0], calibration.right.distortion[0]);
+  calibration.left.focal_px.x = -1;
+  EXPECT_EQ(code_of(store->know_calibration(calibration, "")), Errc::InvalidInput);
+}
+
 TEST_F(SqliteStoreVerbs, RemembersSettings) {
   EXPECT_EQ(code_of(store->setting("language")), Errc::NotFound);
   ASSERT_TRUE(store->set_setting("language", "de"));
