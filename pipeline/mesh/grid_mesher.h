@@ -25,9 +25,12 @@ struct GridMesherOptions {
   double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
   double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front
-  double max_hole_mm = 6;             // holes up to this wide are closed; 0 leaves all open
-  double min_width_mm = 5;            // narrower strips of surface are cut off; 0 keeps them
-  int outline_passes = 2;             // how often single teeth are trimmed off the boundary; 0 to 16
+  double max_hole_mm = 6;             // holes and cracks up to this wide are closed; 0 leaves all open
+  double gap_bend_deg = 20;           // a closed gap's slope may leave that of both its sides so far
+  double max_rim_deg = 70;            // steepest surface that leads to the outside; 90 keeps all
+  double min_width_mm = 12;           // narrower strips along the outline are cut off; 0 keeps them
+  double outline_smoothing_mm = 4;    // sigma of the outline's smoothing; 0 leaves it on the lattice
+  double rim_smoothing_mm = 1.5;      // the same, of the rims of open holes
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
   double min_area_mm2 = 2500;         // less surface than this is no face
 
@@ -41,9 +44,12 @@ void describe(GridMesherOptions& o, Field&& field) {
   field("step_sigmas", o.step_sigmas, OptionRange{0, 100}, "a neighbour's depth may leave the local slope by this many sigmas");
   field("step_slope_ratio", o.step_slope_ratio, OptionRange{1, 100}, "and by this many times the slope on either side");
   field("min_step_mm", o.min_step_mm, OptionRange{0, 100}, "smaller steps are never an edge of something in front, mm");
-  field("max_hole_mm", o.max_hole_mm, OptionRange{0, 50}, "holes up to this wide are closed, mm");
-  field("min_width_mm", o.min_width_mm, OptionRange{0, 50}, "narrower strips of surface are cut off, mm");
-  field("outline_passes", o.outline_passes, OptionRange{0, 16}, "how often single teeth are trimmed off the boundary");
+  field("max_hole_mm", o.max_hole_mm, OptionRange{0, 50}, "holes and cracks up to this wide are closed, mm");
+  field("gap_bend_deg", o.gap_bend_deg, OptionRange{0, 80}, "how far a closed gap's slope may leave that of both its sides, degrees");
+  field("max_rim_deg", o.max_rim_deg, OptionRange{30, 90}, "steepest surface that leads to the outside, between its normal and the line of sight, degrees");
+  field("min_width_mm", o.min_width_mm, OptionRange{0, 50}, "narrower strips along the outline are cut off, mm");
+  field("outline_smoothing_mm", o.outline_smoothing_mm, OptionRange{0, 10}, "how far the outline is smoothed, sigma in mm");
+  field("rim_smoothing_mm", o.rim_smoothing_mm, OptionRange{0, 10}, "how far the rims of open holes are smoothed, sigma in mm");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
   field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
 }

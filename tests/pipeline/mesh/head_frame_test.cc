@@ -75,7 +75,9 @@ PointCloud egg_head() {
 }
 
 FaceMesh mesh_of(const PointCloud& cloud, StageRoom& room) {
-  auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  GridMesherOptions whole;  // to the horizon: where the mesher ends a face is not the question here
+  whole.max_rim_deg = 90;
+  auto mesh = room.run([&](StageContext& c) { return GridMesher(whole).mesh(cloud, c); });
   EXPECT_TRUE(mesh);
   return *std::move(mesh);
 }

@@ -1,37 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/lattice_surface.h"
+#include "pipeline/mesh/lattice/lattice_surface.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/mesh/sight_edge.h"
 #include "pipeline/mesh/vector_math.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::cross, mesh::dot, mesh::minus, mesh::plus, mesh::squared_distance, mesh::unit;
-
-struct Edge { float depth_mm, across_mm; };  // along and across the line of sight, from -> to
-
-Edge edge_between(const Vec3f& from, const Vec3f& to) {
-  const Vec3f e = minus(to, from);
-  const Vec3f sight = unit(plus(from, to));
-  const float depth = dot(e, sight);
-  return {depth, std::sqrt(std::max(dot(e, e) - depth * depth, 1e-12F))};
-}
+using mesh::cross, mesh::dot, mesh::minus, mesh::plus, mesh::squared_distance;
+using mesh::edge_between, mesh::SightEdge;
 
 // Tests whether two neighbours continue one surface. A depth step is not known by its size alone: the
 // flank of a nose is as steep as a small step. It is known by leaving the slope found on both sides.
 class EdgeTest {
  public:
-  EdgeTest(const Lattice& lattice, const LatticeLimits& limits) : lattice_(lattice), limits_(limits) {}
+  EdgeTest(const PointLattice& lattice, const LatticeLimits& limits) : lattice_(lattice), limits_(limits) {}
 
   bool joined(int column, int row, int dx, int dy) const {
     const std::size_t a = lattice_.index(column, row);
     const std::size_t b = lattice_.index(column + dx, row + dy);
     if (lattice_.node[a] == Node::Empty || lattice_.node[b] == Node::Empty) return false;
-    const Edge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
+    const SightEdge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
     const float noise = limits_.step_sigmas *
         std::sqrt(lattice_.sigma_mm[a] * lattice_.sigma_mm[a] + lattice_.sigma_mm[b] * lattice_.sigma_mm[b]);
     const float depth = std::abs(edge.depth_mm);
@@ -54,25 +47,18 @@ class EdgeTest {
     if (!lattice_.inside(c, r)) return 0;
     const std::size_t n = lattice_.index(c, r);
     if (lattice_.node[n] == Node::Empty) return 0;
-    const Edge edge = edge_between(lattice_.at_mm[k], lattice_.at_mm[n]);
+    const SightEdge edge = edge_between(lattice_.at_mm[k], lattice_.at_mm[n]);
     const float slope = std::abs(edge.depth_mm) / edge.across_mm;
     return slope > limits_.max_slope ? 0 : slope;  // beyond the limit it is another surface
   }
 
-  const Lattice& lattice_;
+  const PointLattice& lattice_;
   const LatticeLimits& limits_;
 };
 
-bool facing(const Vec3f& a, const Vec3f& b, const Vec3f& c, float min_cosine) {
-  const Vec3f n = cross(minus(b, a), minus(c, a));
-  const Vec3f sight = plus(plus(a, b), c);
-  const float towards = -dot(n, sight);
-  return towards > 0 && towards * towards >= min_cosine * min_cosine * dot(n, n) * dot(sight, sight);
-}
-
 struct CellEdges { bool top, bottom, left, right, falling, rising; };
 
-std::uint8_t cut_cell(const Lattice& l, int c, int r, const CellEdges& e, float min_cosine) {
+std::uint8_t cut_cell(const PointLattice& l, int c, int r, const CellEdges& e, float min_cosine) {
   const Vec3f& a = l.at_mm[l.index(c, r)];
   const Vec3f& b = l.at_mm[l.index(c + 1, r)];
   const Vec3f& d = l.at_mm[l.index(c + 1, r + 1)];
@@ -90,7 +76,7 @@ std::uint8_t cut_cell(const Lattice& l, int c, int r, const CellEdges& e, float 
 
 }  // namespace
 
-LatticeSurface join_neighbours(const Lattice& l, const LatticeLimits& limits,
+LatticeSurface join_neighbours(const PointLattice& l, const LatticeLimits& limits,
                                std::pmr::memory_resource* memory) {
   LatticeSurface surface(memory);
   surface.cells.assign(l.size(), 0);
@@ -103,7 +89,7 @@ LatticeSurface join_neighbours(const Lattice& l, const LatticeLimits& limits,
       if (r + 1 < l.rows) down[l.index(c, r)] = test.joined(c, r, 0, 1);
     }
   }
-  const float min_cosine = 1 / std::sqrt(1 + limits.max_slope * limits.max_slope);
+  const float min_cosine = cosine_of_slope(limits.max_slope);
   for (int r = 0; r + 1 < l.rows; ++r) {
     for (int c = 0; c + 1 < l.columns; ++c) {
       const std::size_t k = l.index(c, r);
@@ -117,6 +103,30 @@ LatticeSurface join_neighbours(const Lattice& l, const LatticeLimits& limits,
     }
   }
   return surface;
+}
+
+bool facing(const Vec3f& a, const Vec3f& b, const Vec3f& c, float min_cosine) {
+  const Vec3f n = cross(minus(b, a), minus(c, a));
+  const Vec3f sight = plus(plus(a, b), c);
+  const float towards = -dot(n, sight);
+  return towards > 0 && towards * towards >= min_cosine * min_cosine * dot(n, n) * dot(sight, sight);
+}
+
+std::uint8_t best_cut(const PointLattice& l, std::size_t k, float max_slope) {
+  const float min_cosine = cosine_of_slope(max_slope);
+  const Vec3f* p = &l.at_mm[k];
+  const Vec3f* q = p + l.columns;
+  const bool falling = facing(p[0], q[0], q[1], min_cosine) && facing(p[0], q[1], p[1], min_cosine);
+  const bool rising = facing(p[0], q[0], p[1], min_cosine) && facing(p[1], q[0], q[1], min_cosine);
+  if (!falling && !rising) return 0;
+  const bool shorter = squared_distance(p[0], q[1]) <= squared_distance(p[1], q[0]);
+  return falling && (shorter || !rising) ? kFalling : kRising;
+}
+
+bool carries_surface(const PointLattice& l, const LatticeSurface& s, int c, int r) {
+  const auto cell = [&](int x, int y) { return l.inside(x, y) ? s.cells[l.index(x, y)] : std::uint8_t{0}; };
+  return (cell(c, r) & (kUnder | kOver | kLeft)) || (cell(c - 1, r) & (kOver | kLeft | kRight)) ||
+         (cell(c - 1, r - 1) & (kUnder | kOver | kRight)) || (cell(c, r - 1) & (kUnder | kLeft | kRight));
 }
 
 }  // namespace relievo::pipeline

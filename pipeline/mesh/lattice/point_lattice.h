@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lattice: measured points laid back on the pixel lattice of the left rectified view, so that
+// PointLattice: measured points laid back on the pixel lattice of the left rectified view, so that
 // neighbours are found by counting. Columns run right, rows down. Frame: left camera, millimetres.
 #pragma once
 
@@ -16,15 +16,17 @@ namespace relievo::pipeline {
 
 enum class Node : std::uint8_t { Empty, Measured, Filled };
 
-struct Lattice {
-  explicit Lattice(std::pmr::memory_resource* memory)
-      : at_mm(memory), sigma_mm(memory), source(memory), node(memory) {}
+struct PointLattice {
+  explicit PointLattice(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), node(memory) {}
   int columns = 0;
   int rows = 0;
+  // A cell as the camera sees it, across the line of sight: the usual distance of neighbours in a row
+  // and in a column. 0 where nothing has a neighbour.
+  float cell_width_mm = 0;
+  float cell_height_mm = 0;
   // columns * rows values each, row by row.
   std::pmr::vector<Vec3f> at_mm;
-  std::pmr::vector<float> sigma_mm;         // along the line of sight
-  std::pmr::vector<std::uint32_t> source;   // index into the cloud's points
+  std::pmr::vector<float> sigma_mm;  // along the line of sight
   std::pmr::vector<Node> node;
 
   std::size_t size() const { return node.size(); }
@@ -40,7 +42,7 @@ struct Lattice {
 // Takes every `stride_x`-th column and `stride_y`-th row. Points that are not finite are left out;
 // where two fall on one node the more certain one stays. An empty lattice where no point is usable.
 // Throws std::bad_alloc when `memory` is used up.
-Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
-                     std::pmr::memory_resource* memory);
+PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
+                          std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

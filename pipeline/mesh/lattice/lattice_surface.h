@@ -11,12 +11,12 @@
 // A surface of cells is planar in the picture, so no edge can carry more than two triangles.
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
 
-#include "pipeline/mesh/lattice.h"
+#include "pipeline/mesh/lattice/point_lattice.h"
 
 namespace relievo::pipeline {
 
@@ -38,23 +38,18 @@ struct LatticeSurface {
 inline int triangle_count(std::uint8_t cell) { return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1; }
 
 // Cuts every cell whose nodes continue one surface, along the shorter diagonal.
-LatticeSurface join_neighbours(const Lattice& lattice, const LatticeLimits& limits,
+LatticeSurface join_neighbours(const PointLattice& lattice, const LatticeLimits& limits,
                                std::pmr::memory_resource* memory);
 
-// Empties cells that hang on the surface like teeth or flakes: fewer triangles within two cells than
-// a clean outline leaves there.
-void trim_outline(const Lattice& lattice, LatticeSurface& surface, int passes,
-                  std::pmr::memory_resource* memory);
+// Counter-clockwise seen from the camera, and no steeper than the angle of incidence with this cosine.
+bool facing(const Vec3f& a, const Vec3f& b, const Vec3f& c, float min_cosine);
+inline float cosine_of_slope(float slope) { return 1 / std::sqrt(1 + slope * slope); }
 
-// Empties whatever is too narrow for a square of 2 radius_cells + 1 cells (a morphological opening):
-// whiskers and bridges that occlusion leaves along an outline. Wider parts keep their shape.
-void open_outline(const Lattice& lattice, LatticeSurface& surface, int radius_cells,
-                  std::pmr::memory_resource* memory);
+// The better way to cut the cell at index `k` whole, or 0 where either leaves a triangle steeper than
+// `max_slope` or turned away.
+std::uint8_t best_cut(const PointLattice& lattice, std::size_t k, float max_slope);
 
-// Closes holes at most `max_cells` wide and high with a thin-plate surface through their rim (nodes
-// become Node::Filled); leaves those open that would need a slope steeper than `max_slope`.
-// Returns the number of triangles added, which never exceeds `max_added`.
-std::size_t fill_holes(Lattice& lattice, LatticeSurface& surface, int max_cells, float max_slope,
-                       std::size_t max_added, std::pmr::memory_resource* memory);
+// Whether any triangle holds the node (column, row).
+bool carries_surface(const PointLattice& lattice, const LatticeSurface& surface, int column, int row);
 
 }  // namespace relievo::pipeline

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/lattice.h"
+#include "pipeline/mesh/lattice/point_lattice.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/mesh/sight_edge.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -30,11 +32,26 @@ Box bounds(const PointCloud& cloud) {
   return box;
 }
 
+// Mean distance across the line of sight of neighbours so many columns and rows apart.
+float usual_distance(const PointLattice& l, int dx, int dy) {
+  double sum = 0;
+  double count = 0;
+  for (int r = 0; r + dy < l.rows; ++r)
+    for (int c = 0; c + dx < l.columns; ++c) {
+      const std::size_t a = l.index(c, r);
+      const std::size_t b = l.index(c + dx, r + dy);
+      if (l.node[a] == Node::Empty || l.node[b] == Node::Empty) continue;
+      sum += static_cast<double>(mesh::edge_between(l.at_mm[a], l.at_mm[b]).across_mm);
+      count += 1;
+    }
+  return count > 0 ? static_cast<float>(sum / count) : 0;
+}
+
 }  // namespace
 
-Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
-                     std::pmr::memory_resource* memory) {
-  Lattice lattice(memory);
+PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
+                          std::pmr::memory_resource* memory) {
+  PointLattice lattice(memory);
   if (cloud.lattice_step_px <= 0) return lattice;
   const Box box = bounds(cloud);
   if (box.right < box.left) return lattice;
@@ -47,10 +64,8 @@ Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
   lattice.sigma_mm.assign(nodes, 0.0F);
-  lattice.source.assign(nodes, 0U);
 
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const CloudPoint& p = cloud.points[i];
+  for (const CloudPoint& p : cloud.points) {
     if (!usable(p)) continue;
     const int x = steps(box.left, p.left_px.x);
     const int y = steps(box.top, p.left_px.y);
@@ -60,8 +75,9 @@ Lattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
     lattice.node[k] = Node::Measured;
     lattice.at_mm[k] = p.at_mm;
     lattice.sigma_mm[k] = p.sigma_mm;
-    lattice.source[k] = static_cast<std::uint32_t>(i);
   }
+  lattice.cell_width_mm = usual_distance(lattice, 1, 0);
+  lattice.cell_height_mm = usual_distance(lattice, 0, 1);
   return lattice;
 }
 

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/lattice/cell_mask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kFar = 1e9F;
+
+}  // namespace
+
+MaskShaper::MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm,
+                       std::pmr::memory_resource* memory)
+    : columns_(columns), rows_(rows), cell_width_mm_(cell_width_mm), cell_height_mm_(cell_height_mm),
+      along_row_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F, memory),
+      nearest_(static_cast<std::size_t>(columns), 0.0F, memory), piece_(memory), before_(along_row_.size(), 0, memory) {
+  piece_.reserve(along_row_.size());
+}
+
+void MaskShaper::dilate(CellMask& mask, float radius_mm) {
+  mark_within(mask, 1, false, radius_mm, mask);
+}
+
+void MaskShaper::erode(CellMask& mask, float radius_mm) {
+  mark_within(mask, 0, true, radius_mm, mask);
+  for (std::uint8_t& cell : mask) cell ^= 1;
+}
+
+void MaskShaper::close(CellMask& mask, float radius_mm, float back_mm) {
+  std::copy(mask.begin(), mask.end(), before_.begin());
+  dilate(mask, radius_mm);
+  erode(mask, back_mm);
+  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= before_[k];
+}
+
+void MaskShaper::open(CellMask& mask, float radius_mm) {
+  erode(mask, radius_mm);
+  dilate(mask, radius_mm);
+}
+
+void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border) {
+  for (int r = 0; r < rows_; ++r) {
+    const std::size_t row = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_);
+    float steps = beyond_border ? 0 : kFar;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(columns_); ++c) {
+      steps = mask[row + c] == wanted ? 0 : steps + 1;
+      along_row_[row + c] = steps;
+    }
+    steps = beyond_border ? 0 : kFar;
+    for (std::size_t c = static_cast<std::size_t>(columns_); c-- > 0;) {
+      steps = mask[row + c] == wanted ? 0 : steps + 1;
+      const float mm = std::min(along_row_[row + c], steps) * cell_width_mm_;
+      along_row_[row + c] = mm * mm;
+    }
+  }
+}
+
+// The squared distance separates into a row's and a column's part; within a bounded radius the column's
+// minimum is quickest found by looking (whole rows at a time, so that it vectorises).
+void MaskShaper::mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm,
+                             CellMask& out) {
+  measure_rows(mask, wanted, beyond_border);
+  const int reach = std::min(static_cast<int>(radius_mm / cell_height_mm_), rows_);
+  const float limit = radius_mm * radius_mm;
+  const std::size_t w = static_cast<std::size_t>(columns_);
+  for (int r = 0; r < rows_; ++r) {
+    std::copy_n(&along_row_[static_cast<std::size_t>(r) * w], w, nearest_.begin());
+    for (int dr = -reach; dr <= reach; ++dr) {
+      const float mm = static_cast<float>(dr) * cell_height_mm_;
+      if (r + dr < 0 || r + dr >= rows_) {
+        if (beyond_border) std::fill(nearest_.begin(), nearest_.end(), 0.0F);  // within reach by the loop's bounds
+        continue;
+      }
+      const float* other = &along_row_[static_cast<std::size_t>(r + dr) * w];
+      float* nearest = nearest_.data();
+      for (std::size_t c = 0; c < w; ++c) nearest[c] = std::min(nearest[c], other[c] + mm * mm);
+    }
+    std::uint8_t* mark = &out[static_cast<std::size_t>(r) * w];
+    for (std::size_t c = 0; c < w; ++c) mark[c] = nearest_[c] <= limit;
+  }
+}
+
+// Turns the piece of `from` around `seed` into `to`; its cells are in piece_ afterwards.
+template <bool Corners>
+void MaskShaper::flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, std::uint8_t to) {
+  piece_.assign(1, seed);
+  mask[seed] = to;
+  for (std::size_t next = 0; next < piece_.size(); ++next) {
+    const int c = static_cast<int>(piece_[next]) % columns_;
+    const int r = static_cast<int>(piece_[next]) / columns_;
+    for (int dr = -1; dr <= 1; ++dr)
+      for (int dc = -1; dc <= 1; ++dc) {
+        if (!Corners && dr != 0 && dc != 0) continue;
+        if (c + dc < 0 || c + dc >= columns_ || r + dr < 0 || r + dr >= rows_) continue;
+        const std::uint32_t k = static_cast<std::uint32_t>((r + dr) * columns_ + c + dc);
+        if (mask[k] != from) continue;
+        mask[k] = to;
+        piece_.push_back(k);
+      }
+  }
+}
+
+void MaskShaper::fill_holes(CellMask& mask) {
+  constexpr std::uint8_t kOutside = 2;
+  const auto flood_from = [&](int c, int r) {
+    const std::uint32_t k = static_cast<std::uint32_t>(r * columns_ + c);
+    if (mask[k] == 0) flood<true>(mask, k, 0, kOutside);
+  };
+  for (int c = 0; c < columns_; ++c) {
+    flood_from(c, 0);
+    flood_from(c, rows_ - 1);
+  }
+  for (int r = 0; r < rows_; ++r) {
+    flood_from(0, r);
+    flood_from(columns_ - 1, r);
+  }
+  for (std::uint8_t& cell : mask) cell = cell != kOutside;
+}
+
+void MaskShaper::drop_pieces_below(CellMask& mask, std::size_t least) {
+  constexpr std::uint8_t kKept = 2;
+  for (std::uint32_t k = 0; k < mask.size(); ++k) {
+    if (mask[k] != 1) continue;
+    flood<false>(mask, k, 1, kKept);
+    if (piece_.size() >= least) continue;
+    for (const std::uint32_t cell : piece_) mask[cell] = 0;
+  }
+  for (std::uint8_t& cell : mask) cell = cell == kKept;
+}
+
+void MaskShaper::keep_largest_piece(CellMask& mask) {
+  constexpr std::uint8_t kSeen = 2, kKept = 3;
+  std::size_t most = 0;
+  std::uint32_t seed = 0;
+  for (std::uint32_t k = 0; k < mask.size(); ++k) {
+    if (mask[k] != 1) continue;
+    flood<false>(mask, k, 1, kSeen);
+    if (piece_.size() <= most) continue;
+    most = piece_.size();
+    seed = k;
+  }
+  if (most > 0) flood<false>(mask, seed, kSeen, kKept);
+  for (std::uint8_t& cell : mask) cell = cell == kKept;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/lattice/gap_closer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pipeline/mesh/lattice/thin_plate.h"
+#include "pipeline/mesh/sight_edge.h"
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using mesh::edge_between, mesh::minus, mesh::plus, mesh::SightEdge, mesh::times;
+
+struct Cell { int c, r; };
+
+constexpr std::uint8_t kOpen = 0, kBridged = 1, kUndecided = 2;
+
+class GapCloser {
+ public:
+  GapCloser(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
+            std::pmr::memory_resource* memory)
+      : lattice_(lattice), surface_(surface), limits_(limits), shaper_(shaper), whole_(lattice.size(), 0, memory),
+        gap_(lattice.size(), 0, memory), carrying_(lattice.size(), 0, memory), free_(memory), memory_(memory) {
+    cell_mm_ = std::min(lattice.cell_width_mm, lattice.cell_height_mm);
+  }
+
+  void close(std::size_t max_added) {
+    drop_specks();
+    find_gaps();
+    for (int r = 0; r + 1 < lattice_.rows; ++r)
+      for (int c = 0; c + 1 < lattice_.columns; ++c)
+        if (std::uint8_t& gap = gap_[lattice_.index(c, r)]) gap = bridge({c, r});
+    settle_crossings();
+    const std::size_t cells = static_cast<std::size_t>(std::count(gap_.begin(), gap_.end(), kBridged));
+    if (cells == 0 || 2 * cells > max_added) return;
+    free_nodes();
+    relax_thin_plate(lattice_, free_, carrying_, memory_);
+    for (std::size_t k = 0; k < gap_.size(); ++k)
+      if (gap_[k])
+        if (const std::uint8_t cut = best_cut(lattice_, k, limits_.max_slope)) surface_.cells[k] = cut;
+  }
+
+ private:
+  // A speck between two cracks bridges nothing and would only hold a lid down where an outlier lies.
+  void drop_specks() {
+    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
+    const float radius = limits_.max_width_mm / 2;
+    const float area = lattice_.cell_width_mm * lattice_.cell_height_mm;
+    shaper_.drop_pieces_below(whole_, static_cast<std::size_t>(std::numbers::pi_v<float> * radius * radius / area));
+    gap_ = whole_;
+    shaper_.dilate(gap_, 1.5F * std::max(lattice_.cell_width_mm, lattice_.cell_height_mm));
+    for (std::size_t k = 0; k < gap_.size(); ++k)
+      if (!gap_[k]) surface_.cells[k] = 0;
+  }
+
+  // Where a disc of the widest gap's size does not fit. The way back is a little longer than the way
+  // out: the steps of a lattice along a slanted outline are no gaps.
+  void find_gaps() {
+    const float radius = (limits_.max_width_mm + cell_mm_) / 2;
+    gap_ = whole_;
+    shaper_.close(gap_, radius, radius + 0.75F * cell_mm_);
+    for (std::size_t k = 0; k < gap_.size(); ++k) gap_[k] = gap_[k] && !whole_[k] ? kUndecided : kOpen;
+  }
+
+  // Whether the shortest way across the gap continues the surface on its two sides. Undecided where no
+  // way is short enough, as where two cracks cross.
+  std::uint8_t bridge(Cell at) const {
+    constexpr Cell kWays[] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    float narrowest = limits_.max_width_mm;
+    std::uint8_t verdict = kUndecided;
+    for (const Cell& way : kWays) {
+      const std::optional<Cell> from = rim(at, {-way.c, -way.r});
+      if (!from) continue;
+      const std::optional<Cell> to = rim(at, way);
+      if (!to) continue;
+      const SightEdge edge = edge_between(middle(*from), middle(*to));
+      const float cells = static_cast<float>(std::max(std::abs(to->c - from->c), std::abs(to->r - from->r)));
+      const float width = std::hypot(edge.depth_mm, edge.across_mm) * (cells - 1) / cells;
+      if (width > narrowest) continue;
+      narrowest = width;
+      const bool continues = continues_both(edge, width, -slope_behind(*from, {-way.c, -way.r}), slope_behind(*to, way));
+      verdict = continues ? kBridged : kOpen;
+    }
+    return verdict;
+  }
+
+  // What is undecided joins the bridges around it; where it touches anything open, it stays open.
+  void settle_crossings() {
+    std::pmr::vector<std::uint32_t> opened(memory_);
+    opened.reserve(gap_.size());
+    for (std::uint32_t k = 0; k < gap_.size(); ++k)
+      if (gap_[k] == kOpen && !whole_[k]) opened.push_back(k);
+    for (std::size_t next = 0; next < opened.size(); ++next) {
+      const int c = static_cast<int>(opened[next]) % lattice_.columns;
+      const int r = static_cast<int>(opened[next]) / lattice_.columns;
+      for (int y = std::max(r - 1, 0); y <= std::min(r + 1, lattice_.rows - 1); ++y)
+        for (int x = std::max(c - 1, 0); x <= std::min(c + 1, lattice_.columns - 1); ++x) {
+          const std::size_t k = lattice_.index(x, y);
+          if (gap_[k] != kUndecided) continue;
+          gap_[k] = kOpen;
+          opened.push_back(static_cast<std::uint32_t>(k));
+        }
+    }
+    for (std::uint8_t& gap : gap_) gap = gap != kOpen;
+  }
+
+  bool continues_both(const SightEdge& edge, float width, float before, float after) const {
+    const float most = std::max(before, after) * edge.across_mm;
+    const float least = std::min(before, after) * edge.across_mm;
+    const float allowed = limits_.min_step_mm + limits_.max_bend * width;
+    return edge.depth_mm <= most + allowed && edge.depth_mm >= least - allowed;
+  }
+
+  // The first cell of the surface that way, or none within reach.
+  std::optional<Cell> rim(Cell at, Cell way) const {
+    const float mm = std::hypot(static_cast<float>(way.c) * lattice_.cell_width_mm, static_cast<float>(way.r) * lattice_.cell_height_mm);
+    for (int n = static_cast<int>(limits_.max_width_mm / mm) + 1; n > 0; --n) {
+      at = {at.c + way.c, at.r + way.r};
+      if (!lattice_.inside(at.c, at.r)) return std::nullopt;
+      if (whole_[lattice_.index(at.c, at.r)]) return at;
+    }
+    return std::nullopt;
+  }
+
+  // The slope (depth over way across the line of sight) further out, looking outwards.
+  float slope_behind(Cell rim, Cell way) const {
+    Cell back = rim;
+    for (int n = 2; n > 0; --n) {
+      const Cell next{back.c + way.c, back.r + way.r};
+      if (!lattice_.inside(next.c, next.r) || !whole_[lattice_.index(next.c, next.r)]) break;
+      back = next;
+    }
+    const SightEdge edge = back.c == rim.c && back.r == rim.r ? across_cell(rim, way) : edge_between(middle(rim), middle(back));
+    return edge.depth_mm / edge.across_mm;
+  }
+
+  Vec3f middle(Cell at) const {
+    const Vec3f* p = &lattice_.at_mm[lattice_.index(at.c, at.r)];
+    const Vec3f* q = p + lattice_.columns;
+    return times(plus(plus(p[0], p[1]), plus(q[0], q[1])), 0.25F);
+  }
+
+  SightEdge across_cell(Cell at, Cell way) const {
+    const Vec3f* p = &lattice_.at_mm[lattice_.index(at.c, at.r)];
+    const Vec3f* q = p + lattice_.columns;
+    const Vec3f right = times(minus(plus(p[1], q[1]), plus(p[0], q[0])), static_cast<float>(way.c) / 2);
+    const Vec3f down = times(minus(plus(q[0], q[1]), plus(p[0], p[1])), static_cast<float>(way.r) / 2);
+    return edge_between(middle(at), plus(middle(at), plus(right, down)));
+  }
+
+  // Nodes of bridged cells that no triangle holds. Their sigma: twice that of the known around them.
+  void free_nodes() {
+    for (int r = 0; r < lattice_.rows; ++r)
+      for (int c = 0; c < lattice_.columns; ++c) carrying_[lattice_.index(c, r)] = carries_surface(lattice_, surface_, c, r);
+    const std::size_t w = static_cast<std::size_t>(lattice_.columns);
+    CellMask listed(lattice_.size(), 0, memory_);
+    for (std::size_t k = 0; k < gap_.size(); ++k)
+      if (gap_[k])
+        for (const std::size_t corner : {k, k + 1, k + w, k + w + 1}) listed[corner] = !carrying_[corner];
+    free_.reserve(static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 1)));
+    for (std::uint32_t k = 0; k < listed.size(); ++k)
+      if (listed[k]) free_.push_back(k);
+    for (const std::uint32_t k : free_) {
+      lattice_.node[k] = Node::Filled;
+      lattice_.sigma_mm[k] = 2 * usual_sigma(k);
+    }
+  }
+
+  float usual_sigma(std::uint32_t k) const {
+    const int c = static_cast<int>(k) % lattice_.columns;
+    const int r = static_cast<int>(k) / lattice_.columns;
+    float sum = 0;
+    float count = 0;
+    for (int reach = 1; count == 0 && reach < std::max(lattice_.columns, lattice_.rows); ++reach)
+      for (int y = r - reach; y <= r + reach; ++y)
+        for (int x = c - reach; x <= c + reach; ++x) {
+          if (!lattice_.inside(x, y) || !carrying_[lattice_.index(x, y)]) continue;
+          sum += lattice_.sigma_mm[lattice_.index(x, y)];
+          count += 1;
+        }
+    return count > 0 ? sum / count : 1;
+  }
+
+  PointLattice& lattice_;
+  LatticeSurface& surface_;
+  const GapLimits& limits_;
+  MaskShaper& shaper_;
+  float cell_mm_ = 0;
+  CellMask whole_, gap_;                // of cells
+  CellMask carrying_;                   // of nodes
+  std::pmr::vector<std::uint32_t> free_;
+  std::pmr::memory_resource* memory_;
+};
+
+}  // namespace
+
+void close_gaps(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, std::size_t max_added,
+                MaskShaper& shaper, std::pmr::memory_resource* memory) {
+  if (limits.max_width_mm <= 0) return;
+  GapCloser(lattice, surface, limits, shaper, memory).close(max_added);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/lattice/outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using mesh::cross, mesh::dot, mesh::minus, mesh::plus;
+
+constexpr float kSlopeRadiusMm = 1.5F;   // a cell's slope is the mean so far around it
+constexpr float kChannelShare = 0.5F;   // steep channels narrower than this share of min_width_mm let nothing in
+
+// Sums along rows over windows of 2 reach + 1, in place.
+void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Vec3f> row(static_cast<std::size_t>(columns + 2 * reach), Vec3f{}, memory);
+  const std::size_t w = static_cast<std::size_t>(columns);
+  for (std::size_t first = 0; first < v.size(); first += w) {
+    std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(first), columns, row.begin() + reach);
+    for (std::size_t c = 0; c < w; ++c) {
+      Vec3f sum = row[c];
+      for (std::size_t j = 1; j <= 2 * static_cast<std::size_t>(reach); ++j) sum = plus(sum, row[c + j]);
+      v[first + c] = sum;
+    }
+  }
+}
+
+CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Vec3f> normal(l.size(), Vec3f{}, memory);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (triangle_count(surface.cells[k]) != 2) continue;
+    const Vec3f* p = &l.at_mm[k];
+    const Vec3f* q = p + l.columns;
+    normal[k] = cross(minus(q[0], p[1]), minus(q[1], p[0]));
+  }
+  sum_along_rows(normal, l.columns, static_cast<int>(kSlopeRadiusMm / l.cell_width_mm), memory);
+  const int reach = static_cast<int>(kSlopeRadiusMm / l.cell_height_mm);
+  const float cosine = cosine_of_slope(max_slope);
+  CellMask steep(l.size(), 0, memory);
+  for (int r = 0; r + 1 < l.rows; ++r)
+    for (int c = 0; c + 1 < l.columns; ++c) {
+      const std::size_t k = l.index(c, r);
+      if (surface.cells[k] == 0) continue;
+      Vec3f n{};
+      for (int y = std::max(r - reach, 0); y <= std::min(r + reach, l.rows - 1); ++y) n = plus(n, normal[l.index(c, y)]);
+      const Vec3f& p = l.at_mm[l.node[k] != Node::Empty ? k : k + 1];  // a triangle holds one of the upper nodes
+      const float towards = dot(n, p);
+      steep[k] = towards * towards < cosine * cosine * dot(n, n) * dot(p, p);
+    }
+  return steep;
+}
+
+}  // namespace
+
+CellMask trim_outline(const PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
+                      std::pmr::memory_resource* memory) {
+  CellMask all(l.size(), 0, memory);
+  for (std::size_t k = 0; k < l.size(); ++k) all[k] = surface.cells[k] != 0;
+  shaper.fill_holes(all);
+  CellMask kept = all;
+  const CellMask steep = steep_cells(l, surface, limits.max_rim_slope, memory);
+  for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !steep[k];
+  // A steep fold that leads from the outside to the nose must not open a way in.
+  const float channel = kChannelShare * limits.min_width_mm;
+  shaper.close(kept, channel, channel);
+  shaper.fill_holes(kept);
+  for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && all[k];
+  shaper.open(kept, limits.min_width_mm / 2);
+  shaper.keep_largest_piece(kept);
+  for (std::size_t k = 0; k < l.size(); ++k)
+    if (!kept[k]) surface.cells[k] = 0;
+  return kept;
+}
+
+}  // namespace relievo::pipeline

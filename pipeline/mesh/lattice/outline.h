@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The outline of a lattice's surface. What lies beyond it is trimmed in two steps, both blind to holes
+// inside, whose surroundings stay as they are:
+//   the rim   surface that turns away from the camera and leads to the outside: the last rows before the
+//             horizon are measured worst, and left standing they are a fringe of teeth and flags;
+//   strips    whatever a disc of min_width_mm does not fit into (an opening; Serra 1982).
+#pragma once
+
+#include <memory_resource>
+
+#include "pipeline/mesh/lattice/cell_mask.h"
+#include "pipeline/mesh/lattice/lattice_surface.h"
+
+namespace relievo::pipeline {
+
+struct OutlineLimits {
+  float max_rim_slope = 0;   // tangent of the steepest angle of incidence before the outside
+  float min_width_mm = 0;
+};
+
+// Empties the cells beyond; returns what lies inside, holes included. Throws std::bad_alloc when `memory` is used up.
+CellMask trim_outline(const PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
+                      MaskShaper& shaper, std::pmr::memory_resource* memory);
+
+}  // namespace relievo::pipeline

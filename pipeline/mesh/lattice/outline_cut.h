@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cuts a lattice's surface along smooth lines a fraction of a cell inside its edges: the share of surface
+// around each node (a Gaussian) is a field, and triangles are cut where it falls to a level (marching
+// triangles on the lattice). The outline is smoothed by more than the rims of holes, whose shape is the
+// face's. Nodes closer to a line than a quarter of an edge are moved onto it, along the edge, so that no
+// slivers arise (Labelle, Shewchuk 2007). Every vertex stays on an edge it was on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/mesh/lattice/cell_mask.h"
+#include "pipeline/mesh/lattice/lattice_surface.h"
+
+namespace relievo::pipeline {
+
+// Only vertices that a triangle uses. Frame: left camera, millimetres.
+struct CutSurface {
+  explicit CutSurface(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
+  std::pmr::vector<Vec3f> at_mm;
+  std::pmr::vector<float> sigma_mm;         // along the line of sight
+  std::pmr::vector<std::uint8_t> measured;  // 1 where both nodes of the edge it lies on are
+  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Sigmas of the Gaussians; 0 leaves that line on the lattice.
+struct OutlineSmoothing {
+  float outline_mm = 0;
+  float rims_mm = 0;
+};
+
+// `inside` is what lies within the outline, holes included. Triangles that the move would make steeper
+// than `max_slope` are left out. Throws std::bad_alloc when `memory` is used up.
+CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
+                       const OutlineSmoothing& smoothing, float max_slope, std::pmr::memory_resource* memory);
+
+}  // namespace relievo::pipeline
