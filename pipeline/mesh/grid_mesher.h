@@ -28,8 +28,8 @@ struct GridMesherOptions {
   double max_hole_mm = 6;             // holes and cracks up to this wide are closed; 0 leaves all open
   double gap_bend_deg = 20;           // a closed gap's slope may leave that of both its sides so far
   double max_rim_deg = 70;            // steepest surface that leads to the outside; 90 keeps all
-  double min_width_mm = 12;           // narrower strips along the outline are cut off; 0 keeps them
-  double outline_smoothing_mm = 4;    // sigma of the outline's smoothing; 0 leaves it on the lattice
+  double min_width_mm = 9;            // narrower strips along the outline are cut off; 0 keeps them
+  double outline_smoothing_mm = 3;    // sigma of the outline's smoothing; 0 leaves it on the lattice
   double rim_smoothing_mm = 1.5;      // the same, of the rims of open holes
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
   double min_area_mm2 = 2500;         // less surface than this is no face
