@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/match/face_region.h"
 #include "pipeline/match/rectifier.h"
+#include "pipeline/match/region/face_region.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/match_set.h"

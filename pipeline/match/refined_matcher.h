@@ -8,7 +8,7 @@
 // Keypoints may lie anywhere; on the lattice of dense_selector.h no interpolation is needed.
 #pragma once
 
-#include "pipeline/match/coarse_surface.h"
+#include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/matcher.h"
 #include "pipeline/options.h"
 

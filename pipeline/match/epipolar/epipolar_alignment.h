@@ -14,8 +14,8 @@
 // Memory: scratch. Results do not depend on the number of threads. Thread: worker.
 #pragma once
 
-#include "pipeline/match/coarse_surface.h"
-#include "pipeline/match/surface_refiner.h"
+#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 

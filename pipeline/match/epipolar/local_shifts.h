@@ -10,9 +10,9 @@
 
 #include <span>
 
-#include "pipeline/match/coarse_surface.h"
+#include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/epipolar/shift_field.h"
-#include "pipeline/match/surface_refiner.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 namespace relievo::pipeline {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/surface_refiner.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/bending_system.h"
 #include "pipeline/match/box_filter.h"
-#include "pipeline/match/warp_terms.h"
+#include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/refine/warp_terms.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <vector>
 
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image_pyramid.h"
-#include "pipeline/match/semi_global.h"
-#include "pipeline/match/surface_refiner.h"
+#include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

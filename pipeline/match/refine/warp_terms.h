@@ -5,7 +5,7 @@
 // what every pixel then says about the field.
 #pragma once
 
-#include "pipeline/match/surface_refiner.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 namespace relievo::pipeline {
 

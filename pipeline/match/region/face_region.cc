@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/face_region.h"
+#include "pipeline/match/region/face_region.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/coarse_surface.h"
+#include "pipeline/match/coarse/coarse_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include <opencv2/objdetect.hpp>
 
 #include "pipeline/match/checksum.h"
-#include "pipeline/match/face_region.h"
+#include "pipeline/match/region/face_region.h"
 
 namespace relievo::pipeline {
 namespace {
