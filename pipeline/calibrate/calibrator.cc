@@ -149,6 +149,24 @@ void name_left_out(const Selection& selection, std::span<const int> pairs, Calib
   }
 }
 
+// Another lens, another sensor or another focus changes a focal length by more than this.
+constexpr double kSameLens = 0.01;
+
+bool same_lens(const CameraIntrinsics& a, const CameraIntrinsics& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px &&
+         std::abs(a.focal_px.x / b.focal_px.x - 1) < kSameLens && std::abs(a.focal_px.y / b.focal_px.y - 1) < kSameLens;
+}
+
+// A board's square size scales the baseline and leaves the lenses alone: by the lenses the rig is known again.
+void expect_baseline(const CalibratorInput& input, const StereoCalibration& found, CalibrationQuality& quality) {
+  quality.expected_baseline_mm = input.expected_baseline_mm;
+  if (input.expected_baseline_mm > 0 || !input.in_use) return;
+  if (!same_lens(found.left, input.in_use->left) || !same_lens(found.right, input.in_use->right)) return;
+  const Vec3d& t = input.in_use->right_from_left.translation_mm;
+  quality.expected_baseline_mm = std::hypot(t.x, t.y, t.z);
+  quality.expected_as_in_use = true;
+}
+
 StereoCalibration calibration_of(const StereoFit& fit) {
   StereoCalibration calibration;
   calibration.left = fit.problem.camera[0];
@@ -207,6 +225,8 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   measure_quality({input, cameras, pairs, selection}, out.quality);
   out.calibration.epipolar_shift_px = out.quality.held_out_shift_px;
   name_left_out(selection, pairs, out.quality);
+  expect_baseline(input, out.calibration, out.quality);
+  out.views = fitted_views(input.views.size(), selection.fit);
   judge_quality(out.quality);
   return out;
 }

@@ -8,10 +8,12 @@
 // Thread: any; the same input gives the same result.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
+#include "pipeline/calibrate/fit/fitted_views.h"
 #include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/model/calibration.h"
 
@@ -34,11 +36,15 @@ struct CalibratorInput {
   // What the distance of the cameras is known to be, from their mount or the calibration before; 0: unknown.
   // A wrong size of the board's squares cannot be seen without it.
   double expected_baseline_mm = 0;
+  // The calibration in use until now, if any: where its lenses are these lenses, its baseline is expected,
+  // unless expected_baseline_mm says another.
+  std::optional<StereoCalibration> in_use{};
 };
 
 struct CalibratorOutput {
   StereoCalibration calibration;
   CalibrationQuality quality;  // with verdict Refuse the calibration is not to be used
+  std::vector<FittedView> views;  // one a view given, in their order
 };
 
 Result<CalibratorOutput> calibrate(const CalibratorInput& input);

@@ -13,6 +13,8 @@
 
 namespace relievo::pipeline {
 
+inline constexpr double kFaceMm = 560;  // where faces are
+
 enum class CalibrationVerdict : std::uint8_t { Pass, Usable, Refuse };
 
 // Why left and right disagree more than corner noise explains.
@@ -56,6 +58,7 @@ struct CalibrationQuality {
   int moved_after_last = -1;
   double baseline_mm = 0;
   double expected_baseline_mm = 0;  // what it was said to be; 0: nothing was said
+  bool expected_as_in_use = false;  // as the calibration in use says, whose lenses are the same
   double tilt_spread_deg = 0;       // of the boards used: the median angle between two of them
   double board_sag_mm = 0;          // peak to valley, estimated from all views
   double board_sag_sigma_mm = 0;
@@ -65,6 +68,11 @@ struct CalibrationQuality {
   double depth_sigma_mm = 0;  // of its distance
   double face_depth_sigma_mm = 0;  // the same at 560 mm, where faces are
   double shape_sigma_mm = 0;  // of its shape and size: what stays when it is laid over the true one
+  // Measured, on boards that had no part in the fit, against the known size of their squares; root mean
+  // squares, depth brought to 560 mm:
+  double measured_depth_mm = 0;        // of a whole board
+  double measured_point_depth_mm = 0;  // of a single corner, the noise of finding it included
+  double measured_length_percent = 0;  // of lengths on the board
   CalibrationUncertainty uncertainty;
 };
 

@@ -9,6 +9,8 @@
 #include "pipeline/calibrate/fit/board_bend.h"
 #include "pipeline/calibrate/fit/relation_evidence.h"
 #include "pipeline/calibrate/quality/held_out_shift.h"
+#include "pipeline/calibrate/quality/known_squares.h"
+#include "pipeline/calibrate/quality/limits.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 #include "pipeline/calibrate/quality/rig_spread.h"
 
@@ -79,8 +81,7 @@ void measure_flatness(const Fitted& f, CalibrationQuality& q) {
   q.board_sag_mm = surer.sag_mm;
   q.board_sag_sigma_mm = surer.sigma_mm;
   constexpr double kCertain = 5;
-  constexpr double kFlat = 1e-3;
-  q.board_bent = left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > kFlat * size_mm;
+  q.board_bent = left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > limits::kFlat * size_mm;
 }
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
@@ -138,17 +139,19 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.held_out_epipolar_px = held_out_epipolar(f, spread);
   q.held_out_shift_px = held_out_shift(f, spread);
   q.uncertainty = measure_uncertainty(spread, q.working_distance_mm);
-  constexpr double kFaceMm = 560;
   q.face_depth_sigma_mm = depth_uncertainty(spread, kFaceMm).sigma_mm;
   q.depth_sigma_mm = depth_uncertainty(spread, q.working_distance_mm).sigma_mm;
   q.shape_sigma_mm = q.uncertainty.shape_sigma_mm;
+  const KnownSquares known = measure_known_squares(f, spread, kFaceMm);
+  q.measured_depth_mm = known.depth_mm;
+  q.measured_point_depth_mm = known.point_depth_mm;
+  q.measured_length_percent = known.length_percent;
   const ChangePoint& moved = f.selection.moved;
   const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[static_cast<std::size_t>(pair)]; };
   q.moved_after = view_at(moved.likeliest);
   q.moved_after_first = view_at(moved.first);
   q.moved_after_last = view_at(moved.last);
   q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
-  q.expected_baseline_mm = f.input.expected_baseline_mm;
   if (!q.holds_still || q.used < static_cast<int>(f.pairs.size())) q.slip_cause = cause_of(f);
   measure_flatness(f, q);
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFieldStepMm = 80;
 constexpr int kMapColumns = 24;
+constexpr double kDegrees = 57.29577951308232;
 
 std::vector<Eigen::Vector3d> box(double distance_mm, double step_mm, int layers) {
   std::vector<Eigen::Vector3d> points;
@@ -67,6 +68,26 @@ ProjectionMap projection_map(const RigSpread& spread, int eye) {
   return map;
 }
 
+ParameterUncertainty parameter_uncertainty(const RigSpread& spread) {
+  const Eigen::VectorXd variance = spread.variance([](const bundle::Problem& rig) -> Eigen::VectorXd {
+    Eigen::VectorXd all(2 * bundle::kCameraGlobals + 7);
+    const bundle::Pose& relation = rig.right_from_left;
+    all << bundle::parameters_of(rig.camera[0]), bundle::parameters_of(rig.camera[1]),
+        kDegrees * bundle::turn_of(relation.rotation), relation.translation_mm, relation.translation_mm.norm();
+    return all;
+  });
+  ParameterUncertainty u;
+  const double* next = variance.data();
+  const auto take = [&next](auto& into) {
+    for (double& one : into) one = std::sqrt(*next++);
+  };
+  for (auto& lens : u.lens) take(lens);
+  take(u.turn_deg);
+  take(u.translation_mm);
+  u.baseline_mm = std::sqrt(*next);
+  return u;
+}
+
 }  // namespace
 
 DepthUncertainty depth_uncertainty(const RigSpread& spread, double distance_mm) {
@@ -91,6 +112,7 @@ CalibrationUncertainty measure_uncertainty(const RigSpread& spread, double worki
   const Eigen::VectorXd shape = spread.variance(
       [&](const bundle::Problem& rig) { return flat(shape_difference(cloud_of(rig, probes), reference)); });
   u.shape_sigma_mm = std::sqrt(3 * shape.mean());
+  u.parameters = parameter_uncertainty(spread);
   return u;
 }
 

@@ -32,6 +32,16 @@ struct DepthUncertainty {
   double worst_sigma_mm = 0;  // at its worst point
 };
 
+// Of the calibration's own numbers.
+struct ParameterUncertainty {
+  std::array<std::array<double, 9>, 2> lens{};  // left, right: fx fy cx cy (px), k1 k2 p1 p2 k3
+  std::array<double, 3> turn_deg{};             // of right_from_left's rotation vector
+  std::array<double, 3> translation_mm{};
+  double baseline_mm = 0;
+};
+
+inline constexpr double kTwoSided95 = 1.96;  // standard deviations
+
 inline constexpr int kDepthSteps = 8;
 inline constexpr double kFirstDepthMm = 400;
 inline constexpr double kDepthStepMm = 50;  // 400, 450 … 750 mm
@@ -41,6 +51,7 @@ struct CalibrationUncertainty {
   std::array<DepthUncertainty, kDepthSteps> depth;
   double scale_percent = 0;   // of lengths in the middle of the field
   double shape_sigma_mm = 0;  // of a head at the boards' distance, laid over the true one
+  ParameterUncertainty parameters;
   bool slips = false;         // the spread of the views was larger than the corners' noise explains
 };
 

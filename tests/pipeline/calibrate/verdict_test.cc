@@ -125,6 +125,47 @@ TEST(Verdict, WrongSquareSize) {
   EXPECT_TRUE(says(q, "measure a square of the board again"));
 }
 
+// The rig in use is known again by its lenses, which a wrong square size leaves alone.
+TEST(Verdict, WrongSquareSizeAgainstTheRigInUse) {
+  BoardSimulator before(SimulatedRig{}, 0.05, 61);
+  before.add(16);
+  const auto in_use = pipeline::calibrate(before.input());
+  ASSERT_TRUE(in_use);
+  BoardSimulator boards(SimulatedRig{}, 0.05, 62);
+  boards.add(16);
+  boards.input().in_use = in_use->calibration;
+  CalibrationQuality q = judged(boards.input());
+  EXPECT_TRUE(q.expected_as_in_use);
+  EXPECT_NEAR(q.expected_baseline_mm, in_use->quality.baseline_mm, 1e-9);
+  EXPECT_NE(q.verdict, CalibrationVerdict::Refuse);
+  boards.input().pattern.square_mm = 10.3;
+  q = judged(boards.input());
+  EXPECT_EQ(q.verdict, CalibrationVerdict::Refuse);
+  EXPECT_TRUE(says(q, "measure a square of the board again"));
+  boards.input().expected_baseline_mm = 1.03 * in_use->quality.baseline_mm;  // what is said counts more
+  q = judged(boards.input());
+  EXPECT_FALSE(q.expected_as_in_use);
+  EXPECT_NE(q.verdict, CalibrationVerdict::Refuse);
+}
+
+TEST(Verdict, AnotherRigIsNotComparedWithTheOneInUse) {
+  BoardSimulator boards(SimulatedRig{}, 0.05, 63);
+  boards.add(16);
+  const auto own = pipeline::calibrate(boards.input());
+  ASSERT_TRUE(own);
+  for (int difference = 0; difference < 3; ++difference) {
+    pipeline::StereoCalibration other = own->calibration;
+    other.right_from_left.translation_mm.x *= 1.5;
+    if (difference == 0) other.left.focal_px.x *= 1.03;
+    if (difference == 1) other.right.focal_px.y *= 0.97;
+    if (difference == 2) other.right.width_px /= 2;
+    boards.input().in_use = other;
+    const CalibrationQuality q = judged(boards.input());
+    EXPECT_EQ(q.expected_baseline_mm, 0) << difference;
+    EXPECT_EQ(q.verdict, own->quality.verdict);
+  }
+}
+
 TEST(Verdict, SwappedCameras) {
   BoardSimulator boards(SimulatedRig{}, 0.05, 70);
   boards.add(12);
