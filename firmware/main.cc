@@ -82,6 +82,7 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, console};
+  const relievo::hal::MonotonicClock clock;
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, console, clock};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

@@ -109,6 +109,11 @@ Result<std::vector<std::byte>> encode_png(const ImageView& image) {
   return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 3});
 }
 
+Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent) {
+  if (image.format == PixelFormat::Grey16) return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit"};
+  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality_percent});
+}
+
 Result<void> write_picture(const std::filesystem::path& file, const ImageView& image) {
   const std::string extension = lower_extension(file);
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
@@ -117,7 +122,7 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   if (jpeg && image.format == PixelFormat::Grey16)
     return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit; write a .png"}.at(file.native());
   Result<std::vector<std::byte>> bytes =
-      jpeg ? encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 95}) : encode_png(image);
+      jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);
 }

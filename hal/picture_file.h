@@ -33,6 +33,7 @@ struct Picture {
 Result<Picture> read_picture(const std::filesystem::path& file);  // Grey8, Rgb8 or Grey16
 Result<void> write_picture(const std::filesystem::path& file, const ImageView& image);  // by extension
 Result<std::vector<std::byte>> encode_png(const ImageView& image);
+Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent);  // Grey8 or Rgb8
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size);
 
 }  // namespace relievo::hal

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // relievo calibrate as a command: run_calibrate() with its words on the console, Ctrl-C, and the store.
+#include <chrono>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <streambuf>
@@ -11,6 +13,7 @@
 #include "firmware/command/calibration_history.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/interrupt.h"
+#include "firmware/command/wall_time.h"
 
 namespace relievo::firmware {
 namespace {
@@ -40,6 +43,17 @@ class ConsoleLines final : public std::streambuf {
   std::string line_;
 };
 
+// Of a store that is not there yet, or holds no calibration, nothing is known.
+Result<std::optional<pipeline::StereoCalibration>> in_use(const Path& folder, Services& services) {
+  const auto store = services.open_store(folder, false);
+  if (!store && store.error().code == Errc::NotFound) return std::optional<pipeline::StereoCalibration>();
+  if (!store) return store.error();
+  auto active = (*store)->active_calibration();
+  if (!active && active.error().code == Errc::NotCalibrated) return std::optional<pipeline::StereoCalibration>();
+  if (!active) return active.error();
+  return std::optional(*std::move(active));
+}
+
 }  // namespace
 
 Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services) {
@@ -48,7 +62,12 @@ Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& servic
   std::ostream out(&lines);
   out.exceptions(std::ios::badbit);  // lets Stopped through
   try {
-    RELIEVO_TRY_ASSIGN(const auto result, run_calibrate(args, out));
+    RigToday today;
+    today.made_at = text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
+    if (!args.store.empty()) {
+      RELIEVO_TRY_ASSIGN(today.in_use, in_use(args.store, services));
+    }
+    RELIEVO_TRY_ASSIGN(const auto result, run_calibrate(args, out, today));
     if (args.store.empty()) return {};
     RELIEVO_TRY_ASSIGN(const auto store, services.open_store(args.store, true));
     RELIEVO_TRY_ASSIGN(const auto revision,

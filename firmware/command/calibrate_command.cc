@@ -10,10 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "firmware/command/output_folder.h"
+#include "firmware/command/calibrate_report.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/board/check_picture.h"
 
 namespace relievo::firmware {
 namespace {
@@ -107,38 +106,6 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
   return input;
 }
 
-std::string file_name(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '-');
-  return name;
-}
-
-Result<void> write_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
-                          const pipeline::CalibratorInput& input, const pipeline::CalibratorOutput& result,
-                          std::ostream& out) {
-  RELIEVO_TRY_ASSIGN(OutputFolder report, OutputFolder::begin(folder));
-  RELIEVO_TRY(write_text(report.path() / "report.json", pipeline::calibration_report_json(result.quality),
-                         folder / "report.json"));
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    RELIEVO_TRY_ASSIGN(const Pair pair, read_pair(pairs[i]));
-    const auto fits = [&input](const hal::Picture& one) {
-      return one.width_px == input.width_px && one.height_px == input.height_px;
-    };
-    if (!fits(pair.left) || !fits(pair.right)) {
-      out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
-      continue;
-    }
-    const std::string name = file_name(pairs[i].name);
-    const auto corners = pipeline::corner_picture(pair.left.view(), input.views[i].left, pair.right.view(),
-                                                  input.views[i].right);
-    RELIEVO_TRY(hal::write_picture(report.path() / ("corners_" + name + ".png"), corners.view()));
-    const auto rectified =
-        pipeline::rectified_picture(pair.left.view(), pair.right.view(), result.calibration);
-    RELIEVO_TRY(hal::write_picture(report.path() / ("rectified_" + name + ".png"), rectified.view()));
-    out << "report: view " << pairs[i].name << std::endl;
-  }
-  return report.commit();
-}
-
 }  // namespace
 
 void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
@@ -158,6 +125,14 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
                 q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
                 q.held_out_epipolar_px, q.baseline_mm);
   out << line << '\n';
+  std::snprintf(line, sizeof line,
+                "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %.3f mm from where their squares put them; "
+                "lengths within %.3f %% (95 %%)",
+                pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm, q.measured_depth_mm,
+                pipeline::kTwoSided95 * q.uncertainty.scale_percent);
+  out << line << '\n';
+  if (q.expected_as_in_use)
+    out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
   const char* const words[] = {"pass", "usable", "refuse"};
   out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
   for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
@@ -208,7 +183,7 @@ pipeline::BoardPattern pattern_of(const BoardArgs& board) {
           board.charuco ? pipeline::BoardKind::Charuco : pipeline::BoardKind::Chessboard, board.marker_mm, board.marker_bits};
 }
 
-Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out) {
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out, const RigToday& today) {
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY(pattern.check());
   RELIEVO_TRY(check_calibration_output(args.output));
@@ -216,11 +191,14 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
   if (pairs.size() > pipeline::kMaxBoardPairs)
     return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
         args.pictures.native());
-  RELIEVO_TRY_ASSIGN(const pipeline::CalibratorInput input, read_views(pairs, pattern, out));
+  RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, out));
+  input.expected_baseline_mm = args.baseline_mm.value_or(0);
+  if (!args.baseline_mm) input.in_use = today.in_use;
   auto result = pipeline::calibrate(input);
   if (!result) return result.error().at(args.pictures.native() + ": " + std::string(result.error().where()));
   tell_quality(result->quality, out);
-  if (!args.report.empty()) RELIEVO_TRY(write_report(args.report, pairs, input, *result, out));
+  if (!args.report.empty())
+    RELIEVO_TRY(write_calibration_report(args.report, pairs, input, *result, today.made_at, out));
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
         .at(args.pictures.native());

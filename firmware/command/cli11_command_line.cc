@@ -74,11 +74,14 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
   add_board_words(*command, args.board, true);
   add_kind(*command, "--pattern", args.board, "what is printed on it");
   command->add_option("-o,--output", args.output, "the calibration, or the page")->required()->type_name("rig.yml");
-  command->add_option("--report", args.report, "what each pair contributed")->type_name("DIR");
+  command->add_option("--report", args.report, "a page about it, index.html, with pictures")->type_name("DIR");
+  command->add_option("--baseline-mm", args.baseline_mm,
+                      "known distance of the cameras, to notice a wrong square size; 0: unknown; default with --store: that of the "
+                      "calibration in use")->check(within(0, 10000));
   add_store(*command, args.store);
   add_kind(*command, "--print-pattern", args.board, "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
   CLI::Option* print = command->get_option("--print-pattern");
-  for (const char* other : {"pictures", "--pattern", "--report", "--store"}) print->excludes(command->get_option(other));
+  for (const char* other : {"pictures", "--pattern", "--report", "--baseline-mm", "--store"}) print->excludes(command->get_option(other));
   command->callback([&args, &chosen, pictures, print] {
     if (print->count() > 0) {
       chosen = PrintPatternArgs{args.board, args.output};

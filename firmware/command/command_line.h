@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,6 +33,7 @@ struct CalibrateArgs {
   Path output;
   Path report;  // empty: none
   Path store;   // empty: not stored
+  std::optional<double> baseline_mm{};  // known distance of the cameras; 0: let it come out as it will
 };
 
 // calibrate --print-pattern

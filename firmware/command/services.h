@@ -13,6 +13,7 @@
 #include "firmware/command/command_line.h"
 #include "firmware/command/console.h"
 #include "hal/board.h"
+#include "hal/clock.h"
 #include "storage/store.h"
 
 namespace relievo::firmware {
@@ -27,6 +28,7 @@ struct Services {
   // Photographs the targets of the optical self-test with the simulated rig.
   Photograph photograph;
   Console& console;
+  const hal::Clock& clock;
 };
 
 // Does what was asked for. Returns the exit code; the error, if any, is told.

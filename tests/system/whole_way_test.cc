@@ -26,10 +26,11 @@ class WholeWay : public RelievoProcess {
   void calibrate() {
     done({"simulate", "board", "-o", "board", "--scale", "0.33", "--pairs", "8"});
     done({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--report", "report", "--store", "store"});
-    expect_files(".", {"rig.yml", "store/relievo.db"});
+    expect_files(".", {"rig.yml", "store/relievo.db", "report/index.html", "report/report.json", "report/corners_00.png"});
     const std::string list = done({"calibration", "list", "--store", "store"}).out;
     EXPECT_NE(list.find("*    1"), std::string::npos) << list;
     EXPECT_TRUE(list.find("pass") != std::string::npos || list.find("usable") != std::string::npos) << list;
+    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20.5", "-o", "wrong.yml", "--store", "store"}, "board", "refused");
     done({"calibration", "export", "-o", "again.yml", "--store", "store"});
     EXPECT_EQ(done({"calibration", "show", "--store", "store"}).out, read_text(here / "again.yml") + "\n");
   }
@@ -145,6 +146,8 @@ class WholeWay : public RelievoProcess {
     refused({"subjects", "export", "Ada Lovelace", "-o", full + "/model", "--store", "store"}, full + "/model", "full");
     EXPECT_EQ(listing(disk.path()), "");
     refused({"simulate", "board", "-o", full + "/board", "--scale", "0.33", "--pairs", "2"}, full + "/board", "room");
+    EXPECT_EQ(listing(disk.path()), "");
+    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "unwritten.yml", "--report", full + "/report"}, full + "/report", "room");
     EXPECT_EQ(listing(disk.path()), "");
     std::vector<std::string> words = enrol_words();
     words.back() = full + "/store";

@@ -46,12 +46,12 @@ CheckPicture blank(const ImageView& one) {
 }
 
 void draw_corners(CheckPicture& picture, const BoardCorners& corners, int offset) {
-  constexpr int kArm = 5;
+  const int arm = std::max(4, picture.width_px / 500);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!seen(corners[i])) continue;
     const int x = static_cast<int>(std::lround(corners[i].x));
     const int y = static_cast<int>(std::lround(corners[i].y));
-    for (int d = -kArm; d <= kArm; ++d) {
+    for (int d = -arm; d <= arm; ++d) {
       put(picture, offset + x + d, y, i == 0 ? kFirst : kCorner);
       put(picture, offset + x, y + d, i == 0 ? kFirst : kCorner);
     }
@@ -86,6 +86,32 @@ CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corn
     }
   draw_corners(picture, left_corners, 0);
   draw_corners(picture, right_corners, left.width_px);
+  return picture;
+}
+
+CheckPicture thumbnail_picture(const ImageView& image, int width_px) {
+  CheckPicture picture;
+  picture.width_px = std::clamp(width_px, 1, image.width_px);
+  picture.height_px = std::max(1, static_cast<int>(std::lround(static_cast<double>(picture.width_px) * image.height_px / image.width_px)));
+  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px));
+  const auto begin = [](int at, int small, int large) { return static_cast<int>(static_cast<long>(at) * large / small); };
+  for (int y = 0; y < picture.height_px; ++y)
+    for (int x = 0; x < picture.width_px; ++x) {
+      const int top = begin(y, picture.height_px, image.height_px);
+      const int left = begin(x, picture.width_px, image.width_px);
+      const int bottom = std::max(top + 1, begin(y + 1, picture.height_px, image.height_px));
+      const int right = std::max(left + 1, begin(x + 1, picture.width_px, image.width_px));
+      std::array<long, 3> sum{};
+      for (int v = top; v < bottom; ++v)
+        for (int u = left; u < right; ++u) {
+          const Colour colour = pixel(image, u, v);
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
+        }
+      const long count = static_cast<long>(bottom - top) * (right - left);
+      Colour mean{};
+      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      put(picture, x, y, mean);
+    }
   return picture;
 }
 

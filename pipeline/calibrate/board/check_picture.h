@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Pictures by which a person checks a calibration: the corners found, and the rectified pair with
-// lines across both views, on which the same point must lie. Left and right side by side, RGB.
+// lines across both views, on which the same point must lie, left and right side by side; and a small
+// one of a single view. RGB.
 // Thread: any. Errors: none; sizes are the caller's promise.
 #pragma once
 
@@ -26,6 +27,9 @@ struct CheckPicture {
 // Both views must be as large as each other. Corners may be empty.
 CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corners, const ImageView& right,
                             const BoardCorners& right_corners);
+
+// At most as wide as said, each pixel the mean of those it stands for.
+CheckPicture thumbnail_picture(const ImageView& image, int width_px);
 
 // Both views must have the calibration's size.
 CheckPicture rectified_picture(const ImageView& left, const ImageView& right,

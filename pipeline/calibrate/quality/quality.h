@@ -76,6 +76,4 @@ struct CalibrationQuality {
   CalibrationUncertainty uncertainty;
 };
 
-std::string calibration_report_json(const CalibrationQuality& quality);
-
 }  // namespace relievo::pipeline

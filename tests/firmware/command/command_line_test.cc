@@ -30,6 +30,14 @@ TEST(CommandLine, Calibrate) {
   EXPECT_EQ(args.board.corners_across, 10);
   EXPECT_EQ(args.board.corners_down, 7);
   EXPECT_EQ(args.board.square_mm, 20);
+  EXPECT_FALSE(args.baseline_mm) << "0 would say: let it come out as it will";
+}
+
+TEST(CommandLine, CalibrateWithAKnownBaseline) {
+  for (const auto& [word, mm] : {std::pair{"137.2", 137.2}, {"0", 0.0}}) {
+    const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", word});
+    EXPECT_EQ(std::get<CalibrateArgs>(line.command).baseline_mm, mm);
+  }
 }
 
 TEST(CommandLine, VerbsOfCalibration) {
@@ -89,6 +97,7 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "nan", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", "-5"},
       {"subjects"},
       {"subjects", "show"},
       {"enrol", "--board", "sim"},

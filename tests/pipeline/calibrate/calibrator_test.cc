@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/report/calibration_report.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 
 namespace relievo::tests {
@@ -201,7 +202,9 @@ TEST(Calibrator, GivesTheSameTwice) {
   const auto two = pipeline::calibrate(boards.input());
   ASSERT_TRUE(one && two);
   EXPECT_EQ(pipeline::calibration_text(one->calibration), pipeline::calibration_text(two->calibration));
-  EXPECT_EQ(pipeline::calibration_report_json(one->quality), pipeline::calibration_report_json(two->quality));
+  const pipeline::CalibratorInput& input = boards.input();
+  EXPECT_EQ(pipeline::calibration_report_json({input, *one, {}, {}, {}, {}}), pipeline::calibration_report_json({input, *two, {}, {}, {}, {}}));
+  EXPECT_EQ(pipeline::calibration_report_html({input, *one, {}, {}, {}, {}}), pipeline::calibration_report_html({input, *two, {}, {}, {}, {}}));
 }
 
 TEST(Calibrator, RefusesWhatCannotBeCalibrated) {

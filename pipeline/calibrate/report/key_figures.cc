@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/calibrate/quality/limits.h"
+#include "pipeline/calibrate/report/sections.h"
+#include "pipeline/calibrate/report/text.h"
+
+namespace relievo::pipeline::report {
+namespace {
+
+enum class Grade { Good, Fair, Bad, Open };
+
+Grade low_is_good(double value, double good, double worst) {
+  if (!(value <= worst)) return Grade::Bad;
+  return value <= good ? Grade::Good : Grade::Fair;
+}
+Grade high_is_good(double value, double good, double worst) {
+  if (!(value >= worst)) return Grade::Bad;
+  return value >= good ? Grade::Good : Grade::Fair;
+}
+
+std::string mark_of(Grade grade) {
+  switch (grade) {
+    case Grade::Good:
+      return "<span class=\"mark good\"><b aria-hidden=\"true\">✓</b> good</span>";
+    case Grade::Fair:
+      return "<span class=\"mark fair\"><b aria-hidden=\"true\">!</b> fair</span>";
+    case Grade::Bad:
+      return "<span class=\"mark bad\"><b aria-hidden=\"true\">×</b> bad</span>";
+    case Grade::Open:
+      break;
+  }
+  return "<span class=\"mark open\">not judged</span>";
+}
+
+class Table {
+ public:
+  // All of it HTML.
+  void row(std::string_view what, std::string_view explained, std::string_view value, std::string_view good,
+           Grade grade) {
+    rows_ += "<tr><th scope=\"row\">" + std::string(what) + "<small>" + std::string(explained) +
+             "</small></th><td class=\"value\">" + std::string(value) + "</td><td class=\"aim\">" +
+             std::string(good) + "</td><td>" + mark_of(grade) + "</td></tr>\n";
+  }
+  std::string html() const {
+    return "<table class=\"key\">\n<thead><tr><th scope=\"col\">Figure</th><th scope=\"col\" "
+           "class=\"value\">Here</th>"
+           "<th scope=\"col\">Good</th><th scope=\"col\">Judged</th></tr></thead>\n<tbody>\n" +
+           rows_ + "</tbody>\n</table>\n";
+  }
+
+ private:
+  std::string rows_;
+};
+
+std::string unit(double value, int decimals, std::string_view name) {
+  if (name == "°") return figure(value, decimals) + "°";
+  return figure(value, decimals) + "&nbsp;<i>" + std::string(name) + "</i>";
+}
+std::string up_to(double value, int decimals, std::string_view name) {
+  return "up to " + figure(value, decimals) + " " + std::string(name);
+}
+std::string or_more(double value, std::string_view name) {
+  return figure(value, 0) + std::string(name) + " or more";
+}
+
+void fit_rows(const CalibrationQuality& q, Table& t) {
+  t.row("Pairs used", "pairs in which left and right agree",
+        std::to_string(q.used) + "&nbsp;<i>of " + std::to_string(q.views.size()) + "</i>",
+        or_more(limits::kGoodViews, ""), high_is_good(q.used, limits::kGoodViews, 0));
+  t.row("Reprojection error", "pairs used, rms: how far corners lie from where the fit puts them",
+        unit(q.pair_rms_px, 3, "px"),
+        up_to(limits::kBlurredPx, 2, "px") + "; " + figure(limits::kUsualPx, 2) + " is usual",
+        low_is_good(q.pair_rms_px, limits::kBlurredPx, limits::kUselessPx));
+  t.row("Epipolar error, held out",
+        "rms in pairs that had no part in the fit: what matching along rows will meet",
+        unit(q.held_out_epipolar_px, 3, "px"), up_to(limits::kGoodEpipolarPx, 2, "px"),
+        low_is_good(q.held_out_epipolar_px, limits::kGoodEpipolarPx, limits::kWorstEpipolarPx));
+  t.row("Firmness of the rig", "how far left and right disagree, times what the corners’ noise explains",
+        unit(q.slip_ratio, 1, "times"), "below 2 times", q.holds_still ? Grade::Good : Grade::Fair);
+}
+
+void trust_rows(const CalibrationQuality& q, Table& t) {
+  const double depth = q.face_depth_sigma_mm;
+  const int decimals = decimals_of(depth);
+  t.row("Depth at " + figure(kFaceMm, 0) + " mm",
+        "uncertainty owed to the calibration: one sigma, and 95&nbsp;%",
+        unit(depth, decimals, "mm") + "<br><span class=\"second\">±" +
+            unit(kTwoSided95 * depth, decimals, "mm") + "</span>",
+        up_to(limits::kGoodDepthMm, 1, "mm"),
+        low_is_good(depth, limits::kGoodDepthMm, limits::kWorstDepthMm));
+  t.row("Depth against the known squares",
+        "measured at boards left out of the fit in turn, brought to " + figure(kFaceMm, 0) +
+            "&nbsp;mm; below, a single corner with its noise",
+        unit(q.measured_depth_mm, decimals_of(q.measured_depth_mm), "mm") + "<br><span class=\"second\">" +
+            unit(q.measured_point_depth_mm, decimals_of(q.measured_point_depth_mm), "mm a corner") +
+            "</span>",
+        up_to(limits::kGoodDepthMm, 1, "mm"),
+        low_is_good(q.measured_depth_mm, limits::kGoodDepthMm, limits::kWorstDepthMm));
+  t.row("Shape of a head at " + figure(q.working_distance_mm, 0) + " mm", "laid over the true one, one sigma",
+        unit(q.shape_sigma_mm, decimals_of(q.shape_sigma_mm), "mm"), up_to(limits::kGoodShapeMm, 1, "mm"),
+        low_is_good(q.shape_sigma_mm, limits::kGoodShapeMm, limits::kWorstShapeMm));
+  const double scale = q.uncertainty.scale_percent;
+  t.row("Scale", "of lengths, one sigma", unit(scale, decimals_of(scale), "%"),
+        up_to(limits::kGoodScalePercent, 1, "%"),
+        low_is_good(scale, limits::kGoodScalePercent, limits::kWorstScalePercent));
+  const double sigma = q.uncertainty.parameters.baseline_mm;
+  const bool expected = q.expected_baseline_mm > 0;
+  const double off = 100 * std::abs(q.baseline_mm / q.expected_baseline_mm - 1);
+  t.row("Baseline", expected ? "distance of the cameras" : "distance of the cameras; compare it with a ruler",
+        unit(q.baseline_mm, decimals_of(sigma), "mm") + "<br><span class=\"second\">±" +
+            unit(sigma, decimals_of(sigma), "mm") + "</span>",
+        expected ? figure(q.expected_baseline_mm, 2) + " mm within " + figure(limits::kBaselinePercent, 0) +
+                       " %" + (q.expected_as_in_use ? ", as in use until now" : ", as it was given")
+                 : "no expectation was given",
+        !expected                         ? Grade::Open
+        : off <= limits::kBaselinePercent ? Grade::Good
+                                          : Grade::Bad);
+}
+
+void board_rows(const CalibrationReport& r, Table& t) {
+  const CalibrationQuality& q = r.output.quality;
+  const BoardPattern& board = r.input.pattern;
+  const double flat_mm = limits::kFlat * board.square_mm * (std::max(board.columns, board.rows) - 1);
+  const int decimals = decimals_of(q.board_sag_sigma_mm);
+  t.row("Board flatness", "highest over lowest point, with one sigma",
+        unit(q.board_sag_mm, decimals, "mm") + "<br><span class=\"second\">±" +
+            unit(q.board_sag_sigma_mm, decimals, "mm") + "</span>",
+        up_to(flat_mm, 2, "mm") + ", or no more than chance",
+        !q.board_bent                          ? Grade::Good
+        : q.board_sag_mm > limits::kWorstSagMm ? Grade::Bad
+                                               : Grade::Fair);
+  t.row("Spread of tilts", "median angle between two boards", unit(q.tilt_spread_deg, 0, "°"),
+        or_more(limits::kGoodTiltDeg, "°"),
+        high_is_good(q.tilt_spread_deg, limits::kGoodTiltDeg, limits::kAlikeDeg));
+  const double coverage = std::min(q.coverage_left, q.coverage_right);
+  t.row("Coverage", "share of the picture that boards reached, left and right",
+        figure(100 * q.coverage_left, 0) + " and " + unit(100 * q.coverage_right, 0, "%"),
+        or_more(100 * limits::kGoodCoverage, " %"), high_is_good(coverage, limits::kGoodCoverage, 0));
+}
+
+}  // namespace
+
+std::string key_figures(const CalibrationReport& r) {
+  Table table;
+  fit_rows(r.output.quality, table);
+  trust_rows(r.output.quality, table);
+  board_rows(r, table);
+  return "<section>\n<h2>The figures that matter</h2>\n" + table.html() + "</section>\n";
+}
+
+}  // namespace relievo::pipeline::report

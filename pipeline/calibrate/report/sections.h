@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of the page, each in a file of its own name. Each gives valid HTML. Inside report/ only.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "pipeline/calibrate/report/calibration_report.h"
+
+namespace relievo::pipeline::report {
+
+std::string_view page_style();                                // CSS
+std::string verdict_section(const CalibrationReport& r);      // word, icon, reasons
+std::string face_figures(const CalibrationReport& r);         // in mm at a face
+std::string key_figures(const CalibrationReport& r);          // with what is good
+std::string depth_chart(const CalibrationReport& r);          // uncertainty over distance
+std::string rig_plan(const CalibrationReport& r);             // from above, to scale
+std::string projection_maps(const CalibrationReport& r);      // heat maps of both cameras
+std::string coverage_figure(const CalibrationReport& r);      // where corners were seen
+std::string residual_arrows(const CalibrationReport& r);      // at every corner
+std::string residual_histogram(const CalibrationReport& r);   // against a normal distribution
+std::string view_table(const CalibrationReport& r);
+std::string number_tables(const CalibrationReport& r);
+
+// What several figures have in common.
+inline constexpr std::array<std::string_view, 2> kCameraNames = {"Left camera", "Right camera"};
+inline constexpr std::array<std::string_view, 2> kCameraStyles = {"left", "right"};
+
+// Corners beyond this make no figure clearer, and a page heavy: every n-th is drawn.
+inline constexpr std::size_t kMostCorners = 20'000;
+// Every which of the corners of one camera to draw.
+std::size_t corner_stride(const CalibrationReport& r);
+
+const CameraIntrinsics& camera_of(const CalibrationReport& r, std::size_t eye);
+const std::vector<CornerResidual>& corners_of(const FittedView& view, std::size_t eye);
+
+std::string board_words(const BoardPattern& board);
+
+// Two figures side by side, one under the other where there is no room.
+std::string side_by_side(std::string_view one, std::string_view other);
+std::string figure_of(std::string_view svg, std::string_view title, std::string_view caption);
+
+}  // namespace relievo::pipeline::report
