@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Everything a screen draws of a live calibration, after the newest pair. Plain data, to copy between
+// threads. Pixels of the full pictures.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "pipeline/calibrate/live/live_advice.h"
+#include "pipeline/calibrate/live/watch/coverage.h"
+
+namespace relievo::pipeline {
+
+struct LiveState {
+  int pairs = 0;                               // seen so far
+  PairVerdict verdict = PairVerdict::NoBoard;  // of the newest pair
+  LiveAdvice advice = LiveAdvice::ShowBoard;   // what to do now
+  double how_far = 0;                          // where it says where to: below 2 is a little, below 4 some
+  std::vector<LiveAdvice> way;                 // there, the advice first, then all else that is still off
+  std::array<BoardCorners, 2> corners;         // left, right, of the newest pair; empty where not whole
+  std::array<double, 2> moved_px{};            // since the pair before; 0 where unknown
+  std::array<double, 2> edge_px{};             // how sharp it is
+  // Where the wanted board's outer corners would be, once the cameras are roughly known.
+  std::optional<std::array<BoardOutline, 2>> wanted;
+
+  int views = 0;        // taken
+  int disagreeing = 0;  // of those, left out by the newest calibration
+  CoverageBars bars;    // the emptier camera's
+  std::array<CoverageBars, 2> camera_bars;
+  std::array<CoverageMap, 2> maps;
+  double goal_mm = 0;
+  double error_mm = 0;  // predicted, one standard deviation; 0 before the first calibration
+  LiveEnd end = LiveEnd::NotYet;
+
+  bool done() const { return end != LiveEnd::NotYet; }
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/live/view_collector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hal/base/assert.h"
+#include "pipeline/calibrate/live/plan/swapped_pair.h"
+#include "pipeline/calibrate/live/plan/view_planner.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kLeastCorners = 12;  // of a ChArUco board that both cameras see
+constexpr double kLeastCharucoShare = 0.3;
+
+double moved_px(const BoardCorners& before, BoardCorners now, const BoardPattern& pattern) {
+  pair_order(before, now, pattern);  // the half turn that a chessboard leaves open is no motion
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!seen(before[i]) || !seen(now[i])) continue;
+    sum += (now[i].x - before[i].x) * (now[i].x - before[i].x) +
+           (now[i].y - before[i].y) * (now[i].y - before[i].y);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 1e9;
+}
+
+int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
+  int count = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) count += seen(left[i]) && seen(right[i]) ? 1 : 0;
+  return count;
+}
+
+// Between the distances for which it was computed, along a straight line.
+double error_at(const CalibrationUncertainty& uncertainty, double distance_mm) {
+  const double place = std::clamp((distance_mm - kFirstDepthMm) / kDepthStepMm, 0.0, kDepthSteps - 1.0);
+  const auto below = static_cast<std::size_t>(std::min(static_cast<int>(place), kDepthSteps - 2));
+  const double share = place - static_cast<double>(below);
+  return (1 - share) * uncertainty.depth[below].sigma_mm + share * uncertainty.depth[below + 1].sigma_mm;
+}
+
+}  // namespace
+
+Result<ViewCollector> ViewCollector::begin(const BoardPattern& pattern, int width_px, int height_px,
+                                           const LiveOptions& options) {
+  RELIEVO_TRY(pattern.check());
+  RELIEVO_TRY(options.check());
+  if (width_px < 16 || height_px < 16 || width_px > 8192 || height_px > 8192)
+    return Error{Errc::InvalidInput, "pictures must have 16 to 8192 pixels a side"};
+  return ViewCollector(pattern, width_px, height_px, options);
+}
+
+ViewCollector::ViewCollector(const BoardPattern& pattern, int width_px, int height_px,
+                             const LiveOptions& options)
+    : options_(options), planner_(std::make_unique<ViewPlanner>()) {
+  input_.pattern = pattern;
+  input_.width_px = width_px;
+  input_.height_px = height_px;
+  const auto most = static_cast<std::size_t>(options.max_views);
+  input_.views.reserve(most);
+  taken_.reserve(most);
+  state_.goal_mm = options.goal_mm;
+  aim();
+}
+
+ViewCollector::ViewCollector(ViewCollector&& other) noexcept = default;
+ViewCollector& ViewCollector::operator=(ViewCollector&& other) noexcept = default;
+ViewCollector::~ViewCollector() = default;
+
+Result<void> ViewCollector::check(const PairSighting& pair) const {
+  const auto corners = static_cast<std::size_t>(input_.pattern.corners());
+  for (const BoardSighting& one : pair.seen)
+    if (!one.corners.empty() && one.corners.size() != corners)
+      return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
+          "pair " + std::to_string(state_.pairs + 1));
+  if (has_last_ && pair.at <= last_.at)
+    return Error{Errc::InvalidInput, "pairs must come in the order of their times"}.at(
+        "pair " + std::to_string(state_.pairs + 1));
+  return {};
+}
+
+void ViewCollector::measure_motion(const PairSighting& pair) {
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const BoardCorners& now = pair.seen[eye].corners;
+    const bool known = has_last_ && !now.empty() && !last_.seen[eye].corners.empty();
+    state_.moved_px[eye] = known ? moved_px(last_.seen[eye].corners, now, input_.pattern) : 0;
+  }
+}
+
+bool ViewCollector::is_new() const {
+  const bool differs = std::all_of(taken_.begin(), taken_.end(), [&](const auto& other) {
+    return std::max(distance_between(now_[0], other[0]), distance_between(now_[1], other[1])) >
+           options_.new_distance;
+  });
+  if (!differs || best_worth_ <= 0) return differs;
+  return planner_->worth(state_.corners[0], state_.corners[1]) >= options_.least_worth * best_worth_;
+}
+
+PairVerdict ViewCollector::judge(const PairSighting& pair) const {
+  const BoardCorners& left = pair.seen[0].corners;
+  const BoardCorners& right = pair.seen[1].corners;
+  if (phase_ == Phase::Done) return PairVerdict::Finished;
+  if (phase_ == Phase::Swapped) return PairVerdict::Swapped;
+  if (left.empty() && right.empty()) return PairVerdict::NoBoard;
+  if (left.empty()) return PairVerdict::LeftMissesIt;
+  if (right.empty()) return PairVerdict::RightMissesIt;
+  const double least = std::max<double>(kLeastCorners, kLeastCharucoShare * input_.pattern.corners());
+  if (seen_in_both(left, right) < std::min<double>(least, input_.pattern.corners()))
+    return PairVerdict::NoBoard;
+  const bool known = has_last_ && !last_.seen[0].corners.empty() && !last_.seen[1].corners.empty();
+  if (!known || std::max(state_.moved_px[0], state_.moved_px[1]) > options_.still_px)
+    return PairVerdict::Moving;
+  if (std::max(pair.seen[0].edge_px, pair.seen[1].edge_px) > options_.edge_px) return PairVerdict::Blurred;
+  if (newest_ && is_exchanged(newest_->calibration, input_.pattern, left, right)) return PairVerdict::Swapped;
+  if (!is_new()) return PairVerdict::AlreadyHave;
+  return PairVerdict::Taken;
+}
+
+Result<bool> ViewCollector::consider(PairSighting pair) {
+  RELIEVO_TRY(check(pair));
+  ++state_.pairs;
+  BoardCorners& left = pair.seen[0].corners;
+  BoardCorners& right = pair.seen[1].corners;
+  if (!left.empty() && !right.empty()) pair_order(left, right, input_.pattern);
+  measure_motion(pair);
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const BoardSighting& one = pair.seen[eye];
+    state_.corners[eye] = one.corners;
+    state_.edge_px[eye] = one.edge_px;
+    now_[eye] = one.corners.empty()
+                    ? BoardParameters{}
+                    : parameters_of(one.corners, input_.pattern, input_.width_px, input_.height_px);
+  }
+  state_.verdict = judge(pair);
+  last_ = std::move(pair);
+  has_last_ = true;
+  if (state_.verdict == PairVerdict::Taken) return true;
+  advise();
+  return false;
+}
+
+Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
+  RELIEVO_ASSERT(state_.verdict == PairVerdict::Taken);
+  const auto corners = static_cast<std::size_t>(input_.pattern.corners());
+  if (left.size() != corners || right.size() != corners)
+    return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"};
+  pair_order(left, right, input_.pattern);
+  std::array<BoardParameters, 2>& view = taken_.emplace_back();
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const BoardCorners& one = eye == 0 ? left : right;
+    view[eye] = parameters_of(one, input_.pattern, input_.width_px, input_.height_px);
+    coverage_[eye].add(one, view[eye], input_.width_px, input_.height_px);
+    state_.camera_bars[eye] = coverage_[eye].bars();
+    state_.maps[eye] = coverage_[eye].map();
+  }
+  state_.bars = lesser(state_.camera_bars[0], state_.camera_bars[1]);
+  state_.views = static_cast<int>(taken_.size());
+  input_.views.push_back({std::to_string(state_.views), std::move(left), std::move(right)});
+  recalculate();
+  given_up_.clear();
+  aim();
+  advise();
+  return {};
+}
+
+void ViewCollector::pass(bool left_whole, bool right_whole) {
+  RELIEVO_ASSERT(state_.verdict == PairVerdict::Taken);
+  state_.verdict = left_whole    ? PairVerdict::RightMissesIt
+                   : right_whole ? PairVerdict::LeftMissesIt
+                                 : PairVerdict::NoBoard;
+  advise();
+}
+
+// Views too few or too alike to determine the cameras are no error here: more will come.
+void ViewCollector::recalculate() {
+  if (state_.views < kMinBoardPairs) return;
+  auto made = calibrate(input_);
+  if (made) {
+    newest_ = *std::move(made);
+    phase_ = Phase::Improving;
+    state_.error_mm = error_at(newest_->quality.uncertainty, options_.distance_mm);
+    state_.disagreeing = state_.views - newest_->quality.used;
+  } else {
+    CalibratorInput exchanged = input_;
+    for (BoardView& view : exchanged.views) std::swap(view.left, view.right);
+    if (calibrate(exchanged)) phase_ = Phase::Swapped;
+  }
+}
+
+// The next target, or the end.
+void ViewCollector::aim() {
+  guide_.forget();
+  pairs_on_target_ = useless_pairs_ = 0;
+  if (phase_ == Phase::Swapped) return;
+  const bool enough = state_.views >= options_.min_views;
+  const bool goal = phase_ == Phase::Improving && state_.error_mm <= options_.goal_mm &&
+                    newest_->quality.verdict != CalibrationVerdict::Refuse;
+  if (enough && goal && state_.bars.least() >= options_.full_bar) state_.end = LiveEnd::GoalReached;
+  else if (state_.views >= options_.max_views) state_.end = LiveEnd::Full;
+  ViewPlan plan;
+  if (!state_.done() && phase_ == Phase::Improving) {
+    if (planner_->update(input_, *newest_, state_.error_mm, taken_, coverage_, options_))
+      plan = planner_->plan(given_up_);
+    const bool helps =
+        (!goal && plan.best_gain >= options_.plateau_gain) || plan.best_bar_gain >= options_.plateau_gain;
+    if (enough && given_up_.empty() && !helps) state_.end = goal ? LiveEnd::GoalReached : LiveEnd::Plateau;
+  }
+  if (state_.done()) phase_ = Phase::Done;
+  best_worth_ = plan.best_worth;
+  std::vector<BoardParameters> left;
+  for (const auto& view : taken_) left.push_back(view[0]);
+  target_ = plan.best ? *plan.best : opening_view(left, given_up_);
+  state_.wanted.reset();
+  const ViewTarget& target = target_.target;
+  if (target.left_outline && !state_.done()) state_.wanted = {*target.left_outline, *target.right_outline};
+}
+
+Result<CalibratorOutput> ViewCollector::finish() const { return calibrate(input_); }
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Follows a board through one camera's pictures at little cost: it looks in a reduced picture, first
+// where the board was last time; at full size only when asked to.
+// Memory: one reduced picture. Thread: one at a time; each camera has its own.
+// Errors: find_board()'s own, but for NotFound: no board is a finding.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/base/image_view.h"
+#include "pipeline/calibrate/board/board_finder.h"
+
+namespace relievo::pipeline {
+
+struct BoardSighting {
+  BoardCorners corners;  // px of the full picture, to a few tenths; empty where the board is not whole
+  double edge_px = 0;    // edge_width.h
+};
+
+class BoardTracker {
+ public:
+  explicit BoardTracker(const BoardPattern& pattern) : pattern_(pattern) {}
+
+  Result<BoardSighting> look(const ImageView& picture);
+  // Precise corners of the board that look() has just seen in the same picture; empty where they are
+  // not all found.
+  Result<BoardCorners> refine(const ImageView& picture) const;
+
+ private:
+  void reduce(const ImageView& picture);
+  ImageView reduced() const;
+
+  BoardPattern pattern_;
+  BoardCorners last_;  // px of the reduced picture
+  int factor_ = 1;
+  int width_px_ = 0;
+  int height_px_ = 0;
+  std::vector<std::uint16_t> means_;
+  std::vector<std::byte> grey_;
+};
+
+}  // namespace relievo::pipeline
