@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The one file that names implementations: which board, which store, which simulation.
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "firmware/command/services.h"
 #include "firmware/work/pool_size.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
+#include "hal/sim/photo/held_board.h"
 #include "hal/sim/target/target_photo.h"
 #include "storage/sqlite/sqlite_store.h"
 
@@ -76,6 +79,33 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
   return TargetPictures{std::move(pair.left), std::move(pair.right)};
 }
 
+// A hand's pose in the world of the simulated rig.
+hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& board) {
+  using hal::sim::radians;
+  using hal::sim::rotation;
+  hal::sim::BoardPose pose;
+  pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
+  const hal::sim::Vec3 middle{0.5 * (board.corners_x - 1) * board.square_mm, 0.5 * (board.corners_y - 1) * board.square_mm, 0};
+  pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
+  return pose;
+}
+
+Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {
+  const BoardArgs& b = args.board;
+  const hal::sim::BoardPattern pattern{b.corners_across, b.corners_down, b.square_mm, 0.75 * b.square_mm,
+                                       b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard, b.marker_mm, b.marker_bits};
+  RELIEVO_TRY(pattern.check());
+  hal::sim::RigOptions rig;
+  rig.seed = args.seed;
+  hal::sim::SensorOptions sensor;
+  sensor.grey = true;
+  const auto board = std::make_shared<hal::sim::HeldBoard>(rig, pattern, sensor, pool_size());
+  return HeldBoard([board, pattern](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
+    auto pair = board->photograph(pose_of(opened, pattern), pose_of(closed, pattern), number);
+    return HeldPair{std::move(pair.left), std::move(pair.right)};
+  });
+}
+
 }  // namespace
 }  // namespace relievo::firmware
 
@@ -83,6 +113,6 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, console, clock};
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, console, clock};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

@@ -68,7 +68,17 @@ void add_kind(CLI::App& command, const char* name, BoardArgs& board, const char*
       ->check(CLI::IsMember({"chessboard", "charuco"}));
 }
 
-void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
+CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
+  CLI::Option* live = command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
+  command.add_option("--board", args.cameras, "of --live: sim, with a hand that follows the advice, or folder:DIR")
+      ->type_name("BOARD")->needs(live);
+  command.add_option("--goal-mm", args.goal_mm, "of --live: the depth error at 560 mm to reach, one standard deviation")
+      ->check(within(0.001, 100))->capture_default_str()->needs(live);
+  command.add_option("--seed", args.seed, "of --live: another number, another simulated rig and hand")->capture_default_str()->needs(live);
+  return live;
+}
+
+void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args) {
   CLI::App* command = app.add_subcommand("calibrate", "calibrate the rig from pictures of a printed board, or make that board");
   CLI::Option* pictures = command->add_option("pictures", args.pictures, "folder with left* and right* pictures")->type_name("DIR");
   add_board_words(*command, args.board, true);
@@ -82,9 +92,20 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args) {
   add_kind(*command, "--print-pattern", args.board, "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
   CLI::Option* print = command->get_option("--print-pattern");
   for (const char* other : {"pictures", "--pattern", "--report", "--baseline-mm", "--store"}) print->excludes(command->get_option(other));
-  command->callback([&args, &chosen, pictures, print] {
+  CLI::Option* live = add_live(*command, live_args);
+  for (CLI::Option* other : {pictures, print, command->get_option("--report")}) live->excludes(other);
+  command->callback([&args, &live_args, &chosen, pictures, print, live] {
     if (print->count() > 0) {
       chosen = PrintPatternArgs{args.board, args.output};
+      return;
+    }
+    if (live->count() > 0) {
+      if (live_args.cameras.empty()) throw CLI::RequiredError("--live: --board");
+      live_args.board = args.board;
+      live_args.output = args.output;
+      live_args.store = args.store;
+      live_args.baseline_mm = args.baseline_mm;
+      chosen = live_args;
       return;
     }
     if (pictures->count() == 0) throw CLI::RequiredError("DIR with pictures");
@@ -208,6 +229,7 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
 
 struct AllArgs {
   CalibrateArgs calibrate;
+  CalibrateLiveArgs calibrate_live;
   CalibrationArgs calibration;
   ReconstructArgs reconstruct;
   CompareArgs compare;
@@ -224,7 +246,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   CommandLine line;
   AllArgs args;
-  add_calibrate(app, line.command, args.calibrate);
+  add_calibrate(app, line.command, args.calibrate, args.calibrate_live);
   add_calibration(app, line.command, args.calibration);
   add_reconstruct(app, line.command, args.reconstruct);
   add_compare(app, line.command, args.compare);

@@ -36,6 +36,17 @@ struct CalibrateArgs {
   std::optional<double> baseline_mm{};  // known distance of the cameras; 0: let it come out as it will
 };
 
+// calibrate --live
+struct CalibrateLiveArgs {
+  BoardArgs board;
+  std::string cameras;  // "sim", before which a hand holds the board, or "folder:DIR"
+  unsigned seed = 1;    // of rig and hand
+  double goal_mm = 0.1;
+  std::optional<double> baseline_mm{};  // as in CalibrateArgs
+  Path output;
+  Path store;  // empty: not stored
+};
+
 // calibrate --print-pattern
 struct PrintPatternArgs {
   BoardArgs board;
@@ -122,7 +133,7 @@ struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
-using CommandArgs = std::variant<NothingArgs, CalibrateArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
+using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
                                  SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs>;
 
 struct CommandLine {

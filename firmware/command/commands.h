@@ -10,6 +10,7 @@
 namespace relievo::firmware {
 
 Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services);
+Result<void> run_calibrate_live_and_store(const CalibrateLiveArgs& args, Services& services);
 Result<void> run_print_pattern(const PrintPatternArgs& args, Services& services);
 Result<void> run_calibration(const CalibrationArgs& args, Services& services);
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services);

@@ -9,6 +9,7 @@ namespace relievo::firmware {
 namespace {
 
 Result<void> run(const CalibrateArgs& args, Services& services) { return run_calibrate_and_store(args, services); }
+Result<void> run(const CalibrateLiveArgs& args, Services& services) { return run_calibrate_live_and_store(args, services); }
 Result<void> run(const PrintPatternArgs& args, Services& services) { return run_print_pattern(args, services); }
 Result<void> run(const CalibrationArgs& args, Services& services) { return run_calibration(args, services); }
 Result<void> run(const ReconstructArgs& args, Services& services) { return run_reconstruct(args, services); }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "firmware/checks/optical_target.h"
+#include "firmware/command/calibrate_live_pairs.h"
 #include "firmware/command/command_line.h"
 #include "firmware/command/console.h"
 #include "hal/board.h"
@@ -27,6 +28,8 @@ struct Services {
   std::function<Result<void>(const SimulateArgs& args, const Path& folder)> simulate;
   // Photographs the targets of the optical self-test with the simulated rig.
   Photograph photograph;
+  // A board in a hand before the simulated rig. Errors: InvalidInput (no such board).
+  std::function<Result<HeldBoard>(const CalibrateLiveArgs& args)> hold_board;
   Console& console;
   const hal::Clock& clock;
 };

@@ -4,7 +4,10 @@
 // What a live calibration is asked for.
 #pragma once
 
+#include <optional>
+
 #include "hal/base/result.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
 
@@ -20,6 +23,9 @@ struct LiveOptions {
   double new_distance = 0.2;   // distance_between() to every view taken, in either camera
   double least_worth = 0.3;  // of a view, once the cameras are known: share of what the best one would bring
   int patience_pairs = 100;  // on the way to one target, before another is chosen
+
+  double expected_baseline_mm = 0;            // these two as in CalibratorInput
+  std::optional<StereoCalibration> in_use{};
 
   Result<void> check() const;  // InvalidInput
 };

@@ -61,6 +61,8 @@ ViewCollector::ViewCollector(const BoardPattern& pattern, int width_px, int heig
   input_.pattern = pattern;
   input_.width_px = width_px;
   input_.height_px = height_px;
+  input_.expected_baseline_mm = options.expected_baseline_mm;
+  input_.in_use = options.in_use;
   const auto most = static_cast<std::size_t>(options.max_views);
   input_.views.reserve(most);
   taken_.reserve(most);

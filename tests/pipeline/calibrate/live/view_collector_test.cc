@@ -195,6 +195,25 @@ TEST_F(Collector, FiveViewsGiveACalibrationAndAnHonestError) {
   EXPECT_EQ(finished->calibration.left.focal_px.x, collector_.newest()->calibration.left.focal_px.x);
 }
 
+// A board whose squares are not as large as was said: the goal is not reached, and the end says why.
+TEST_F(Collector, AWrongSquareSizeIsNoticedByTheBaseline) {
+  pipeline::LiveOptions options;
+  options.full_bar = 0;
+  options.goal_mm = 10;
+  options.min_views = options.max_views = 6;
+  options.expected_baseline_mm = 140;
+  collector_ = begin(options);
+  open(6);
+  EXPECT_EQ(state().end, LiveEnd::GoalReached);
+  options.expected_baseline_mm = 150;
+  collector_ = begin(options);
+  open(6);
+  EXPECT_EQ(state().end, LiveEnd::Full);
+  const auto finished = collector_.finish();
+  ASSERT_TRUE(finished);
+  EXPECT_EQ(finished->quality.verdict, pipeline::CalibrationVerdict::Refuse);
+}
+
 TEST_F(Collector, EndsWhenNothingMoreIsAllowed) {
   pipeline::LiveOptions options;
   options.goal_mm = 0.001;
