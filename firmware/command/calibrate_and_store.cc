@@ -56,7 +56,7 @@ Result<std::optional<pipeline::StereoCalibration>> in_use(const Path& folder, Se
   auto active = (*store)->active_calibration();
   if (!active && active.error().code == Errc::NotCalibrated) return std::optional<pipeline::StereoCalibration>();
   if (!active) return active.error();
-  return std::optional(*std::move(active));
+  return std::optional(*active);
 }
 
 using Calibrate = std::function<Result<pipeline::CalibratorOutput>(std::ostream& out, const RigToday& today)>;

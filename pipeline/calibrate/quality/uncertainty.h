@@ -22,7 +22,7 @@ struct ProjectionMap {
   int rows = 0;
   std::vector<double> sigma_px;
 
-  double at(int column, int row) const { return sigma_px[static_cast<std::size_t>(row * columns + column)]; }
+  double at(int column, int row) const { return sigma_px[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)]; }
 };
 
 // Of the distance from the left camera, over a field of 160 mm by 160 mm.

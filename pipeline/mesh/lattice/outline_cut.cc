@@ -69,13 +69,13 @@ std::pmr::vector<float> depth_inside(const PointLattice& l, Halves&& halves, flo
 struct Place {
   std::uint32_t from, to;
   friend bool operator==(const Place&, const Place&) = default;
-  friend auto operator<=>(const Place&, const Place&) = default;
+  friend bool operator<(const Place& a, const Place& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; }
 };
 
 struct Point {
   Vec3f at_mm;
-  float sigma_mm;
-  bool measured;
+  float sigma_mm = 0;
+  bool measured = false;
 };
 
 class Cutter {
