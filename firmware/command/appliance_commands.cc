@@ -7,8 +7,8 @@
 
 #include "firmware/boot_memory.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/report.h"
-#include "firmware/command/algorithm_choice.h"
+#include "firmware/command/line/algorithm_choice.h"
+#include "firmware/command/reconstruct/report.h"
 #include "firmware/version.h"
 
 namespace relievo::firmware {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "firmware/appliance.h"
-#include "firmware/command/algorithm_choice.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/interrupt.h"
-#include "firmware/command/report.h"
+#include "firmware/command/line/algorithm_choice.h"
+#include "firmware/command/reconstruct/report.h"
 #include "firmware/command/subject_lookup.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/pool_size.h"

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "firmware/checks/optical_target.h"
-#include "firmware/command/calibrate_live_pairs.h"
-#include "firmware/command/command_line.h"
+#include "firmware/command/calibrate/calibrate_live_pairs.h"
 #include "firmware/command/console.h"
+#include "firmware/command/line/command_line.h"
 #include "hal/board.h"
 #include "hal/clock.h"
 #include "storage/store.h"

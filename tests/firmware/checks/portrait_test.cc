@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "firmware/checks/target_calibration.h"
-#include "firmware/command/reconstruction.h"
+#include "firmware/command/reconstruct/reconstruction.h"
 #include "firmware/measure/measurement.h"
 #include "firmware/measure/true_surface.h"
 #include "hal/sim/render.h"

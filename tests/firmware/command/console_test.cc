@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/report.h"
+#include "firmware/command/reconstruct/report.h"
 
 namespace relievo::firmware {
 namespace {

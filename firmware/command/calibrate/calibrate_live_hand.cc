@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/calibrate/calibrate_live_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kSmallestShare = 0.15;  // of a step, when it was told to go back again and again
+constexpr double kCaution = 0.3;         // of its usual step where it is told that little is missing
+constexpr double kHomeShare = 0.2;       // of the way back to the middle, from pair to pair
+constexpr double kMostTiltDeg = 55;      // no wrist turns a board farther
+constexpr double kNearestMm = 200;
+constexpr double kFarthestMm = 1200;
+
+}  // namespace
+
+// Box and Muller's, since the library's differs between machines.
+double AdvisedHand::normal(double sigma) {
+  const double u = (static_cast<double>(random_()) + 1) / 4294967297.0;
+  const double v = static_cast<double>(random_()) / 4294967296.0;
+  return sigma * std::sqrt(-2 * std::log(u)) * std::cos(6.283185307179586 * v);
+}
+
+// Told to go back the way it came, it takes smaller steps.
+void AdvisedHand::step(double HeldPose::*axis, double by) {
+  if (axis == axis_ && by * last_step_ < 0)
+    by = std::copysign(std::max(std::abs(last_step_) / 2, kSmallestShare * std::abs(by)), by);
+  else if (axis == axis_) by = std::copysign(std::min(std::abs(by), 1.3 * std::abs(last_step_)), by);
+  axis_ = axis;
+  last_step_ = by;
+  held_.*axis += by * (1 + normal(0.15));
+}
+
+void AdvisedHand::go_home() {
+  const HeldPose home;
+  for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm, &HeldPose::yaw_deg,
+                          &HeldPose::pitch_deg, &HeldPose::roll_deg})
+    held_.*axis += kHomeShare * (home.*axis - held_.*axis);
+  axis_ = nullptr;
+}
+
+void AdvisedHand::tremble() {
+  pose_ = held_;
+  for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm})
+    pose_.*axis += normal(options_.tremor_mm);
+  for (const auto axis : {&HeldPose::yaw_deg, &HeldPose::pitch_deg, &HeldPose::roll_deg})
+    pose_.*axis += normal(options_.tremor_deg);
+}
+
+HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {
+  using enum pipeline::LiveAdvice;
+  const bool dreams = static_cast<double>(random_()) / 4294967296.0 < options_.dreams;
+  const auto told = std::exchange(heard_, advice);
+  const double share = std::min(1.0, kCaution * std::exchange(heard_far_, how_far));
+  if (!dreams) {
+    const double mm = share * options_.step_mm;
+    const double deg = share * options_.step_deg;
+    switch (told) {
+      case Left:
+        step(&HeldPose::right_mm, -mm);
+        break;
+      case Right:
+        step(&HeldPose::right_mm, mm);
+        break;
+      case Up:
+        step(&HeldPose::down_mm, -mm);
+        break;
+      case Down:
+        step(&HeldPose::down_mm, mm);
+        break;
+      case Closer:
+        step(&HeldPose::distance_mm, -mm);
+        break;
+      case Farther:
+        step(&HeldPose::distance_mm, mm);
+        break;
+      case TiltLeft:
+        step(&HeldPose::yaw_deg, deg);
+        break;
+      case TiltRight:
+        step(&HeldPose::yaw_deg, -deg);
+        break;
+      case TiltForward:
+        step(&HeldPose::pitch_deg, deg);
+        break;
+      case TiltBack:
+        step(&HeldPose::pitch_deg, -deg);
+        break;
+      case TurnClockwise:
+        step(&HeldPose::roll_deg, deg);
+        break;
+      case TurnCounterclockwise:
+        step(&HeldPose::roll_deg, -deg);
+        break;
+      case ShowBoard:
+      case LeftCameraMissesIt:
+      case RightCameraMissesIt:
+        go_home();
+        break;
+      case HoldStill:
+      case TooBlurred:
+      case AlreadyHave:
+      case SwappedCameras:
+      case Done:
+        break;
+    }
+  }
+  held_.distance_mm = std::clamp(held_.distance_mm, kNearestMm, kFarthestMm);
+  held_.yaw_deg = std::clamp(held_.yaw_deg, -kMostTiltDeg, kMostTiltDeg);
+  held_.pitch_deg = std::clamp(held_.pitch_deg, -kMostTiltDeg, kMostTiltDeg);
+  tremble();
+  return pose_;
+}
+
+}  // namespace relievo::firmware

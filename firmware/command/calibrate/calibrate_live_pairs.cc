@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/calibrate/calibrate_live_pairs.h"
+
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "firmware/budget.h"
+#include "firmware/capture/stereo_grabber.h"
+#include "firmware/command/calibrate/calibrate_command.h"
+#include "firmware/command/interrupt.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{100};  // of the hand's pairs, and of a folder's
+constexpr double kOpenShare = 0.04;                // of the period the shutter is open
+constexpr int kMostHandPairs = 6000;
+constexpr std::string_view kFolder = "folder:";
+
+class HandPairs final : public LivePairs {
+ public:
+  HandPairs(HeldBoard board, std::uint32_t seed) : board_(std::move(board)), hand_({}, seed) {}
+
+  Result<std::optional<LivePair>> next(const pipeline::LiveState& state) override {
+    if (count_ == kMostHandPairs) return std::optional<LivePair>();
+    const HeldPose before = hand_.pose();
+    const HeldPose now = hand_.follow(state.advice, state.how_far);
+    held_ = board_(now, onward(before, now), static_cast<std::uint64_t>(++count_));
+    return std::optional<LivePair>({held_.left.view(), held_.right.view(), count_ * kPeriod});
+  }
+
+ private:
+  // Where the hand is when the shutter closes, if it goes on as it came.
+  static HeldPose onward(const HeldPose& before, const HeldPose& now) {
+    HeldPose pose = now;
+    for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm,
+                            &HeldPose::yaw_deg, &HeldPose::pitch_deg, &HeldPose::roll_deg})
+      pose.*axis += kOpenShare * (now.*axis - before.*axis);
+    return pose;
+  }
+
+  HeldBoard board_;
+  AdvisedHand hand_;
+  HeldPair held_;
+  int count_ = 0;
+};
+
+class BoardPairs final : public LivePairs {
+ public:
+  // most: pairs; shown: how often each is.
+  BoardPairs(std::unique_ptr<hal::Board> board, int most, int shown, bool timed)
+      : board_(std::move(board)),
+        memory_(budget::kStereoSlotBytes),
+        slot_(memory_),
+        grabber_(board_->left(), board_->right(), board_->trigger(), board_->clock()),
+        most_(most),
+        shown_(shown),
+        timed_(timed) {}
+
+  Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
+    if (count_ == 0) RELIEVO_TRY(grabber_.start(board_->preferred_mode()));
+    if (count_ / shown_ == most_) return std::optional<LivePair>();
+    if (count_ % shown_ == 0) {
+      RELIEVO_TRY_ASSIGN(frame_, grabber_.grab(slot_, interrupted()));
+    }
+    ++count_;
+    const std::chrono::nanoseconds at = timed_ ? board_->clock().now().time_since_epoch() : count_ * kPeriod;
+    return std::optional<LivePair>({frame_.left, frame_.right, at});
+  }
+
+ private:
+  std::unique_ptr<hal::Board> board_;
+  std::vector<std::byte> memory_;
+  StereoSlot slot_;
+  StereoGrabber grabber_;
+  pipeline::StereoFrame frame_;
+  int most_;
+  int shown_;
+  bool timed_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LivePairs> make_hand_pairs(HeldBoard board, std::uint32_t seed) {
+  return std::make_unique<HandPairs>(std::move(board), seed);
+}
+
+Result<std::unique_ptr<LivePairs>> make_board_pairs(std::unique_ptr<hal::Board> board,
+                                                    std::string_view name) {
+  int most = std::numeric_limits<int>::max();
+  int shown = 1;
+  const bool folder = name.starts_with(kFolder);
+  if (folder) {
+    const Path pictures = name.substr(kFolder.size());
+    RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(pictures));
+    most = static_cast<int>(pairs.size());
+    std::error_code error;
+    if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;
+  }
+  return std::unique_ptr<LivePairs>(std::make_unique<BoardPairs>(std::move(board), most, shown, !folder));
+}
+
+}  // namespace relievo::firmware

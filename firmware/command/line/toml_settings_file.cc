@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <sstream>
+#include <string>
+
+#include "firmware/command/line/settings_file.h"
+#include "hal/whole_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::size_t kMaxSettingsBytes = 64 * 1024;
+
+// A value as --set writes it; empty for what is no single value.
+std::string word_of(const toml::node& value) {
+  if (const auto* text = value.as_string()) return text->get();
+  if (!value.is_number() && !value.is_boolean()) return {};
+  std::ostringstream out;
+  value.visit([&out](const auto& node) {
+    if constexpr (toml::is_number<decltype(node)> || toml::is_boolean<decltype(node)>) out << node;
+  });
+  return out.str();
+}
+
+Error at_line(std::string_view file_name, const toml::node& node) {
+  std::ostringstream place;
+  place << file_name << ":" << node.source().begin.line;
+  return Error{Errc::InvalidInput, "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own"}
+      .at(place.str());
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> parse_settings(std::string_view text, std::string_view file_name) {
+  std::vector<std::string> settings;
+  try {
+    const toml::table root = toml::parse(text, file_name);
+    for (const auto& [table_name, node] : root) {
+      const toml::table* table = node.as_table();
+      if (table == nullptr) return at_line(file_name, node);
+      for (const auto& [key, value] : *table) {
+        const std::string word = word_of(value);
+        if (word.empty()) return at_line(file_name, value);
+        std::string setting(table_name.str());
+        if (key.str() != "name") setting.append(".").append(key.str());
+        settings.push_back(setting.append("=").append(word));
+      }
+    }
+  } catch (const toml::parse_error& error) {
+    std::ostringstream place;
+    place << file_name << ":" << error.source().begin.line;
+    return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(place.str());
+  }
+  return settings;
+}
+
+Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file) {
+  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMaxSettingsBytes));
+  return parse_settings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include "firmware/command/commands.h"
+#include "firmware/command/output_folder.h"
+#include "firmware/command/reconstruct/reconstruction.h"
+#include "storage/export/model_files.h"
+
+namespace relievo::firmware {
+
+Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
+  Reconstruction reconstruction;
+  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console,
+                                 args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse));
+
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  const auto frame = args.camera_frame ? storage::ExportFrame::Camera : storage::ExportFrame::Head;
+  if (const auto files = storage::write_model_files(reconstruction.model(), folder.path(), frame); !files) {
+    return files.error().at(args.output.string());
+  }
+  RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(reconstruction.report()), args.output));
+  RELIEVO_TRY(folder.commit());
+
+  for (const StageRecord& stage : reconstruction.report().stages) services.console.say(line_of(stage));
+  services.console.say(line_of(*reconstruction.report().drift));
+  const pipeline::ModelQuality& q = reconstruction.report().quality;
+  char line[160];
+  std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,
+                q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
+  services.console.say(line);
+  services.console.say("model and report: " + args.output.string());
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/reconstruct/report.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+#include <sys/resource.h>
+
+namespace relievo::firmware {
+
+std::string line_of(const StageRecord& stage) {
+  char line[128];
+  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, static_cast<int>(stage.name.size()),
+                stage.name.data(), static_cast<double>(stage.took.count()) * 1e-6, stage.in, stage.out);
+  return line;
+}
+
+std::string line_of(const pipeline::DriftJudgement& drift) {
+  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
+}
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/line/command_line.h"
+
+#include <gtest/gtest.h>
+
+namespace relievo::firmware {
+namespace {
+
+CommandLine parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "relievo");
+  return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
+TEST(CommandLine, Reconstruct) {
+  const auto line = parse({"reconstruct", "l.png", "--set", "matcher=zmncc", "r.png", "--set", "zmncc.window_px=15",
+                           "--calibration", "rig.yml", "-o", "out", "--frame", "camera", "--region", "all"});
+  const auto& args = std::get<ReconstructArgs>(line.command);
+  EXPECT_EQ(args.left, "l.png");
+  EXPECT_EQ(args.right, "r.png");
+  EXPECT_EQ(args.output, "out");
+  EXPECT_TRUE(args.camera_frame);
+  EXPECT_TRUE(args.algorithms.whole_view);
+  EXPECT_EQ(args.algorithms.settings, (std::vector<std::string>{"matcher=zmncc", "zmncc.window_px=15"}));
+}
+
+TEST(CommandLine, Calibrate) {
+  const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"});
+  const auto& args = std::get<CalibrateArgs>(line.command);
+  EXPECT_EQ(args.board.corners_across, 10);
+  EXPECT_EQ(args.board.corners_down, 7);
+  EXPECT_EQ(args.board.square_mm, 20);
+  EXPECT_FALSE(args.baseline_mm) << "0 would say: let it come out as it will";
+}
+
+TEST(CommandLine, CalibrateWithAKnownBaseline) {
+  for (const auto& [word, mm] : {std::pair{"137.2", 137.2}, {"0", 0.0}}) {
+    const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", word});
+    EXPECT_EQ(std::get<CalibrateArgs>(line.command).baseline_mm, mm);
+  }
+}
+
+TEST(CommandLine, VerbsOfCalibration) {
+  using Verb = CalibrationArgs::Verb;
+  const auto args = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "calibration");
+    return std::get<CalibrationArgs>(parse(words).command);
+  };
+  EXPECT_EQ(args({"list"}).verb, Verb::List);
+  EXPECT_EQ(args({"activate", "3", "--store", "s"}).revision, 3);
+  const auto import = args({"import", "intrinsics.yml", "extrinsics.yml", "--image-size", "640x480", "--unit-mm", "25.4", "--note", "bench 2"});
+  EXPECT_EQ(import.verb, Verb::Import);
+  EXPECT_EQ(import.file, "intrinsics.yml");
+  EXPECT_EQ(import.other, "extrinsics.yml");
+  EXPECT_EQ(import.width_px, 640);
+  EXPECT_EQ(import.height_px, 480);
+  EXPECT_EQ(import.unit_mm, 25.4);
+  EXPECT_EQ(import.note, "bench 2");
+  const auto out = args({"export", "-o", "folder", "--as", "ros", "--calibration", "rig.yml"});
+  EXPECT_TRUE(out.ros);
+  EXPECT_EQ(out.source, "rig.yml");
+  for (const std::vector<const char*>& wrong : std::vector<std::vector<const char*>>{
+           {"calibration", "activate"}, {"calibration", "activate", "0"}, {"calibration", "import"},
+           {"calibration", "import", "a.yml", "--image-size", "640"}, {"calibration", "import", "a.yml", "--image-size", "4x4"},
+           {"calibration", "import", "a.yml", "--unit-mm", "nan"}, {"calibration", "import", "a.yml", "--unit-mm", "0"},
+           {"calibration", "export", "-o", "x", "--as", "xml"}, {"calibration", "export", "-o", "x", "2", "--calibration", "y"}})
+    EXPECT_EQ(parse(wrong).exit_code, 2) << wrong.back();
+}
+
+TEST(CommandLine, VerbsOfSubjects) {
+  EXPECT_EQ(std::get<SubjectsArgs>(parse({"subjects", "list"}).command).verb, SubjectsArgs::Verb::List);
+  const auto line = parse({"subjects", "export", "Ada", "-o", "out", "--store", "s"});
+  const auto& args = std::get<SubjectsArgs>(line.command);
+  EXPECT_EQ(args.verb, SubjectsArgs::Verb::Export);
+  EXPECT_EQ(args.subject, "Ada");
+  EXPECT_EQ(args.store, "s");
+}
+
+TEST(CommandLine, HelpIsNoError) {
+  testing::internal::CaptureStdout();
+  const auto line = parse({"reconstruct", "--help"});
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("--calibration"), std::string::npos);
+  EXPECT_TRUE(std::holds_alternative<NothingArgs>(line.command));
+  EXPECT_EQ(line.exit_code, 0);
+}
+
+TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
+  const std::vector<std::vector<const char*>> wrong{
+      {},
+      {"bogus"},
+      {"reconstruct"},
+      {"reconstruct", "l.png", "r.png", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "x.png", "--calibration", "rig.yml", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--frame", "sideways"},
+      {"calibrate", "dir", "--corners", "10", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "nan", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", "-5"},
+      {"subjects"},
+      {"subjects", "show"},
+      {"enrol", "--board", "sim"},
+      {"simulate", "board", "-o", "out", "--pairs", "0"},
+      {"version", "more"}};
+  for (const auto& words : wrong) {
+    testing::internal::CaptureStderr();
+    const auto line = parse(words);
+    const std::string said = testing::internal::GetCapturedStderr();
+    const std::string first = words.empty() ? "" : words.front();
+    EXPECT_EQ(line.exit_code, 2) << first;
+    EXPECT_TRUE(std::holds_alternative<NothingArgs>(line.command)) << first;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
+}
+
+}  // namespace
+}  // namespace relievo::firmware
