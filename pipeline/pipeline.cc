@@ -78,7 +78,9 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
   return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
     FaceModel model(&c.output);
     RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
-    RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c));
+    const double* x_axis = pair.rectified_from_left.m;
+    const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
+    RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c, across));
     model.head_from_camera = frame.head_from_camera;
     model.quality = measure_quality(mesh, frame, c);
     model.mesh = std::move(mesh);

@@ -218,7 +218,8 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   Selection selection;
   if (!select_views(input, cameras, pairs, selection)) return undetermined;
   out.calibration = calibration_of(selection.fit);
-  if (inverse(out.calibration.right_from_left).translation_mm.x < 0)
+  const Vec3d stands = inverse(out.calibration.right_from_left).translation_mm;
+  if (stands.x < 0 && -stands.x >= std::abs(stands.y))
     return Error{Errc::PoorGeometry, "the left pictures come from the right camera; exchange the two"}.at(
         std::to_string(pairs.size()) + " pairs");
   RELIEVO_TRY(check_calibration(out.calibration));

@@ -80,7 +80,12 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   const RigidTransform left_from_right = inverse(calibration.right_from_left);
   const Vec3d baseline = left_from_right.translation_mm;  // right camera's centre, left frame
   const double length = std::sqrt(dot(baseline, baseline));
-  if (!(length > 1) || baseline.x <= std::abs(baseline.y))
+  // Sensors that lie on their side have the baseline along y, either way: the rows of the window are the
+  // baseline's, so the window stands upright as the people do.
+  const double sideways = std::hypot(baseline.x, baseline.y);
+  if (!(length > 1) || sideways < 0.5 * length)
+    return Error{Errc::InvalidInput, "the cameras must stand beside each other, not behind"};
+  if (baseline.x <= 0 && -baseline.x >= std::abs(baseline.y))
     return Error{Errc::InvalidInput, "the right camera must stand to the right of the left one: are the cameras swapped?"};
   const Vec3d x = scaled(baseline, 1 / length);
   const Vec3d right_axis = apply(left_from_right.rotation, {0, 0, 1});

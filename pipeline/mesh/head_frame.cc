@@ -71,14 +71,14 @@ Points around(const Points& points, const Vector3d& centre, Arena& scratch) {
   return near;
 }
 
-// Out of the face: the mean normal. Across: the picture's x axis.
-Frame first_guess(const Points& points, const Vector3d& origin) {
+// Out of the face: the mean normal.
+Frame first_guess(const Points& points, const Vector3d& origin, const Vector3d& across) {
   Vector3d out = Vector3d::Zero();
   for (const SurfacePoint& p : points) out += p.normal;
   Frame frame;
   frame.origin = origin;
   const Vector3d z = out.normalized();
-  const Vector3d y = z.cross(Vector3d::UnitX()).normalized();
+  const Vector3d y = z.cross(across).normalized();
   frame.rows.row(0) = y.cross(z);
   frame.rows.row(1) = y;
   frame.rows.row(2) = z;
@@ -197,14 +197,14 @@ Vector3d nose_on_plane(const NoseCandidates& noses, const Frame& upright) {
 
 // The frame of the most mirror-like face around one of the places that stand out like a nose: x is
 // final, the origin is near the tip, the nod is a guess.
-Result<Frame> upright_frame(const Points& points, SymmetryPlane& best, StageContext& context) {
+Result<Frame> upright_frame(const Points& points, const Vector3d& across, SymmetryPlane& best, StageContext& context) {
   Error why{Errc::PoorGeometry, "nothing on the surface stands out like a nose: look straight into the cameras"};
   double best_score = 1e9;
   Frame frame;
   const NoseCandidates noses = find_nose_candidates(points);
   for (std::size_t i = 0; i < noses.count; ++i) {
     Points face = around(points, noses.best[i].at_mm, context.scratch);
-    const Frame guess = first_guess(face, noses.best[i].at_mm);
+    const Frame guess = first_guess(face, noses.best[i].at_mm, across);
     move_into(face, guess);
     const Result<SymmetryPlane> plane = find_symmetry_plane(face, context);
     if (!plane) {
@@ -240,7 +240,8 @@ Result<void> HeadFrameOptions::check() const {
   return {};
 }
 
-Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options, StageContext& context) {
+Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options, StageContext& context,
+                                  const Vec3d& across) {
   RELIEVO_TRY(options.check());
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
   Points points = sample(mesh, options.sample_points, context.scratch);
@@ -248,7 +249,7 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
     return Error{Errc::PoorGeometry, "too little measured surface to tell how the head is turned"};
 
   SymmetryPlane plane;
-  RELIEVO_TRY_ASSIGN(Frame frame, upright_frame(points, plane, context));
+  RELIEVO_TRY_ASSIGN(Frame frame, upright_frame(points, {across.x, across.y, across.z}, plane, context));
   move_into(points, frame);
 
   for (int turn = 0; turn < 6; ++turn) {

@@ -90,10 +90,12 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
   const double baseline = std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z);
   if (!(baseline >= kMinBaselineMm && baseline <= kMaxBaselineMm))
     return wrong("the cameras must stand 1 mm to 10 m apart; is the file in millimetres?", "T");
-  const double right_x = inverse(calibration.right_from_left).translation_mm.x;
-  if (right_x < 0) return wrong("the right camera stands left of the left one; exchange the two", "T");
-  if (right_x < 0.5 * baseline)
-    return wrong("the cameras must stand beside each other, not above or behind", "T");
+  const Vec3d right = inverse(calibration.right_from_left).translation_mm;
+  // Above or below: sensors that lie on their side, for a field of view higher than wide.
+  if (std::hypot(right.x, right.y) < 0.5 * baseline)
+    return wrong("the cameras must stand beside each other, not behind", "T");
+  if (right.x < 0 && -right.x >= std::abs(right.y))
+    return wrong("the right camera stands left of the left one; exchange the two", "T");
   if (!(calibration.rms_px >= 0 && calibration.rms_px < 1000)) return wrong("no possible rms", "pair_rms_px");
   if (!(calibration.epipolar_shift_px >= 0 && calibration.epipolar_shift_px < 1000))
     return wrong("no possible shift", "epipolar_shift_px");

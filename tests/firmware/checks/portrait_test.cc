@@ -5,14 +5,17 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "firmware/checks/target_calibration.h"
 #include "firmware/command/reconstruct/reconstruction.h"
 #include "firmware/measure/measurement.h"
 #include "firmware/measure/true_surface.h"
+#include "hal/picture_file.h"
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/firmware/checks/target_rig.h"
+#include "tests/support/lying_sensor.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -83,6 +86,44 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
       "%.0f x %.0f mm\n",
       m.interior_median_mm, m.accuracy_p95_mm, m.complete_half_mm, m.complete_1mm, m.outliers_3mm, q.width_mm,
       q.height_mm);
+}
+
+// Pictures that nobody turns back give the same face, upright in its own frame.
+TEST(Portrait, LyingSensorsGiveTheSameFace) {
+  const test::TemporaryFolder folder;
+  hal::sim::SimulationOptions face;
+  face.rig = portrait();
+  face.rig.width_px = 480;
+  face.rig.height_px = 768;
+  face.seed = 3;
+  ASSERT_TRUE(hal::sim::render_to_folder(face, folder.path()));
+  const auto calibration = pipeline::read_calibration(folder.path() / "rig.yml");
+  ASSERT_TRUE(calibration);
+  Reconstruction upright;
+  Console console;
+  ASSERT_TRUE(upright.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig.yml", {}, console));
+  for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
+    for (const char* eye : {"left", "right"}) {
+      const auto picture = hal::read_picture(folder.path() / (std::string(eye) + ".png"));
+      ASSERT_TRUE(picture);
+      ASSERT_TRUE(hal::write_picture(folder.path() / (std::string("lying_") + eye + ".png"), test::laid(picture->view(), side).view()));
+    }
+    ASSERT_TRUE(pipeline::write_calibration(folder.path() / "lying.yml", test::laid(*calibration, side)));
+    Reconstruction lying;
+    const auto done = lying.run(folder.path() / "lying_left.png", folder.path() / "lying_right.png", folder.path() / "lying.yml", {}, console);
+    ASSERT_TRUE(done) << done.error().what.view();
+    const pipeline::ModelQuality& expected = upright.report().quality;
+    EXPECT_NEAR(lying.report().quality.width_mm, expected.width_mm, 0.5);
+    EXPECT_NEAR(lying.report().quality.height_mm, expected.height_mm, 0.5);
+    EXPECT_NEAR(lying.report().quality.nose_relief_mm, expected.nose_relief_mm, 0.3);
+    // The same place in the room, the same place on the head.
+    const pipeline::Rotation turn = test::lying_from_upright(side);
+    for (const pipeline::Vec3d at : {pipeline::Vec3d{0, 0, 560}, {60, 0, 560}, {0, 80, 580}}) {
+      const pipeline::Vec3d a = apply(upright.model().head_from_camera, at);
+      const pipeline::Vec3d b = apply(lying.model().head_from_camera, apply(turn, at));
+      EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z), 0.5);
+    }
+  }
 }
 
 }  // namespace

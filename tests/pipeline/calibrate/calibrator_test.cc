@@ -11,6 +11,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/report/calibration_report.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
+#include "tests/support/lying_sensor.h"
 
 namespace relievo::tests {
 namespace {
@@ -45,6 +46,31 @@ TEST(Calibrator, FindsTheTrueRigFromPerfectCorners) {
   const Point x = turned(rig.turn, {1, 0, 0});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(c.right_from_left.rotation.m[3 * i], x[i], 1e-7);
   EXPECT_EQ(found->quality.used, 15);
+}
+
+// Cameras turned upright whose pictures nobody turns back: the same rig, lying on its side.
+TEST(Calibrator, FindsARigOfLyingSensors) {
+  const SimulatedRig rig;
+  BoardSimulator boards(rig, 0.05, 2);
+  boards.add(15);
+  const auto upright = pipeline::calibrate(boards.input());
+  ASSERT_TRUE(upright) << upright.error().what.view();
+  for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
+    pipeline::CalibratorInput input = boards.input();
+    for (pipeline::BoardView& view : input.views)
+      for (auto* corners : {&view.left, &view.right})
+        for (auto& corner : *corners) corner = test::laid(corner, rig.width_px, rig.height_px, side);
+    const auto found = pipeline::calibrate(input);
+    ASSERT_TRUE(found) << found.error().what.view();
+    const pipeline::StereoCalibration expected = test::laid(upright->calibration, side);
+    EXPECT_EQ(found->quality.used, upright->quality.used);
+    EXPECT_NEAR(found->calibration.left.focal_px.x, expected.left.focal_px.x, 0.05);
+    EXPECT_NEAR(found->calibration.right.centre_px.y, expected.right.centre_px.y, 0.05);
+    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.x, expected.right_from_left.translation_mm.x, 0.01);
+    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.y, expected.right_from_left.translation_mm.y, 0.01);
+    const auto read = pipeline::parse_calibration(pipeline::calibration_text(found->calibration));
+    EXPECT_TRUE(read) << "what was calibrated can be read";
+  }
 }
 
 // The noise of the corners and nothing else: no view may be called wrong.

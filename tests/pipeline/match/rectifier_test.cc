@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/match/rectified_geometry.h"
+#include "tests/support/lying_sensor.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::pipeline {
@@ -74,6 +75,37 @@ TEST(RectifiedGeometry, TheWindowsHoldBothWholePictures) {
   EXPECT_NEAR(pair.focal_px, 900, 10);
   EXPECT_LT(pair.width_px, 800);
   EXPECT_GT(pair.width_px, 600);
+}
+
+// Sensors that lie on their side see what upright ones see: the windows are the same.
+TEST(RectifiedGeometry, LyingSensorsGiveUprightWindows) {
+  const StereoCalibration c = toed_in(480, 640);
+  test::StageBench bench(1 << 20, 1 << 20);
+  RectifiedPair upright(&bench.output), pair(&bench.output);
+  ASSERT_TRUE(lay_windows(c, {}, upright));
+  for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
+    const StereoCalibration lying = test::laid(c, side);
+    ASSERT_TRUE(lay_windows(lying, {}, pair));
+    EXPECT_EQ(pair.width_px, upright.width_px);
+    EXPECT_EQ(pair.height_px, upright.height_px);
+    for (const Vec2d at : {Vec2d{20, 30}, Vec2d{300, 500}, Vec2d{250, 90}}) {
+      const Vec2d expected = test::laid(source_pixel(c.right, upright.rectified_from_right, upright.focal_px, upright.right_centre_px, at), 480, 640, side);
+      const Vec2d found = source_pixel(lying.right, pair.rectified_from_right, pair.focal_px, pair.right_centre_px, at);
+      EXPECT_NEAR(found.x, expected.x, 1e-6);
+      EXPECT_NEAR(found.y, expected.y, 1e-6);
+    }
+  }
+}
+
+TEST(RectifiedGeometry, CamerasBehindEachOtherAreRefused) {
+  StereoCalibration c = toed_in(640, 480);
+  c.right_from_left.translation_mm = {-20, 0, -100};
+  c.right_from_left.rotation = {};
+  test::StageBench bench(1 << 20, 1 << 20);
+  RectifiedPair pair(&bench.output);
+  const auto laid = lay_windows(c, {}, pair);
+  ASSERT_FALSE(laid);
+  EXPECT_NE(laid.error().what.view().find("not behind"), std::string_view::npos);
 }
 
 TEST(RectifiedGeometry, SwappedCamerasAreNamed) {
