@@ -54,6 +54,7 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   }
   options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
   options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
+  if (args.portrait) std::swap(options.rig.width_px, options.rig.height_px);
   return hal::sim::render_to_folder(options, folder, pool_size());
 }
 

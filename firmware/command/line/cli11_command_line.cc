@@ -198,6 +198,7 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
     if (board) sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
     sub->add_option("--scale", args.scale, "size of the pictures")->check(within(0.1, 1))->capture_default_str();
+    sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
     const auto pose = [&args, sub](const char* name, double& value, double least, double most, const char* what) {
       sub->add_option(name, value, what)->check(within(least, most))->capture_default_str()->each(
           [&args](const std::string&) { args.one_pose = true; });

@@ -115,6 +115,7 @@ struct SimulateArgs {
   double noise = 1;               // times the usual
   int pairs = 0;                  // 0: the rig's own choice
   double scale = 1;               // of the picture's width and height
+  bool portrait = false;          // cameras turned upright
   bool truth = false;             // write down what is true, beside the pictures
   bool one_pose = false;          // of the board: the pose below instead of many chosen by the seed
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
