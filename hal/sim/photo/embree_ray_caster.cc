@@ -76,7 +76,7 @@ void RayCaster::commit() {
 namespace {
 
 bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) {
-  RTCIntersectContext context;
+  RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRayHit r{};
   r.ray.org_x = static_cast<float>(o.x), r.ray.org_y = static_cast<float>(o.y), r.ray.org_z = static_cast<float>(o.z);
@@ -102,7 +102,7 @@ bool RayCaster::cast(Vec3 origin, Vec3 direction, Hit& hit, Against against) con
 }
 
 bool RayCaster::blocked(Vec3 origin, Vec3 direction, double far_mm) const {
-  RTCIntersectContext context;
+  RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRay r{};
   r.org_x = static_cast<float>(origin.x), r.org_y = static_cast<float>(origin.y), r.org_z = static_cast<float>(origin.z);

@@ -21,7 +21,7 @@ double dots(Vec3 p_mm, double cell_mm, std::uint32_t seed) {
 
 struct Panel {
   Vec3 centre_mm;
-  double power;
+  double power = 0;
 };
 constexpr std::array<Panel, 2> kPanels{Panel{{-330, -190, 40}, 0.62}, Panel{{470, -200, 60}, 0.46}};
 constexpr double kReferenceMm = 640;  // where a panel's power is what it says

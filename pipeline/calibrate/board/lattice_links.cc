@@ -98,7 +98,7 @@ struct Neighbour {
 };
 
 struct Try {
-  float cost;
+  float cost = 0;
   Link link;
 };
 

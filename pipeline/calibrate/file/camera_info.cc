@@ -84,11 +84,11 @@ void append(std::string& text, const char* name, int rows, int cols, std::span<c
 }
 
 struct Eye {
-  const char* name;
+  const char* name = "";
   const CameraIntrinsics& camera;
   const Rotation& rectified_from_camera;
   Vec2d centre_px;  // of the rectified picture
-  double baseline_mm;  // from the left camera to this one
+  double baseline_mm = 0;  // from the left camera to this one
 };
 
 std::string text_of(const Eye& eye, double focal_px) {

@@ -31,7 +31,7 @@ inline double ellipsoid(Vec3 p, Vec3 radii) {
 
 struct Bead {
   Vec3 at;
-  double radius;
+  double radius = 0;
 };
 // A capsule whose radius changes linearly.
 inline double tapered(Vec3 p, const Bead& a, const Bead& b) {

@@ -29,7 +29,7 @@ class SkullForm {
 // Muscle, fat and creases: heights in mm to be added along the normal.
 class FaceStrokes {
  public:
-  FaceStrokes(const HeadTraits& traits);
+  explicit FaceStrokes(const HeadTraits& traits);
   double height(Vec3 p) const;
 
  private:
