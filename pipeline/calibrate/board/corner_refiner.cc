@@ -17,7 +17,8 @@ namespace {
 constexpr double kReachShare = 0.42;
 constexpr double kMaxReachPx = 20;
 constexpr double kMinReachPx = 2.5;
-constexpr double kFirstWidthPx = 4;  // of the blurred step: a blur of 1.2 px
+constexpr double kFirstWidthPx = 4;       // of the blurred step: a blur of 1.2 px
+constexpr double kFirstWidthShare = 0.5;  // at most, of what is plain beside the edge: the window must show its flanks
 constexpr double kMinWidthPx = 1;
 constexpr double kAngleDeviation = 0.04;  // rad: how far the neighbours' directions may err
 constexpr double kWidthDeviation = 2;     // px
@@ -60,7 +61,9 @@ std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
   model_.p[CornerModel::Angle2] = first_angle_[1];
   // A coarse fit may move the window; the second has it in the middle of the corner.
   Vec2d at = guess.at;
-  model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = static_cast<float>(kFirstWidthPx);
+  const double plain_px = clear_share_ * area / std::max(row, column);
+  const double width = std::clamp(kFirstWidthShare * plain_px, kMinWidthPx, kFirstWidthPx);
+  model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = static_cast<float>(width);
   for (const bool coarse : {true, false}) {
     if (!gather(guess, at) || !solve(coarse)) return std::nullopt;
     at = {at.x + static_cast<double>(model_.p[CornerModel::X]),
