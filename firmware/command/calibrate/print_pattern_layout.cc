@@ -50,7 +50,8 @@ std::vector<std::string> words_of(const pipeline::BoardPattern& b) {
 }  // namespace
 
 Result<PageFormat> page_format(std::string_view file_name) {
-  std::string ending(file_name.substr(std::min(file_name.size(), file_name.rfind('.') + 1)));
+  const std::size_t dot = file_name.rfind('.');
+  std::string ending(dot == std::string_view::npos ? "" : file_name.substr(dot + 1));
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == "pdf") return PageFormat::Pdf;

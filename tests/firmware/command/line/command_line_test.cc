@@ -67,6 +67,40 @@ TEST(CommandLine, VerbsOfCalibration) {
     EXPECT_EQ(parse(wrong).exit_code, 2) << wrong.back();
 }
 
+TEST(CommandLine, CalibrateWithCharuco) {
+  const auto line = parse({"calibrate", "dir", "--pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "--marker-mm",
+                           "15", "--marker-bits", "5", "-o", "rig.yml"});
+  const auto& args = std::get<CalibrateArgs>(line.command);
+  EXPECT_TRUE(args.board.charuco);
+  EXPECT_EQ(args.board.marker_mm, 15);
+  EXPECT_EQ(args.board.marker_bits, 5);
+}
+
+TEST(CommandLine, PrintPattern) {
+  const auto line = parse({"calibrate", "--print-pattern", "charuco", "--corners", "7x5", "--square-mm", "30", "-o", "board.pdf"});
+  const auto& args = std::get<PrintPatternArgs>(line.command);
+  EXPECT_TRUE(args.board.charuco);
+  EXPECT_EQ(args.board.corners_across, 7);
+  EXPECT_EQ(args.board.corners_down, 5);
+  EXPECT_EQ(args.board.square_mm, 30);
+  EXPECT_EQ(args.output, "board.pdf");
+}
+
+TEST(CommandLine, SimulatedBoard) {
+  const auto plain = std::get<SimulateArgs>(parse({"simulate", "board", "-o", "out"}).command);
+  EXPECT_EQ(plain.printed.corners_across, 10);
+  EXPECT_EQ(plain.printed.square_mm, 20);
+  EXPECT_FALSE(plain.printed.charuco);
+  const auto line = parse({"simulate", "board", "-o", "out", "--pattern", "charuco", "--corners", "8x6", "--lamp", "0.5",
+                           "--cover", "0.3", "--blur-px", "1.5"});
+  const auto& args = std::get<SimulateArgs>(line.command);
+  EXPECT_TRUE(args.printed.charuco);
+  EXPECT_EQ(args.printed.corners_down, 6);
+  EXPECT_EQ(args.lamp, 0.5);
+  EXPECT_EQ(args.cover, 0.3);
+  EXPECT_EQ(args.blur_px, 1.5);
+}
+
 TEST(CommandLine, VerbsOfSubjects) {
   EXPECT_EQ(std::get<SubjectsArgs>(parse({"subjects", "list"}).command).verb, SubjectsArgs::Verb::List);
   const auto line = parse({"subjects", "export", "Ada", "-o", "out", "--store", "s"});
@@ -93,6 +127,10 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"reconstruct", "l.png", "r.png", "x.png", "--calibration", "rig.yml", "-o", "out"},
       {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--frame", "sideways"},
       {"calibrate", "dir", "--corners", "10", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--pattern", "circles", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"calibrate", "dir", "--print-pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "-o", "board.pdf"},
+      {"simulate", "board", "-o", "out", "--lamp", "nan"},
       {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
