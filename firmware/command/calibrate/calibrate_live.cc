@@ -44,12 +44,13 @@ void tell_pair(const LiveState& s, std::ostream& out) {
   out << line << std::endl;
 }
 
-void tell_end(const LiveState& s, double seconds, std::ostream& out) {
-  char line[240];
+void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowest, std::ostream& out) {
+  const double seconds = std::chrono::duration<double>(busy).count();
+  char line[280];
   std::snprintf(line, sizeof line,
-                "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second",
+                "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
                 s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm,
-                s.goal_mm, s.pairs / std::max(seconds, 1e-9));
+                s.goal_mm, s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
   out << line << std::endl;
 }
 
@@ -65,15 +66,18 @@ Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& a
   ThreadPool pool(pool_size());
   RELIEVO_TRY_ASSIGN(auto live, pipeline::LiveCalibration::begin(pattern_of(args.board), options, pool));
   Steady::duration busy{0};
+  Steady::duration slowest{0};
   while (!live.state().done()) {
     RELIEVO_TRY_ASSIGN(const auto pair, pairs.next(live.state()));
     if (!pair) break;
     const auto begin = Steady::now();
     RELIEVO_TRY(live.look(pair->left, pair->right, pair->at));
-    busy += Steady::now() - begin;
+    const auto took = Steady::now() - begin;
+    busy += took;
+    slowest = std::max(slowest, took);
     tell_pair(live.state(), out);
   }
-  tell_end(live.state(), std::chrono::duration<double>(busy).count(), out);
+  tell_end(live.state(), busy, slowest, out);
   auto result = live.finish();
   if (!result) return result.error().at(args.cameras + ": " + std::string(result.error().where()));
   tell_quality(result->quality, out);
