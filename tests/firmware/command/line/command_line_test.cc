@@ -101,6 +101,12 @@ TEST(CommandLine, SimulatedBoard) {
   EXPECT_EQ(args.blur_px, 1.5);
 }
 
+TEST(CommandLine, SimulatesUprightCameras) {
+  EXPECT_FALSE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out"}).command).portrait);
+  EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out", "--portrait"}).command).portrait);
+  EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "board", "-o", "out", "--portrait"}).command).portrait);
+}
+
 TEST(CommandLine, VerbsOfSubjects) {
   EXPECT_EQ(std::get<SubjectsArgs>(parse({"subjects", "list"}).command).verb, SubjectsArgs::Verb::List);
   const auto line = parse({"subjects", "export", "Ada", "-o", "out", "--store", "s"});
