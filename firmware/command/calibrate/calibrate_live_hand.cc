@@ -51,64 +51,64 @@ void AdvisedHand::tremble() {
     pose_.*axis += normal(options_.tremor_deg);
 }
 
-HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {
+void AdvisedHand::obey(pipeline::LiveAdvice told, double mm, double deg) {
   using enum pipeline::LiveAdvice;
+  switch (told) {
+    case Left:
+      step(&HeldPose::right_mm, -mm);
+      break;
+    case Right:
+      step(&HeldPose::right_mm, mm);
+      break;
+    case Up:
+      step(&HeldPose::down_mm, -mm);
+      break;
+    case Down:
+      step(&HeldPose::down_mm, mm);
+      break;
+    case Closer:
+      step(&HeldPose::distance_mm, -mm);
+      break;
+    case Farther:
+      step(&HeldPose::distance_mm, mm);
+      break;
+    case TiltLeft:
+      step(&HeldPose::yaw_deg, deg);
+      break;
+    case TiltRight:
+      step(&HeldPose::yaw_deg, -deg);
+      break;
+    case TiltForward:
+      step(&HeldPose::pitch_deg, deg);
+      break;
+    case TiltBack:
+      step(&HeldPose::pitch_deg, -deg);
+      break;
+    case TurnClockwise:
+      step(&HeldPose::roll_deg, deg);
+      break;
+    case TurnCounterclockwise:
+      step(&HeldPose::roll_deg, -deg);
+      break;
+    case ShowBoard:
+    case LeftCameraMissesIt:
+    case RightCameraMissesIt:
+      go_home();
+      break;
+    case HoldStill:
+    case TooBlurred:
+    case AlreadyHave:
+    case SwappedCameras:
+    case Done:
+      break;
+  }
+}
+
+HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {
   const bool dreams = static_cast<double>(random_()) / 4294967296.0 < options_.dreams;
   const auto told = std::exchange(heard_, advice);
   const double share = std::min(1.0, kCaution * std::exchange(heard_far_, how_far));
-  if (!dreams) {
-    const double mm = share * options_.step_mm;
-    const double deg = share * options_.step_deg;
-    switch (told) {
-      case Left:
-        step(&HeldPose::right_mm, -mm);
-        break;
-      case Right:
-        step(&HeldPose::right_mm, mm);
-        break;
-      case Up:
-        step(&HeldPose::down_mm, -mm);
-        break;
-      case Down:
-        step(&HeldPose::down_mm, mm);
-        break;
-      case Closer:
-        step(&HeldPose::distance_mm, -mm);
-        break;
-      case Farther:
-        step(&HeldPose::distance_mm, mm);
-        break;
-      case TiltLeft:
-        step(&HeldPose::yaw_deg, deg);
-        break;
-      case TiltRight:
-        step(&HeldPose::yaw_deg, -deg);
-        break;
-      case TiltForward:
-        step(&HeldPose::pitch_deg, deg);
-        break;
-      case TiltBack:
-        step(&HeldPose::pitch_deg, -deg);
-        break;
-      case TurnClockwise:
-        step(&HeldPose::roll_deg, deg);
-        break;
-      case TurnCounterclockwise:
-        step(&HeldPose::roll_deg, -deg);
-        break;
-      case ShowBoard:
-      case LeftCameraMissesIt:
-      case RightCameraMissesIt:
-        go_home();
-        break;
-      case HoldStill:
-      case TooBlurred:
-      case AlreadyHave:
-      case SwappedCameras:
-      case Done:
-        break;
-    }
-  }
+  if (!dreams) obey(told, share * options_.step_mm, share * options_.step_deg);
   held_.distance_mm = std::clamp(held_.distance_mm, kNearestMm, kFarthestMm);
   held_.yaw_deg = std::clamp(held_.yaw_deg, -kMostTiltDeg, kMostTiltDeg);
   held_.pitch_deg = std::clamp(held_.pitch_deg, -kMostTiltDeg, kMostTiltDeg);

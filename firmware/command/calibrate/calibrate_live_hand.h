@@ -38,6 +38,7 @@ class AdvisedHand {
   const HeldPose& pose() const { return pose_; }
 
  private:
+  void obey(pipeline::LiveAdvice told, double mm, double deg);
   void step(double HeldPose::*axis, double by);
   void go_home();
   void tremble();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/board/lattice.h"
+#include "pipeline/calibrate/board/lattice/lattice.h"
 
 #include <cmath>
 

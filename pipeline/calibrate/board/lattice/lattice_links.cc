@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-#include "pipeline/calibrate/board/lattice.h"
+#include "pipeline/calibrate/board/lattice/lattice.h"
 
 namespace relievo::pipeline {
 namespace {

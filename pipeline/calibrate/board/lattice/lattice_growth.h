@@ -6,7 +6,7 @@
 #pragma once
 
 #include "pipeline/calibrate/board/corner_refiner.h"
-#include "pipeline/calibrate/board/lattice.h"
+#include "pipeline/calibrate/board/lattice/lattice.h"
 
 namespace relievo::pipeline {
 
