@@ -28,9 +28,9 @@ const Light kLights[] = {
     {"sharp", 0, 1, {}, 0.04, 0},
     {"blurred", 1.5, 1, {}, 0.03, 0},
     {"noisy", 0.6, 4, {}, 0.06, 0},
-    {"blurred and noisy", 1.5, 4, {}, 0.1, 0},
-    {"lamp on one side", 0.6, 1, {0.8, 0, 0, 0}, 0.03, 0},
-    {"lamp, blurred, noisy", 1.2, 3, {0.8, 0, 0, 0}, 0.12, 0},
+    {"blurred_and_noisy", 1.5, 4, {}, 0.1, 0},
+    {"lamp_on_one_side", 0.6, 1, {0.8, 0, 0, 0}, 0.03, 0},
+    {"lamp_blurred_noisy", 1.2, 3, {0.8, 0, 0, 0}, 0.12, 0},
     {"shadow", 0.6, 1, {0, 0.8, 0, 0}, 0.06, 10},
     {"highlight", 0.6, 1, {0, 0, 8, 0}, 0.05, 14},
 };
@@ -65,7 +65,7 @@ Errc error_of(const hal::Picture& picture, const pipeline::BoardPattern& pattern
 TEST_P(Photographed, Chessboard) { judge(board(BoardKind::Chessboard)); }
 TEST_P(Photographed, Charuco) { judge(board(BoardKind::Charuco)); }
 
-INSTANTIATE_TEST_SUITE_P(Light, Photographed, ::testing::ValuesIn(kLights));
+INSTANTIATE_TEST_SUITE_P(Light, Photographed, ::testing::ValuesIn(kLights), [](const auto& light) { return light.param.name; });
 
 TEST(PhotographedBoard, TiltedAndOfAnySize) {
   for (const auto kind : {BoardKind::Chessboard, BoardKind::Charuco})
