@@ -3,7 +3,7 @@
 //
 // The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
 // command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
-// Keys: selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
+// Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
 // texturer; and NAME.OPTION for every option of every algorithm.
 #pragma once
 
@@ -18,6 +18,7 @@
 #include "pipeline/match/keypoint_selector.h"
 #include "pipeline/match/match_constraint.h"
 #include "pipeline/match/matcher.h"
+#include "pipeline/match/preprocessor.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/outlier_filter.h"
@@ -37,7 +38,7 @@ class AlgorithmSet {
   std::string to_text() const;
 
  private:
-  friend class AlgorithmMaker;
+  friend class OptionReader;
   std::map<std::string, std::string, std::less<>> chosen_;
 };
 
@@ -48,10 +49,13 @@ struct OptionDescription {
   std::string sentence;
   std::vector<std::string> names;  // of a kind: what it may be; empty for a number
   double least = 0, most = 0;      // of a number
+  bool text = false;               // any text: a path
+  bool several = false;            // of a kind: names may be joined by '+'
 };
 std::vector<OptionDescription> describe_algorithms();
 
 // Errors: InvalidInput where the options do not fit together.
+Result<std::unique_ptr<Preprocessor>> make_preprocessor(const AlgorithmSet& set);  // null: the grey values stay
 Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set);
 Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
 Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);

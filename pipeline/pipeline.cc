@@ -21,6 +21,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
     RELIEVO_TRY_ASSIGN(FaceFinder finder, FaceFinder::open({}));
     pipeline.finder_ = std::make_shared<FaceFinder>(std::move(finder));
   }
+  RELIEVO_TRY_ASSIGN(pipeline.preprocessor_, make_preprocessor(set));
   RELIEVO_TRY_ASSIGN(pipeline.selector_, make_selector(set));
   RELIEVO_TRY_ASSIGN(pipeline.matcher_, make_matcher(set));
   RELIEVO_TRY_ASSIGN(auto constraints, make_constraints(set));
@@ -45,6 +46,13 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
 }
 
 Result<MatchSet> Pipeline::match(const RectifiedPair& pair, StageContext& context) const {
+  if (preprocessor_ == nullptr) return match_prepared(pair, context);
+  auto prepared = run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); });
+  if (!prepared) return prepared.error();
+  return match_prepared(*prepared, context);
+}
+
+Result<MatchSet> Pipeline::match_prepared(const RectifiedPair& pair, StageContext& context) const {
   auto keypoints = run_stage(context, [&](StageContext& c) { return selector_->select(pair, c); });
   if (!keypoints) return keypoints.error();
   auto set = run_stage(context, [&](StageContext& c) { return matcher_->match(pair, *keypoints, c); });

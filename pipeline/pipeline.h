@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/match/rectifier.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/match/region/face_region.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/face_model.h"
@@ -50,11 +50,13 @@ class Pipeline {
 
  private:
   Pipeline() = default;
+  Result<MatchSet> match_prepared(const RectifiedPair& pair, StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;
   RectifierOptions volume_;
   Region region_ = Region::Face;
   std::shared_ptr<FaceFinder> finder_;  // null where the whole view is wanted
+  std::shared_ptr<const Preprocessor> preprocessor_;  // null: the grey values stay
   std::shared_ptr<const KeypointSelector> selector_;
   std::shared_ptr<const Matcher> matcher_;
   std::vector<std::shared_ptr<const MatchConstraint>> constraints_;

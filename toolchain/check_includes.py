@@ -10,7 +10,7 @@ The rules, each with one line here and one planted violation in tests/toolchain/
   - a library's header appears only in .cc files named after the library (LIBRARIES);
   - a library that has no line here may not be used at all;
   - the folders in CHOSEN_BY are named only by the one file that chooses the implementation;
-  - a concrete algorithm's header is included only by pipeline/algorithms.cc, by its own .cc and by tests.
+  - a concrete algorithm's header is included only by pipeline/algorithms/, by its own .cc and by tests.
 """
 import pathlib
 import re
@@ -68,7 +68,7 @@ CHOSEN_BY = {
     "storage/sqlite/": "firmware/main.cc",
     "ui/platform/": "firmware/main.cc",
 }
-ALGORITHMS = "pipeline/algorithms.cc"
+ALGORITHMS = "pipeline/algorithms/"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::([^;{]*))?\{")
@@ -144,7 +144,7 @@ def problems(root):
             for inside, chooser in CHOSEN_BY.items():
                 if target.startswith(inside) and not here.startswith((inside, "tests/")) and here != chooser:
                     said.append(f"only {chooser} may choose {target}")
-            if (target in concrete and here != ALGORITHMS and not here.startswith("tests/")
+            if (target in concrete and not here.startswith(ALGORITHMS) and not here.startswith("tests/")
                     and stem(here) != stem(target)):
                 said.append(f"only {ALGORITHMS} may choose {target}")
             yield from (f"{here}:{number}: {what}" for what in said if what)

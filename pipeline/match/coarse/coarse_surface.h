@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/image_pyramid.h"
+#include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/model/rectified_pair.h"
 

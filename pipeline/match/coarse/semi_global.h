@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "pipeline/match/box_filter.h"
+#include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/epipolar/column_sample.h"
 
 namespace relievo::pipeline {

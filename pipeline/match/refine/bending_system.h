@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "hal/base/thread_pool.h"
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/box_filter.h"
+#include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/bending_system.h"
 #include "pipeline/match/refine/warp_terms.h"
 

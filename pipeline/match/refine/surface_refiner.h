@@ -20,8 +20,8 @@
 #include <cstdint>
 
 #include "hal/base/thread_pool.h"
-#include "pipeline/match/image_pyramid.h"
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/image_pyramid.h"
+#include "pipeline/match/image/plane.h"
 #include "pipeline/stage.h"
 
 namespace relievo::pipeline {

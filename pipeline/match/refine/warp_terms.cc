@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/base/simd.h"
-#include "pipeline/match/box_filter.h"
+#include "pipeline/match/image/box_filter.h"
 
 namespace relievo::pipeline {
 namespace {

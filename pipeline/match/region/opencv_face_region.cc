@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 
-#include "pipeline/match/checksum.h"
+#include "pipeline/match/region/checksum.h"
 #include "pipeline/match/region/face_region.h"
 
 namespace relievo::pipeline {

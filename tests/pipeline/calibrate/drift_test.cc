@@ -12,7 +12,7 @@
 
 #include <Eigen/Dense>
 
-#include "pipeline/match/refined_matcher.h"
+#include "pipeline/match/refine/refined_matcher.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/stage_bench.h"
 

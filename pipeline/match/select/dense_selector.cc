@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/dense_selector.h"
+#include "pipeline/match/select/dense_selector.h"
 
 namespace relievo::pipeline {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/rectifier.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/plane.h"
-#include "pipeline/match/rectified_geometry.h"
+#include "pipeline/match/image/plane.h"
+#include "pipeline/match/rectify/rectified_geometry.h"
 
 namespace relievo::pipeline {
 namespace {

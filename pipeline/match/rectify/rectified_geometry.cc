@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/rectified_geometry.h"
+#include "pipeline/match/rectify/rectified_geometry.h"
 
 #include <algorithm>
 #include <cmath>

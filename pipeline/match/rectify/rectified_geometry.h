@@ -5,7 +5,7 @@
 #pragma once
 
 #include "hal/base/result.h"
-#include "pipeline/match/rectifier.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/rectified_pair.h"
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/rectifier.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "pipeline/match/rectified_geometry.h"
+#include "pipeline/match/rectify/rectified_geometry.h"
 #include "tests/support/lying_sensor.h"
 #include "tests/support/stage_bench.h"
 

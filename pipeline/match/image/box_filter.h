@@ -5,7 +5,7 @@
 #pragma once
 
 #include "hal/base/thread_pool.h"
-#include "pipeline/match/plane.h"
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdlib>
+
+#include "pipeline/algorithms/algorithm_table.h"
+
+namespace relievo::pipeline {
+namespace {
+
+std::vector<Kind> all_kinds() {
+  std::vector<Kind> all = match_kinds();
+  for (Kind& kind : surface_kinds()) all.push_back(std::move(kind));
+  return all;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+Result<void> check_value(const OptionDescription& option, const std::string& value) {
+  if (option.text) return {};
+  const std::string place = option.key + " = " + value;
+  if (!option.names.empty()) {
+    for (const std::string& part : option.several ? split_names(value) : std::vector<std::string>{value})
+      if (std::find(option.names.begin(), option.names.end(), part) == option.names.end())
+        return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(place + " (" + joined(option.names) + ")");
+    return {};
+  }
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  if (value.empty() || end != value.c_str() + value.size() || !(number >= option.least && number <= option.most))
+    return Error{Errc::InvalidInput, "not a number in the range in brackets"}.at(
+        place + " (" + option_text(option.least) + " to " + option_text(option.most) + ")");
+  return {};
+}
+
+}  // namespace
+
+double OptionReader::number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t plus = text.find('+');
+    parts.emplace_back(text.substr(0, plus));
+    if (plus == std::string_view::npos) return parts;
+    text.remove_prefix(plus + 1);
+  }
+}
+
+std::vector<OptionDescription> describe_algorithms() {
+  std::vector<OptionDescription> all;
+  for (const Kind& kind : all_kinds()) all.push_back({kind.key, kind.value, kind.sentence, kind.names, 0, 0, false, kind.several});
+  for (const auto& options : {match_options(), surface_options()}) all.insert(all.end(), options.begin(), options.end());
+  return all;
+}
+
+Result<void> AlgorithmSet::set(std::string_view key, std::string_view value) {
+  for (const OptionDescription& option : describe_algorithms())
+    if (option.key == key) {
+      RELIEVO_TRY(check_value(option, std::string(value)));
+      chosen_[std::string(key)] = std::string(value);
+      return {};
+    }
+  return Error{Errc::NotFound, "no such setting: a kind (matcher, mesher, ...) or ALGORITHM.OPTION is expected"}.at(key);
+}
+
+std::string AlgorithmSet::get(std::string_view key) const {
+  if (const auto chosen = chosen_.find(key); chosen != chosen_.end()) return chosen->second;
+  for (const OptionDescription& option : describe_algorithms())
+    if (option.key == key) return option.value;
+  return {};
+}
+
+std::string AlgorithmSet::to_text() const {
+  std::map<std::string, std::string, std::less<>> all = chosen_;
+  for (const Kind& kind : all_kinds()) all.try_emplace(kind.key, kind.value);
+  std::string text;
+  for (const auto& [key, value] : all) {
+    text += key;
+    text += " = ";
+    text += value;
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace relievo::pipeline

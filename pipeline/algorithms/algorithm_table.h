@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher, SsdMatcherOptions>("ssd")`,
+// is all that its name on the command line, its options, their documentation and its making need.
+#pragma once
+
+#include <locale>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "pipeline/algorithms.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+// A kind of algorithm and what it may be.
+struct Kind {
+  const char* key;
+  const char* value;               // the default
+  const char* sentence;
+  std::vector<std::string> names;
+  bool several = false;            // names joined by '+'
+};
+
+std::vector<Kind> match_kinds();
+std::vector<Kind> surface_kinds();
+std::vector<OptionDescription> match_options();
+std::vector<OptionDescription> surface_options();
+
+// Names joined by '+', apart.
+std::vector<std::string> split_names(std::string_view text);
+
+template <typename Value>
+std::string option_text(const Value& value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << value;
+  return out.str();
+}
+
+// Adds the options of one algorithm, as they are by default.
+template <typename Options>
+void describe_options(std::string_view section, std::vector<OptionDescription>& all) {
+  Options options;
+  describe(options, [&](const char* name, auto& value, OptionRange range, const char* sentence) {
+    constexpr bool text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
+    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, range.least, range.most, text});
+  });
+}
+
+// Reads one algorithm's options out of the set. The set has checked that numbers are numbers in range.
+class OptionReader {
+ public:
+  template <typename Options>
+  static Result<Options> read(const AlgorithmSet& set, std::string_view section) {
+    Options options;
+    describe(options, [&](const char* name, auto& value, OptionRange, const char*) {
+      using Value = std::remove_reference_t<decltype(value)>;
+      const auto chosen = set.chosen_.find(std::string(section) + "." + name);
+      if (chosen == set.chosen_.end()) return;
+      if constexpr (std::is_same_v<Value, std::string>)
+        value = chosen->second;
+      else
+        value = static_cast<Value>(number(chosen->second));
+    });
+    RELIEVO_TRY(options.check());
+    return options;
+  }
+
+ private:
+  static double number(const std::string& text);
+};
+
+template <typename Interface>
+struct Algorithm {
+  const char* name;
+  Result<std::unique_ptr<Interface>> (*make)(const AlgorithmSet& set, std::string_view section);
+  void (*describe)(std::string_view section, std::vector<OptionDescription>& all);
+};
+
+template <typename Interface, typename Concrete, typename Options>
+constexpr Algorithm<Interface> with_options(const char* name) {
+  return {name,
+          [](const AlgorithmSet& set, std::string_view section) -> Result<std::unique_ptr<Interface>> {
+            RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
+            return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
+          },
+          [](std::string_view section, std::vector<OptionDescription>& all) { describe_options<Options>(section, all); }};
+}
+
+template <typename Interface, typename Concrete>
+constexpr Algorithm<Interface> without_options(const char* name) {
+  return {name,
+          [](const AlgorithmSet&, std::string_view) -> Result<std::unique_ptr<Interface>> {
+            return std::unique_ptr<Interface>(std::make_unique<Concrete>());
+          },
+          [](std::string_view, std::vector<OptionDescription>&) {}};
+}
+
+template <typename Table>
+Kind kind_of(const char* key, const char* value, const char* sentence, const Table& table) {
+  Kind kind{key, value, sentence, {}};
+  for (const auto& algorithm : table) kind.names.emplace_back(algorithm.name);
+  return kind;
+}
+
+template <typename Table>
+void describe_table(const Table& table, std::vector<OptionDescription>& all) {
+  for (const auto& algorithm : table) algorithm.describe(algorithm.name, all);
+}
+
+template <typename Interface, typename Table>
+Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set, std::string_view name) {
+  for (const Algorithm<Interface>& algorithm : table)
+    if (name == algorithm.name) return algorithm.make(set, name);
+  return Error{Errc::NotFound, "no such algorithm"}.at(name);
+}
+
+}  // namespace relievo::pipeline

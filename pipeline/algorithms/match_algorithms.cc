@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+
+#include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/match/constraints/continuity_constraint.h"
+#include "pipeline/match/constraints/similarity_constraint.h"
+#include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/refine/refined_matcher.h"
+#include "pipeline/match/select/dense_selector.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr std::array<Algorithm<Preprocessor>, 0> kPreprocessors{};
+
+constexpr std::array kSelectors{
+    with_options<KeypointSelector, DenseSelector, DenseSelectorOptions>("dense"),
+};
+
+constexpr std::array kMatchers{
+    with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>("refined"),
+};
+
+constexpr std::array kConstraints{
+    with_options<MatchConstraint, SimilarityConstraint, SimilarityConstraintOptions>("similarity"),
+    with_options<MatchConstraint, UniquenessConstraint, UniquenessConstraintOptions>("uniqueness"),
+    with_options<MatchConstraint, ContinuityConstraint, ContinuityConstraintOptions>("continuity"),
+};
+
+}  // namespace
+
+std::vector<Kind> match_kinds() {
+  std::vector<Kind> kinds{
+      kind_of("preprocessor", "none", "what is done to the pictures' grey values first", kPreprocessors),
+      kind_of("selector", "dense", "which places of the left view are matched", kSelectors),
+      kind_of("matcher", "refined", "how their partners in the right view are found", kMatchers),
+      kind_of("constraints", "similarity+uniqueness+continuity", "which rules judge the matches, joined by '+', or none", kConstraints),
+  };
+  kinds.front().names.emplace_back("none");
+  kinds.back().names.emplace_back("none");
+  kinds.back().several = true;
+  return kinds;
+}
+
+std::vector<OptionDescription> match_options() {
+  std::vector<OptionDescription> all;
+  describe_table(kPreprocessors, all);
+  describe_table(kSelectors, all);
+  describe_table(kMatchers, all);
+  describe_table(kConstraints, all);
+  return all;
+}
+
+Result<std::unique_ptr<Preprocessor>> make_preprocessor(const AlgorithmSet& set) {
+  const std::string name = set.get("preprocessor");
+  if (name == "none") return std::unique_ptr<Preprocessor>();
+  return make_named<Preprocessor>(kPreprocessors, set, name);
+}
+
+Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set) {
+  return make_named<KeypointSelector>(kSelectors, set, set.get("selector"));
+}
+
+Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set) {
+  return make_named<Matcher>(kMatchers, set, set.get("matcher"));
+}
+
+Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set) {
+  std::vector<std::unique_ptr<MatchConstraint>> all;
+  for (const std::string& name : split_names(set.get("constraints"))) {
+    if (name == "none") continue;
+    auto one = make_named<MatchConstraint>(kConstraints, set, name);
+    if (!one) return one.error();
+    all.push_back(*std::move(one));
+  }
+  return all;
+}
+
+}  // namespace relievo::pipeline
