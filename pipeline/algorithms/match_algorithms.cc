@@ -6,13 +6,18 @@
 #include "pipeline/match/constraints/continuity_constraint.h"
 #include "pipeline/match/constraints/similarity_constraint.h"
 #include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/preprocess/histogram_normaliser.h"
+#include "pipeline/match/preprocess/histogram_transfer.h"
 #include "pipeline/match/refine/refined_matcher.h"
 #include "pipeline/match/select/dense_selector.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr std::array<Algorithm<Preprocessor>, 0> kPreprocessors{};
+constexpr std::array kPreprocessors{
+    with_options<Preprocessor, HistogramNormaliser, HistogramNormaliserOptions>("histogram-normalise"),
+    with_options<Preprocessor, HistogramTransfer, HistogramTransferOptions>("histogram-match"),
+};
 
 constexpr std::array kSelectors{
     with_options<KeypointSelector, DenseSelector, DenseSelectorOptions>("dense"),

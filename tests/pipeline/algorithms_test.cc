@@ -13,6 +13,7 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
     for (const std::string& name : option.names) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, name)) << option.key << " " << name;
+      EXPECT_TRUE(make_preprocessor(set));
       EXPECT_TRUE(make_selector(set));
       EXPECT_TRUE(make_matcher(set));
       EXPECT_TRUE(make_constraints(set));

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/preprocess/histogram_normaliser.h"
+
+#include <algorithm>
+
+#include "pipeline/match/preprocess/grey_histogram.h"
+
+namespace relievo::pipeline {
+
+Result<void> HistogramNormaliserOptions::check() const {
+  if (!(equalise >= 0 && equalise <= 1) || !(tail >= 0 && tail <= 0.2))
+    return Error{Errc::InvalidInput, "histogram-normalise: equalise must lie in 0 .. 1 and tail in 0 .. 0.2"};
+  return {};
+}
+
+Result<RectifiedPair> HistogramNormaliser::process(const RectifiedPair& pair, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_pixels(pair));
+  RectifiedPair result(&context.output);
+  result = pair;  // keeps the arena of its own
+  for (RectifiedView* view : {&result.left, &result.right}) {
+    if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+    const auto valid = [&](int x, int y) {
+      return view->valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)] != 0;
+    };
+    const GreyHistogram histogram = GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
+    if (histogram.count() == 0) continue;
+    const double dark = histogram.grey_at(options_.tail);
+    const double range = std::max(1.0, histogram.grey_at(1 - options_.tail) - dark);  // noise of one level is no picture
+    GreyMap([&](double grey) {
+      const double stretched = std::clamp((grey - dark) / range, 0.0, 1.0);
+      return 255 * (stretched + options_.equalise * (histogram.share_below(grey) - stretched));
+    }).apply(view->grey, context.pool);
+  }
+  return result;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/preprocess/histogram_transfer.h"
+
+#include <cmath>
+
+#include "pipeline/match/preprocess/grey_histogram.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// Left pixel x and right pixel x - shift count together.
+struct Overlap {
+  const RectifiedPair& pair;
+  int shift_px;
+
+  explicit Overlap(const RectifiedPair& of) : pair(of), shift_px(0) {
+    // Harmonic middle of the volume: half of its disparities on either side.
+    const double middle = 0.5 * (of.disparity_px(of.near_mm) + of.disparity_px(of.far_mm));
+    if (of.near_mm > 0 && of.far_mm > 0 && std::abs(middle) < of.width_px) shift_px = static_cast<int>(std::lround(middle));
+  }
+  bool holds(int left_x, int y) const {
+    const int right_x = left_x - shift_px;
+    if (left_x < 0 || right_x < 0 || left_x >= pair.width_px || right_x >= pair.width_px) return false;
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px);
+    const std::size_t left = row + static_cast<std::size_t>(left_x);
+    return pair.left.valid[left] != 0 && pair.right.valid[row + static_cast<std::size_t>(right_x)] != 0 &&
+           (pair.region.empty() || pair.region[left] != 0);
+  }
+};
+
+}  // namespace
+
+Result<void> HistogramTransferOptions::check() const {
+  if (!(strength >= 0 && strength <= 1)) return Error{Errc::InvalidInput, "histogram-match: strength must lie in 0 .. 1"};
+  return {};
+}
+
+Result<RectifiedPair> HistogramTransfer::process(const RectifiedPair& pair, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_pixels(pair));
+  if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+  RectifiedPair result(&context.output);
+  result = pair;  // keeps the arena of its own
+  const Overlap overlap(pair);
+  const auto in_left = [&](int x, int y) { return overlap.holds(x, y); };
+  const auto in_right = [&](int x, int y) { return overlap.holds(x + overlap.shift_px, y); };
+  const GreyHistogram left = GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, in_left, context.pool);
+  const GreyHistogram right = GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
+  if (left.count() == 0) return result;
+  if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+  GreyMap([&](double grey) { return grey + options_.strength * (left.grey_at(right.share_below(grey)) - grey); })
+      .apply(result.right.grey, context.pool);
+  return result;
+}
+
+}  // namespace relievo::pipeline
