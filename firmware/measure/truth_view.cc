@@ -122,6 +122,25 @@ std::uint8_t TruthView::flags_at(const Vec3d& p) const {
   return flags_[at(static_cast<int>(u), static_cast<int>(v))];
 }
 
+std::optional<Vec3d> TruthView::judged_point_along(const Vec3d& ray) const {
+  if (!(ray.z > 0)) return std::nullopt;
+  const Vec3d b = bent(left_.distortion, ray.x / ray.z, ray.y / ray.z);
+  const double u = left_.focal_px.x * b.x + left_.centre_px.x;
+  const double v = left_.focal_px.y * b.y + left_.centre_px.y;
+  if (!(u >= 0 && v >= 0 && u < width_px_ - 1 && v < height_px_ - 1)) return std::nullopt;
+  const int x = static_cast<int>(u);
+  const int y = static_cast<int>(v);
+  double z = 0;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const std::size_t k = at(x + i, y + j);
+      if ((flags_[k] & kJudged) != kJudged) return std::nullopt;
+      const double weight = (i == 0 ? 1 - (u - x) : u - x) * (j == 0 ? 1 - (v - y) : v - y);
+      z += weight * static_cast<double>(points_mm_[k].z);
+    }
+  return scaled(ray, z / ray.z);
+}
+
 std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {
   std::vector<Vec3d> points;
   const auto judged = static_cast<std::size_t>(

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "firmware/measure/triangle_grid.h"
@@ -31,6 +32,9 @@ class TruthView {
 
   // The judged flags of the pixel onto which the point falls; 0 outside the picture.
   std::uint8_t flags_at(const Vec3d& point_mm) const;
+  // Where a ray of the left camera's frame meets the judged face; between pixels the depth is interpolated.
+  // None where one of the four pixels around is no piece of it.
+  std::optional<Vec3d> judged_point_along(const Vec3d& ray) const;
   // Points of the judged face, about `count` of them, evenly over the picture.
   std::vector<Vec3d> judged_points(std::size_t count) const;
 

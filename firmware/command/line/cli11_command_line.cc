@@ -10,6 +10,7 @@
 
 #include "firmware/command/line/calibration_words.h"
 #include "firmware/command/line/command_line.h"
+#include "firmware/command/line/compare_words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -127,18 +128,6 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   command->callback([&] { chosen = args; });
 }
 
-void add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
-  CLI::App* command = app.add_subcommand("compare", "measure a reconstruction against what is true");
-  command->add_option("left", args.left)->required()->type_name("LEFT");
-  command->add_option("right", args.right)->required()->type_name("RIGHT");
-  command->add_option("--calibration", args.calibration)->required()->type_name("rig.yml");
-  command->add_option("--truth", args.truth, "folder that 'relievo simulate face --truth' wrote")
-      ->required()->type_name("DIR");
-  command->add_option("-o,--output", args.output)->required()->type_name("DIR");
-  add_algorithms(*command, args.algorithms);
-  command->callback([&] { chosen = args; });
-}
-
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
   command->add_option("--board", args.board, "sim, or folder:DIR with recorded pairs")->required()->type_name("BOARD");
@@ -250,7 +239,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_calibrate(app, line.command, args.calibrate, args.calibrate_live);
   add_calibration(app, line.command, args.calibration);
   add_reconstruct(app, line.command, args.reconstruct);
-  add_compare(app, line.command, args.compare);
+  add_algorithms(*add_compare(app, line.command, args.compare), args.compare.algorithms);
   add_enrol(app, line.command, args.enrol);
   add_subjects(app, line.command, args.subjects);
   add_simulate(app, line.command, args.simulate);

@@ -83,11 +83,18 @@ struct ReconstructArgs {
 };
 
 struct CompareArgs {
-  Path left, right;
-  Path calibration;
-  Path truth;
+  std::vector<Path> pictures;     // left, right, left, right, ...
+  std::vector<Path> calibrations; // one for all pairs, or one each
+  bool rectified = false;         // the pictures are, and no rig is known
+  int least_disparity_px = 0, most_disparity_px = 256;  // of rectified pairs
+  std::vector<Path> truths;       // none, one for all pairs, or one each
+  double truth_scale = 1;         // grey values per pixel of disparity
+  double limit_px = 1;            // a disparity off by more is bad
+  std::vector<Path> set_files;    // TOML, a table a set
+  std::vector<std::string> set_words;  // "name: matcher=zmncc zmncc.window_px=21"
+  std::vector<std::string> suites;
   Path output;
-  AlgorithmArgs algorithms;
+  AlgorithmArgs algorithms;       // what all sets start from
 };
 
 struct EnrolArgs {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -19,5 +20,13 @@ namespace relievo::firmware {
 
 Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file);
 Result<std::vector<std::string>> parse_settings(std::string_view text, std::string_view file_name);
+
+// Several sets in one file: a table each, named as the set, in it the same words; in the file's order.
+//   ["SSD 21"]
+//   matcher = "ssd"              ->  SSD 21: matcher=ssd
+//   ssd.window_px = 21           ->  SSD 21: ssd.window_px=21
+using NamedSettings = std::pair<std::string, std::vector<std::string>>;
+Result<std::vector<NamedSettings>> read_sets_file(const std::filesystem::path& file);
+Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string_view file_name);
 
 }  // namespace relievo::firmware

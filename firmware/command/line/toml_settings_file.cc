@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -32,34 +33,68 @@ Error at_line(std::string_view file_name, const toml::node& node) {
       .at(place.str());
 }
 
+Error no_toml(std::string_view file_name, const toml::parse_error& error) {
+  std::ostringstream place;
+  place << file_name << ":" << error.source().begin.line;
+  return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(place.str());
+}
+
+// `words`: a kind may be set by a word of its own too, matcher = "refined".
+Result<std::vector<std::string>> settings_of(const toml::table& root, std::string_view file_name, bool words) {
+  std::vector<std::string> settings;
+  for (const auto& [table_name, node] : root) {
+    const toml::table* table = node.as_table();
+    const std::string alone = words ? word_of(node) : std::string();
+    if (!alone.empty()) settings.push_back(std::string(table_name.str()) + "=" + alone);
+    else if (table == nullptr) return at_line(file_name, node);
+    if (table == nullptr) continue;
+    for (const auto& [key, value] : *table) {
+      const std::string word = word_of(value);
+      if (word.empty()) return at_line(file_name, value);
+      std::string setting(table_name.str());
+      if (key.str() != "name") setting.append(".").append(key.str());
+      settings.push_back(setting.append("=").append(word));
+    }
+  }
+  return settings;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> parse_settings(std::string_view text, std::string_view file_name) {
-  std::vector<std::string> settings;
   try {
-    const toml::table root = toml::parse(text, file_name);
-    for (const auto& [table_name, node] : root) {
-      const toml::table* table = node.as_table();
-      if (table == nullptr) return at_line(file_name, node);
-      for (const auto& [key, value] : *table) {
-        const std::string word = word_of(value);
-        if (word.empty()) return at_line(file_name, value);
-        std::string setting(table_name.str());
-        if (key.str() != "name") setting.append(".").append(key.str());
-        settings.push_back(setting.append("=").append(word));
-      }
-    }
+    return settings_of(toml::parse(text, file_name), file_name, false);
   } catch (const toml::parse_error& error) {
-    std::ostringstream place;
-    place << file_name << ":" << error.source().begin.line;
-    return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(place.str());
+    return no_toml(file_name, error);
   }
-  return settings;
 }
 
 Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMaxSettingsBytes));
   return parse_settings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string_view file_name) {
+  try {
+    const toml::table root = toml::parse(text, file_name);
+    std::vector<std::pair<toml::source_index, NamedSettings>> sets;  // the library sorts by name
+    for (const auto& [name, node] : root) {
+      if (!node.is_table()) return at_line(file_name, node);
+      RELIEVO_TRY_ASSIGN(auto settings, settings_of(*node.as_table(), file_name, true));
+      sets.push_back({node.source().begin.line, {std::string(name.str()), std::move(settings)}});
+    }
+    std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<NamedSettings> in_order;
+    for (auto& set : sets) in_order.push_back(std::move(set.second));
+    return in_order;
+  } catch (const toml::parse_error& error) {
+    return no_toml(file_name, error);
+  }
+}
+
+Result<std::vector<NamedSettings>> read_sets_file(const std::filesystem::path& file) {
+  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMaxSettingsBytes));
+  return parse_sets({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace relievo::firmware

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include "firmware/command/commands.h"
+#include "firmware/command/compare/compare_job.h"
+#include "firmware/command/compare/compare_json.h"
+#include "firmware/command/compare/set_choice.h"
+#include "firmware/command/output_folder.h"
+#include "firmware/command/wall_time.h"
+#include "firmware/command/watched_job.h"
+#include "storage/export/model_files.h"
+
+namespace relievo::firmware {
+namespace {
+
+using compare::Comparison;
+using compare::Run;
+
+// A line a run, for a terminal.
+std::string line_of(const Comparison& c, const Run& run) {
+  const std::string name = c.pairs[run.pair].name + ", " + c.sets[run.set].name + ": ";
+  if (!run.failure.empty() && !run.score) return name + "failed: " + run.failure;
+  char figures[200];
+  if (run.model) {
+    std::snprintf(figures, sizeof figures, "interior median %.4f mm, accuracy p95 %.4f mm, complete at 0.5 mm %.4f, outliers %.5f, match %.0f ms",
+                  run.model->interior_median_mm, run.model->accuracy_p95_mm, run.model->complete_half_mm, run.model->outliers_3mm, run.match_ms);
+  } else if (run.score) {
+    std::snprintf(figures, sizeof figures, "bad %.2f %% (of given %.2f %%, of seen by both %.2f %%), density %.2f %%, rms %.2f px, match %.0f ms",
+                  100 * run.score->bad_limit, 100 * run.score->bad_given, 100 * run.score->bad_seen, 100 * run.score->density,
+                  run.score->rms_px, run.match_ms);
+  } else {
+    std::snprintf(figures, sizeof figures, "%zu of %zu matched, match %.0f ms", run.matches.accepted, run.matches.keypoints, run.match_ms);
+  }
+  return name + figures + (run.failure.empty() ? "" : "; failed: " + run.failure);
+}
+
+}  // namespace
+
+Result<void> run_compare(const CompareArgs& args, Services& services) {
+  RELIEVO_TRY_ASSIGN(auto sets, compare::choose_sets(args));
+  RELIEVO_TRY_ASSIGN(auto pairs, compare::read_pairs(args));
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  // One set on one pair is a reconstruction that is measured: its model goes along.
+  compare::CompareJob::KeepModel keep_model;
+  if (sets.size() == 1 && pairs.size() == 1)
+    keep_model = [&](const pipeline::FaceModel& model) -> Result<void> {
+      const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera);
+      return files ? Result<void>{} : files.error().at(args.output.string());
+    };
+  compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px, keep_model);
+  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
+
+  const Comparison& comparison = job.comparison();
+  RELIEVO_TRY(write_text(folder.path() / "compare.json", compare::comparison_json(comparison, text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()))), args.output));
+  RELIEVO_TRY(folder.commit());
+  for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));
+  services.console.say("page and figures: " + args.output.string());
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// DisparityMap: a disparity for every pixel of the left rectified view, or none: what all matchers, dense or
+// sparse, are compared by. Pixels; row by row; NaN where nothing is known. Thread: any. No errors.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "pipeline/model/match_set.h"
+
+namespace relievo::firmware::compare {
+
+inline constexpr float kNoDisparity = std::numeric_limits<float>::quiet_NaN();
+
+struct DisparityMap {
+  DisparityMap() = default;
+  DisparityMap(int width, int height)
+      : width_px(width), height_px(height),
+        values(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kNoDisparity) {}
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
+  }
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
+  float at(int x, int y) const { return values[index(x, y)]; }
+  bool known(int x, int y) const { return !std::isnan(at(x, y)); }
+
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> values;
+};
+
+// Of the accepted matches. Those on a lattice give the pixels between them too: bilinearly where the four
+// around agree within a pixel a step, else as the nearest. Scattered ones give one pixel each.
+DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int height_px);
+
+}  // namespace relievo::firmware::compare

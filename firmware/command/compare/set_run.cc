@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/compare/set_run.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "firmware/boot_memory.h"
+#include "firmware/command/compare/peak_memory.h"
+#include "firmware/command/compare/rule_figures.h"
+#include "firmware/command/compare/selector_figures.h"
+#include "pipeline/pipeline.h"
+
+namespace relievo::firmware::compare {
+namespace {
+
+// Runs the steps, each timed and with a scratch arena of its own.
+class Bench {
+ public:
+  Bench(ThreadPool& pool, JobControl& control, Run& run)
+      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), output_(memory_.output()), pool_(pool),
+        control_(control), run_(run) {}
+
+  template <typename Step>
+  auto step(const char* name, Step&& work) {
+    Arena scratch(memory_.scratch());
+    pipeline::StageContext context{output_, scratch, pool_, control_.progress, control_.cancelled};
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = pipeline::run_stage(context, std::forward<Step>(work));
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    scratch_peak_ = std::max(scratch_peak_, scratch.high_water());
+    run_.stages.push_back({name, took.count(), output_.used() + scratch.high_water()});
+    return result;
+  }
+  std::size_t touched_bytes() const { return output_.high_water() + scratch_peak_; }
+
+ private:
+  BootMemory memory_;
+  Arena output_;
+  ThreadPool& pool_;
+  JobControl& control_;
+  Run& run_;
+  std::size_t scratch_peak_ = 0;
+};
+
+// What the steps make, in their order.
+struct Made {
+  std::optional<pipeline::RectifiedPair> pair, prepared;
+  std::optional<pipeline::Keypoints> keypoints;
+  std::optional<pipeline::MatchSet> matches;
+  std::optional<pipeline::FaceMesh> mesh;
+};
+
+Result<void> rectify(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made) {
+  RELIEVO_TRY_ASSIGN(made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
+    if (order.pair.calibration) return pipeline.rectify(order.pair.pictures.frame(), c);
+    RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair, pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
+    if (order.whole_view) return pair;
+    RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
+    RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
+    RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
+    return pair;
+  }));
+  return {};
+}
+
+// Step by step what Pipeline::match() does, so that each can be timed and its product looked at.
+Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
+  RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set.set));
+  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set.set));
+  RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
+  RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
+  if (preprocessor != nullptr) {
+    RELIEVO_TRY_ASSIGN(made.prepared, bench.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+  }
+  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+  RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) { return selector->select(pair, c); }));
+  RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) { return matcher->match(pair, *made.keypoints, c); }));
+  return bench.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
+    std::uint16_t bit = 1;
+    for (const auto& constraint : constraints) {
+      constraint->judge(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
+      bit = static_cast<std::uint16_t>(bit << 1U);
+    }
+    return {};
+  });
+}
+
+Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made, Run& run) {
+  auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) { return pipeline.reconstruct(*made.pair, *made.matches, c); });
+  if (!cloud) return cloud.error();
+  auto mesh = bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, c); });
+  if (!mesh) return mesh.error();
+  auto model = bench.step("texture", [&](pipeline::StageContext& c) { return pipeline.texture(*std::move(mesh), *made.pair, c); });
+  if (!model) return model.error();
+  if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
+  return order.keep_model ? order.keep_model(*model) : Result<void>{};
+}
+
+void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, PairFacts& facts) {
+  if (facts.width_px != 0) return;
+  facts.width_px = pair.width_px;
+  facts.height_px = pair.height_px;
+  facts.least_px = pair.disparity_px(pair.far_mm);
+  facts.most_px = pair.disparity_px(pair.near_mm);
+  facts.rectified = !order.pair.calibration;
+  facts.grey.resize(pair.left.grey.size());
+  std::transform(pair.left.grey.begin(), pair.left.grey.end(), facts.grey.begin(),
+                 [](float g) { return static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)); });
+  if (order.pair.disparities) facts.truth = order.pair.disparities;
+  else if (order.pair.view) facts.truth = truth_of_view(*order.pair.view, pair);
+}
+
+Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Made& made, Run& run) {
+  RELIEVO_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::make(order.set.set, order.pair.calibration.value_or(pipeline::StereoCalibration{}), {},
+                                            order.whole_view ? pipeline::Region::All : pipeline::Region::Face));
+  RELIEVO_TRY(rectify(order, pipeline, bench, made));
+  note_facts(order, *made.pair, facts);
+  const std::size_t before = run.stages.size();
+  RELIEVO_TRY(match(order.set, bench, made));
+  for (std::size_t i = before; i < run.stages.size(); ++i) run.match_ms += run.stages[i].ms;
+  run.map = disparity_map(*made.matches, made.pair->width_px, made.pair->height_px);
+  run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.limit_px);
+  run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
+  if (facts.truth) run.score = score(run.map, *facts.truth, order.limit_px);
+  if (order.pair.calibration) RELIEVO_TRY(build_model(order, pipeline, bench, made, run));
+  return {};
+}
+
+// Of places that are no lattice, which is no choice.
+Result<void> look_at_selector(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made, Run& run) {
+  if (!made.matches || made.keypoints->lattice_step_px > 0) return {};
+  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
+  const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
+  const auto right = bench.step("select in the right view", [&](pipeline::StageContext& c) { return select_in_right(*selector, pair, region, c); });
+  run.stages.pop_back();  // no part of the reconstruction
+  if (!right) return right.error();
+  run.selector = selector_figures(pair, *made.keypoints, *right, *made.matches, facts.truth);
+  return {};
+}
+
+std::string words_of(const Run& run, const Error& error) {
+  const std::string where(error.where());
+  return (run.stages.empty() ? "" : run.stages.back().name + ": ") + (where.empty() ? "" : where + ": ") + std::string(error.what.view());
+}
+
+}  // namespace
+
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts, Run& run) {
+  const PeakMemory peak;
+  Bench bench(pool, control, run);
+  Made made;
+  Result<void> done = all_steps(order, bench, facts, made, run);
+  run.arena_peak_bytes = bench.touched_bytes();
+  const std::size_t above = peak.above_bytes();
+  run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
+  if (!done) run.failure = words_of(run, done.error());
+  if (done || done.error().code != Errc::Cancelled)
+    if (const auto looked = look_at_selector(order, bench, facts, made, run); !looked && looked.error().code == Errc::Cancelled) done = looked;
+  if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+  return {};
+}
+
+}  // namespace relievo::firmware::compare
