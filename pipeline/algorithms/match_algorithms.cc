@@ -10,6 +10,8 @@
 #include "pipeline/match/preprocess/histogram_transfer.h"
 #include "pipeline/match/refine/refined_matcher.h"
 #include "pipeline/match/select/dense_selector.h"
+#include "pipeline/match/window/ssd_matcher.h"
+#include "pipeline/match/window/zmncc_matcher.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -25,6 +27,8 @@ constexpr std::array kSelectors{
 
 constexpr std::array kMatchers{
     with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>("refined"),
+    with_options<Matcher, SsdMatcher, SsdMatcherOptions>("ssd"),
+    with_options<Matcher, ZmnccMatcher, ZmnccMatcherOptions>("zmncc"),
 };
 
 constexpr std::array kConstraints{

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/window/patch_scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace relievo::pipeline {
+
+PatchScores::PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates, std::pmr::memory_resource* memory)
+    : planes_(planes), score_(score), side_(2 * planes.radius + 1),
+      left_(planes.left.size() * static_cast<std::size_t>(side_ * side_), 0.0F, memory),
+      strip_(planes.left.size() * static_cast<std::size_t>(side_ * (side_ + most_candidates - 1)), 0.0F, memory) {}
+
+bool PatchScores::whole(const Plane<std::uint8_t>& mask, int x) const {
+  const int right = x + (tx_ > 0 ? 1 : 0);
+  const int below = y_ + (ty_ > 0 ? 1 : 0);
+  if (x < 0 || right >= mask.width || y_ < 0 || below >= mask.height) return false;
+  return (mask.row(y_)[x] & mask.row(y_)[right] & mask.row(below)[x] & mask.row(below)[right]) != 0;
+}
+
+// Rows of the window from column x0 on, at the keypoint's fraction of a pixel. Columns outside the
+// picture are repeated; no whole window touches them.
+void PatchScores::sample(const Plane<float>& from, int x0, int width, float mean, float* to) const {
+  for (int j = 0; j < side_; ++j, to += width) {
+    const float* upper = from.row(y_ - planes_.radius + j);
+    const float* lower = ty_ > 0 ? from.row(y_ - planes_.radius + j + 1) : upper;
+    for (int i = 0; i < width; ++i) {
+      const int x = std::clamp(x0 + i, 0, from.width - 1);
+      if (tx_ == 0 && ty_ == 0) {
+        to[i] = upper[x] - mean;
+        continue;
+      }
+      const int next = std::min(x + 1, from.width - 1);
+      const float top = upper[x] + tx_ * (upper[next] - upper[x]);
+      const float low = lower[x] + tx_ * (lower[next] - lower[x]);
+      to[i] = top + ty_ * (low - top) - mean;
+    }
+  }
+}
+
+bool PatchScores::load(Vec2f at, int first, int count) {
+  x_ = static_cast<int>(std::floor(at.x));
+  y_ = static_cast<int>(std::floor(at.y));
+  tx_ = at.x - static_cast<float>(x_);
+  ty_ = at.y - static_cast<float>(y_);
+  first_ = first;
+  if (!whole(planes_.whole_left, x_)) return false;
+  strip_width_ = count - 1 + side_;
+  left_variation_ = 0;
+  const std::size_t cells = static_cast<std::size_t>(side_ * side_);
+  for (std::size_t c = 0; c < planes_.left.size(); ++c) {
+    float* patch = left_.data() + c * cells;
+    sample(planes_.left[c], x_ - planes_.radius, side_, 0, patch);
+    double mean = 0;
+    for (std::size_t k = 0; k < cells; ++k) mean += static_cast<double>(patch[k]);
+    mean /= static_cast<double>(cells);
+    for (std::size_t k = 0; k < cells; ++k) left_variation_ += (static_cast<double>(patch[k]) - mean) * (static_cast<double>(patch[k]) - mean);
+    if (score_ == WindowScore::ZeroMeanCorrelation)
+      for (std::size_t k = 0; k < cells; ++k) patch[k] -= static_cast<float>(mean);
+    sample(planes_.right[c], x_ - (first + count - 1) - planes_.radius, strip_width_, 0,
+           strip_.data() + c * static_cast<std::size_t>(side_ * strip_width_));
+  }
+  return true;
+}
+
+// One sum for every column first: independent lanes, added in a fixed order.
+PatchScores::RightMoments PatchScores::moments(std::size_t channel, int candidate) const {
+  double sum[64] = {};
+  double squares[64] = {};
+  double cross[64] = {};
+  const float* left = left_.data() + channel * static_cast<std::size_t>(side_ * side_);
+  const float* right = strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
+  for (int j = 0; j < side_; ++j, left += side_, right += strip_width_)
+    for (int i = 0; i < side_; ++i) {
+      const auto r = static_cast<double>(right[i]);
+      sum[i] += r;
+      squares[i] += r * r;
+      cross[i] += r * static_cast<double>(left[i]);
+    }
+  RightMoments all{0, 0, 0};
+  for (int i = 0; i < side_; ++i) {
+    all.sum += sum[i];
+    all.squares += squares[i];
+    all.cross += cross[i];
+  }
+  return all;
+}
+
+double PatchScores::squared_differences(std::size_t channel, int candidate) const {
+  double sum[64] = {};
+  const float* left = left_.data() + channel * static_cast<std::size_t>(side_ * side_);
+  const float* right = strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
+  for (int j = 0; j < side_; ++j, left += side_, right += strip_width_)
+    for (int i = 0; i < side_; ++i) {
+      const double difference = static_cast<double>(left[i]) - static_cast<double>(right[i]);
+      sum[i] += difference * difference;
+    }
+  double all = 0;
+  for (int i = 0; i < side_; ++i) all += sum[i];
+  return all;
+}
+
+PatchScores::Score PatchScores::score(int candidate) const {
+  if (!whole(planes_.whole_right, x_ - (first_ + candidate))) return {std::numeric_limits<double>::infinity(), 1};
+  double differences = 0;
+  double covariation = 0;
+  double right_variation = 0;
+  for (std::size_t c = 0; c < planes_.left.size(); ++c) {
+    const RightMoments m = moments(c, candidate);
+    right_variation += std::max(0.0, m.squares - m.sum * m.sum / (side_ * side_));
+    covariation += m.cross;  // the left window has no mean
+    if (score_ == WindowScore::SquaredDifferences) differences += squared_differences(c, candidate);
+  }
+  if (score_ == WindowScore::SquaredDifferences) {
+    const double own = left_variation_ + right_variation;
+    return {differences, own > 0 ? std::min(1.0, differences / own) : 1};
+  }
+  const double scale = std::sqrt(left_variation_ * right_variation);
+  // Two plain windows are not alike, they say nothing. The least variation is what rounding leaves.
+  const double unlike = scale > 1e-3 * side_ * side_ ? 1 - covariation / scale : 1;
+  return {unlike, std::clamp(unlike, 0.0, 1.0)};
+}
+
+}  // namespace relievo::pipeline

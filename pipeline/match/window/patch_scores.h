@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The scores of one keypoint's window against windows of the right view, in double precision: what the
+// sub-pixel fit, the cost and the sigma are read from, and the whole search for scattered keypoints.
+//
+//   squared differences     S = sum (L - R)^2 over pixels and channels; grey levels squared
+//   zero-mean correlation   S = 1 - rho, rho = sum (L - mean L)(R - mean R) / (|L - mean L| |R - mean R|);
+//                           every channel has a mean of its own, the sums run over all channels
+//
+// A keypoint between pixels: both views are sampled bilinearly on the same fraction of a pixel, so the
+// candidates stay whole pixels apart and neither view is smoothed more than the other.
+#pragma once
+
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/match/window/channel_planes.h"
+
+namespace relievo::pipeline {
+
+enum class WindowScore : std::uint8_t { SquaredDifferences, ZeroMeanCorrelation };
+
+class PatchScores {
+ public:
+  PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates, std::pmr::memory_resource* memory);
+
+  // Reads the window about `at` and the strip of the right row for disparities first .. first + count - 1.
+  // False where the left window leaves its picture.
+  bool load(Vec2f at, int first, int count);
+
+  struct Score {
+    double unlike;  // S; infinity where the right window leaves its picture
+    double cost;    // 0 .. 1: 1 - rho; of squared differences S over the two windows' own variation
+  };
+  Score score(int candidate) const;
+
+ private:
+  struct RightMoments { double sum, squares, cross; };
+  RightMoments moments(std::size_t channel, int candidate) const;
+  double squared_differences(std::size_t channel, int candidate) const;
+  bool whole(const Plane<std::uint8_t>& mask, int x) const;
+  void sample(const Plane<float>& from, int x0, int width, float mean, float* to) const;
+
+  const ChannelPlanes& planes_;
+  WindowScore score_;
+  int side_;
+  int strip_width_ = 0;
+  int x_ = 0, y_ = 0, first_ = 0;
+  float tx_ = 0, ty_ = 0;
+  double left_variation_ = 0;
+  std::pmr::vector<float> left_, strip_;
+};
+
+}  // namespace relievo::pipeline

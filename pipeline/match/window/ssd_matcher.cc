@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/window/ssd_matcher.h"
+
+#include "pipeline/match/window/window_matching.h"
+
+namespace relievo::pipeline {
+
+Result<void> SsdMatcherOptions::check() const {
+  if (auto window = check_window(window_px, channels); !window) return window.error().at("ssd");
+  if (!(max_difference > 0) || !(sigma_limit_px > 0))
+    return Error{Errc::InvalidInput, "max_difference and sigma_limit_px must be positive"}.at("ssd");
+  return {};
+}
+
+Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+  WindowRule rule;
+  rule.score = WindowScore::SquaredDifferences;
+  rule.window_px = options_.window_px;
+  rule.channels = options_.channels;
+  rule.most_unlike = static_cast<double>(options_.max_difference) * static_cast<double>(options_.max_difference);
+  rule.sigma_limit_px = options_.sigma_limit_px;
+  return match_windows(pair, keypoints, rule, context);
+}
+
+}  // namespace relievo::pipeline

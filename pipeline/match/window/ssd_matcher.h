@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SsdMatcher ("ssd"): the sum of squared differences over a square window, least over every disparity of
+// the volume, then a parabola through the minimum and its neighbours (Anandan 1989; Bardsley 2004, ch. 8).
+//
+// Grey values are compared as they are: both cameras must be exposed alike, gain or offset between the
+// views is taken for unlikeness (`zmncc` is blind to both). Grey levels (0 .. 255), pixels.
+// cost is S over the variation of both windows: one minus correlation where the exposure is equal, 1 where
+// they are unrelated. For sigma_px and lattices see window_matching.h.
+// Errors: as Matcher.
+#pragma once
+
+#include "pipeline/match/matcher.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct SsdMatcherOptions {
+  int window_px = 25;            // odd
+  int channels = 1;              // 1: grey, 3: the three colours together
+  float max_difference = 20;     // grey levels, rms over the window: less alike is no match
+  float sigma_limit_px = 1;      // a place less certain than this has no match
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(SsdMatcherOptions& o, Field&& field) {
+  field("window_px", o.window_px, OptionRange{3, 63}, "side of the window, pixels, odd");
+  field("channels", o.channels, OptionRange{1, 3}, "1: grey values, 3: the three colours together");
+  field("max_difference", o.max_difference, OptionRange{0.01, 255}, "rms difference of the windows above which there is no match, grey levels");
+  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
+}
+
+class SsdMatcher final : public Matcher {
+ public:
+  explicit SsdMatcher(const SsdMatcherOptions& options) : options_(options) {}
+  std::string_view name() const override { return "ssd"; }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const override;
+
+ private:
+  SsdMatcherOptions options_;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/window/zmncc_matcher.h"
+
+#include "pipeline/match/window/window_matching.h"
+
+namespace relievo::pipeline {
+
+Result<void> ZmnccMatcherOptions::check() const {
+  if (auto window = check_window(window_px, channels); !window) return window.error().at("zmncc");
+  if (!(min_score >= 0 && min_score <= 1) || !(sigma_limit_px > 0))
+    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at("zmncc");
+  return {};
+}
+
+Result<MatchSet> ZmnccMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+  WindowRule rule;
+  rule.score = WindowScore::ZeroMeanCorrelation;
+  rule.window_px = options_.window_px;
+  rule.channels = options_.channels;
+  rule.equiangular = options_.equiangular != 0;
+  rule.most_unlike = 1 - static_cast<double>(options_.min_score);
+  rule.sigma_limit_px = options_.sigma_limit_px;
+  return match_windows(pair, keypoints, rule, context);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contract of every matcher in the table, whatever it does inside.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "pipeline/algorithms.h"
+#include "tests/pipeline/match/match_truth.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::BumpScene;
+using test::StageBench;
+
+std::vector<std::string> names_of(const char* kind) {
+  for (const OptionDescription& option : describe_algorithms())
+    if (option.key == kind) return option.names;
+  return {};
+}
+
+class Matchers : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Matcher> matcher() const {
+    AlgorithmSet set;
+    EXPECT_TRUE(set.set("matcher", GetParam()));
+    auto made = make_matcher(set);
+    EXPECT_TRUE(made);
+    return *std::move(made);
+  }
+  BumpScene scene{.width_px = 192, .height_px = 128, .base_px = 20, .bump_px = 5, .bump_radius_px = 40};
+};
+
+TEST_P(Matchers, FindTheSurfaceOnALatticeAndAnywhere) {
+  EXPECT_EQ(matcher()->name(), GetParam());
+  for (const int scattered : {0, 400}) {
+    const test::MatchErrors errors = test::measure(*matcher(), {.scene = scene, .scattered = scattered});
+    EXPECT_GT(errors.covered, 0.8) << scattered;
+    EXPECT_LT(errors.wrong, 0.02) << scattered;
+    EXPECT_LT(errors.rms_px, 0.35) << scattered;
+    EXPECT_LT(errors.mean_cost, 0.4) << scattered;
+  }
+}
+
+TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
+  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair pair = scene.render(&bench.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+  ASSERT_TRUE(matches);
+  std::size_t next = 0;
+  for (const Match& m : matches->matches) {
+    EXPECT_EQ(m.rejected_by, 0);
+    while (next < keypoints.points.size() &&
+           (keypoints.points[next].at_px.x != m.left_px.x || keypoints.points[next].at_px.y != m.left_px.y))
+      ++next;
+    ASSERT_LT(next, keypoints.points.size());
+  }
+}
+
+TEST_P(Matchers, GiveTheSameBytesForAnyNumberOfThreads) {
+  std::vector<Match> first;
+  for (const int threads : {1, 2, 3, 2}) {
+    StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20, threads);
+    const RectifiedPair pair = scene.render(&bench.output);
+    const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+    const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+    ASSERT_TRUE(matches);
+    if (first.empty()) first.assign(matches->matches.begin(), matches->matches.end());
+    ASSERT_EQ(first.size(), matches->matches.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(first[k].disparity_px, matches->matches[k].disparity_px) << threads << " threads, match " << k;
+      ASSERT_EQ(first[k].sigma_px, matches->matches[k].sigma_px);
+      ASSERT_EQ(first[k].cost, matches->matches[k].cost);
+    }
+  }
+}
+
+TEST_P(Matchers, RefuseAPairWithoutPixelsAndKeypointsThatAreNone) {
+  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair nothing(&bench.output);
+  const Keypoints none(&bench.output);
+  auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
+  ASSERT_FALSE(matches);
+  EXPECT_EQ(matches.error().code, Errc::InvalidInput);
+  const RectifiedPair pair = scene.render(&bench.output);
+  matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, none, c); });
+  ASSERT_FALSE(matches);
+  EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
+}
+
+TEST_P(Matchers, FindNothingOnAPlainWall) {
+  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  scene.contrast = 0;
+  scene.noise = 0;
+  const RectifiedPair pair = scene.render(&bench.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+  ASSERT_FALSE(matches);
+  EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
+}
+
+TEST_P(Matchers, EveryArenaTooSmallSaysSo) {
+  std::vector<std::byte> block(std::size_t{8} << 20);
+  Arena memory(block);
+  const RectifiedPair pair = scene.render(&memory);
+  const Keypoints keypoints = test::lattice(pair, 2, &memory);
+  int refusals = 0;
+  bool succeeded = false;
+  for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
+    StageBench bench(size, size);
+    const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+    succeeded = matches.has_value();
+    if (succeeded) break;
+    EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
+    ++refusals;
+  }
+  EXPECT_TRUE(succeeded);
+  EXPECT_GT(refusals, 5);
+}
+
+TEST_P(Matchers, StopWhenAsked) {
+  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair pair = scene.render(&bench.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  bench.cancelled = true;
+  // Not through run_stage, which would not even begin.
+  const auto matches = matcher()->match(pair, keypoints, bench.context);
+  ASSERT_FALSE(matches);
+  EXPECT_EQ(matches.error().code, Errc::Cancelled);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Matchers, testing::ValuesIn(names_of("matcher")), [](const auto& chosen) {
+  std::string name = chosen.param;
+  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  return name;
+});
+
+}  // namespace
+}  // namespace relievo::pipeline
