@@ -4,9 +4,9 @@
 #include <array>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/calibrate/report/drawing.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "pipeline/calibrate/report/drawing.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "pipeline/calibrate/quality/limits.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

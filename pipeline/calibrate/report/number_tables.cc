@@ -4,7 +4,7 @@
 
 #include "pipeline/calibrate/fit/bundle.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

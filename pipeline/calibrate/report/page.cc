@@ -4,21 +4,19 @@
 
 #include "pipeline/calibrate/report/calibration_report.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline {
 namespace report {
 namespace {
 
-std::string heading(const CalibrationReport& r) {
-  const auto fact = [](const std::string& words) { return "<li>" + words + "</li>"; };
-  return "<header>\n<p class=\"product\">" + escaped(r.product) +
-         "</p>\n<h1>Calibration report</h1>\n<ul class=\"facts\">" + fact(escaped(r.made_at)) +
-         fact("<bdi>" + escaped(r.source) + "</bdi>") +
-         fact(counted(static_cast<int>(r.output.quality.views.size()), "pair", "pairs") + " of " +
-              std::to_string(r.output.calibration.left.width_px) + " × " +
-              std::to_string(r.output.calibration.left.height_px) + " px") +
-         fact(board_words(r.input.pattern)) + "</ul>\n</header>\n";
+std::string heading_of(const CalibrationReport& r) {
+  return heading(r.product, "Calibration report",
+                 {escaped(r.made_at), "<bdi>" + escaped(r.source) + "</bdi>",
+                  counted(static_cast<int>(r.output.quality.views.size()), "pair", "pairs") + " of " +
+                      std::to_string(r.output.calibration.left.width_px) + " × " +
+                      std::to_string(r.output.calibration.left.height_px) + " px",
+                  board_words(r.input.pattern)});
 }
 
 constexpr std::string_view kReading =
@@ -57,25 +55,10 @@ std::string board_words(const BoardPattern& b) {
          (charuco ? ", markers of " + number(b.marker_side_mm(), 3) + " mm" : "");
 }
 
-std::string side_by_side(std::string_view one, std::string_view other) {
-  return "<div class=\"pair\">\n" + std::string(one) + std::string(other) + "</div>\n";
-}
-
-std::string figure_of(std::string_view svg, std::string_view title, std::string_view caption) {
-  return "<figure>\n" + (title.empty() ? "" : "<h3>" + std::string(title) + "</h3>\n") + std::string(svg) +
-         "<figcaption>" + std::string(caption) + "</figcaption>\n</figure>\n";
-}
-
 }  // namespace report
 
 std::string calibration_report_html(const CalibrationReport& r) {
-  std::string out =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Calibration "
-      "report: " +
-      report::escaped(r.source) + "</title>\n<style>\n" + std::string(report::page_style()) +
-      "</style>\n</head>\n<body>\n<main>\n";
-  out += report::heading(r);
+  std::string out = report::heading_of(r);
   out += report::verdict_section(r);
   out += report::face_figures(r);
   out += report::key_figures(r);
@@ -87,7 +70,7 @@ std::string calibration_report_html(const CalibrationReport& r) {
   out += report::residual_arrows(r);
   out += report::view_table(r);
   out += report::number_tables(r);
-  return out + "</main>\n</body>\n</html>\n";
+  return report::page("Calibration report: " + r.source, "", out);
 }
 
 }  // namespace relievo::pipeline

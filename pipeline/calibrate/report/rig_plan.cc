@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "pipeline/calibrate/quality/rig_geometry.h"
-#include "pipeline/calibrate/report/drawing.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "pipeline/calibrate/report/calibration_report.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::pipeline::report {
 
-std::string_view page_style();                                // CSS
 std::string verdict_section(const CalibrationReport& r);      // word, icon, reasons
 std::string face_figures(const CalibrationReport& r);         // in mm at a face
 std::string key_figures(const CalibrationReport& r);          // with what is good
@@ -38,9 +38,5 @@ const CameraIntrinsics& camera_of(const CalibrationReport& r, std::size_t eye);
 const std::vector<CornerResidual>& corners_of(const FittedView& view, std::size_t eye);
 
 std::string board_words(const BoardPattern& board);
-
-// Two figures side by side, one under the other where there is no room.
-std::string side_by_side(std::string_view one, std::string_view other);
-std::string figure_of(std::string_view svg, std::string_view title, std::string_view caption);
 
 }  // namespace relievo::pipeline::report

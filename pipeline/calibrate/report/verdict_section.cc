@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/report/sections.h"
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/picture_file.h"
-#include "tests/pipeline/calibrate/report/html_reader.h"
+#include "tests/support/html_reader.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 #include "tests/support/temporary_folder.h"
 

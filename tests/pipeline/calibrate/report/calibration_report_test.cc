@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/calibrate/report/html_reader.h"
+#include "tests/support/html_reader.h"
 #include "tests/pipeline/calibrate/report/reported_set.h"
 
 namespace relievo::tests {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A picture made of lines, as SVG that stands in the page: its styles are classes of page_style.cc.
-// Axes as on paper: x right, y down. Inside report/ only. Thread: any.
+// Axes as on paper: x right, y down. Thread: any.
 #pragma once
 
 #include <span>
@@ -54,7 +54,7 @@ class Drawing {
   void strokes(std::string_view style, const Strokes& strokes);
   // style: begin, middle or end of the text stands at the place, by class.
   void text(std::string_view style, Vec2d at, std::string_view words);
-  void picture(const Box& box, std::span<const std::byte> jpeg);
+  void picture(const Box& box, std::span<const std::byte> file);  // JPEG or PNG
   std::string svg() const;
 
  private:

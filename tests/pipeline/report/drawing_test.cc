@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/report/drawing.h"
+#include "pipeline/report/drawing.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/calibrate/report/html_reader.h"
+#include "tests/support/html_reader.h"
 
 namespace relievo::tests {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Words and numbers for a page, whatever language the machine is set to. Inside report/ only.
-// Thread: any.
+// Words and numbers for a page, whatever language the machine is set to. Thread: any.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/report/drawing.h"
+#include "pipeline/report/drawing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "pipeline/calibrate/report/text.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
 namespace {
@@ -91,8 +91,10 @@ void Drawing::text(std::string_view style, Vec2d at, std::string_view words) {
   body_ += "<text" + of_class(style) + attribute("x", at.x) + attribute("y", at.y) + ">" + escaped(words) + "</text>\n";
 }
 
-void Drawing::picture(const Box& box, std::span<const std::byte> jpeg) {
-  body_ += "<image" + place(box) + " preserveAspectRatio=\"xMidYMid meet\" href=\"data:image/jpeg;base64," + base64(jpeg) + "\"/>\n";
+void Drawing::picture(const Box& box, std::span<const std::byte> file) {
+  const bool png = !file.empty() && file.front() == std::byte{0x89};
+  body_ += "<image" + place(box) + " preserveAspectRatio=\"xMidYMid meet\" href=\"data:image/" + (png ? "png" : "jpeg") + ";base64," +
+           base64(file) + "\"/>\n";
 }
 
 std::string Drawing::svg() const { return body_ + "</svg>\n"; }
