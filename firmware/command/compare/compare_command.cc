@@ -5,10 +5,12 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/compare/compare_job.h"
 #include "firmware/command/compare/compare_json.h"
+#include "firmware/command/compare/page/compare_page.h"
 #include "firmware/command/compare/set_choice.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/command/watched_job.h"
+#include "firmware/version.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -52,7 +54,10 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
 
   const Comparison& comparison = job.comparison();
-  RELIEVO_TRY(write_text(folder.path() / "compare.json", compare::comparison_json(comparison, text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()))), args.output));
+  const std::string made_at = text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
+  RELIEVO_TRY_ASSIGN(const std::string page, compare::comparison_html(comparison, "Relievo " + std::string(kVersion), made_at));
+  RELIEVO_TRY(write_text(folder.path() / "index.html", page, args.output));
+  RELIEVO_TRY(write_text(folder.path() / "compare.json", compare::comparison_json(comparison, made_at), args.output));
   RELIEVO_TRY(folder.commit());
   for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));
   services.console.say("page and figures: " + args.output.string());

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "firmware/command/compare/page/sections.h"
+#include "pipeline/report/text.h"
+
+namespace relievo::firmware::compare::sections {
+namespace {
+
+using pipeline::report::escaped;
+using pipeline::report::figure;
+
+// A column: what of a run, how many decimals, whether less is better.
+struct Column {
+  std::string title;
+  std::function<double(const Run&)> value;
+  int decimals;
+  enum class Better { Less, More, Neither } better;
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double percent(double share) { return 100 * share; }
+
+std::vector<Column> disparity_columns(const std::string& limit) {
+  using B = Column::Better;
+  const auto of = [](double (*get)(const DisparityScore&)) {
+    return [get](const Run& r) { return r.score ? get(*r.score) : kNone; };
+  };
+  return {{"bad<small>off by more than " + limit + "&nbsp;px, or a hole; %</small>", of([](const DisparityScore& s) { return percent(s.bad_limit); }), 2, B::Less},
+          {"bad, seen by both<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_seen); }), 2, B::Less},
+          {"bad of the given<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_given); }), 2, B::Less},
+          {"density<small>%</small>", of([](const DisparityScore& s) { return percent(s.density); }), 1, B::More},
+          {"median<small>error, px</small>", of([](const DisparityScore& s) { return s.median_px; }), 3, B::Less},
+          {"mean<small>px</small>", of([](const DisparityScore& s) { return s.mean_px; }), 2, B::Less},
+          {"rms<small>px</small>", of([](const DisparityScore& s) { return s.rms_px; }), 2, B::Less}};
+}
+
+std::vector<Column> model_columns() {
+  using B = Column::Better;
+  const auto of = [](double (*get)(const measure::Measurement&)) {
+    return [get](const Run& r) { return r.model ? get(*r.model) : kNone; };
+  };
+  using M = measure::Measurement;
+  return {{"interior<small>median, mm</small>", of([](const M& m) { return m.interior_median_mm; }), 3, B::Less},
+          {"face within<small>95&nbsp;%, mm</small>", of([](const M& m) { return m.accuracy_p95_mm; }), 2, B::Less},
+          {"complete<small>within 0.5&nbsp;mm, %</small>", of([](const M& m) { return percent(m.complete_half_mm); }), 1, B::More},
+          {"off<small>over 3&nbsp;mm, %</small>", of([](const M& m) { return percent(m.outliers_3mm); }), 2, B::Less},
+          {"in one sigma<small>68 is honest, %</small>", of([](const M& m) { return percent(m.within_sigma); }), 0, B::Neither}};
+}
+
+std::vector<Column> common_columns() {
+  using B = Column::Better;
+  return {{"matched<small>accepted</small>", [](const Run& r) { return static_cast<double>(r.matches.accepted); }, 0, B::Neither},
+          {"time<small>to match, ms</small>", [](const Run& r) { return r.stages.empty() ? kNone : r.match_ms; }, 0, B::Less}};
+}
+
+double best_of(const std::vector<const Run*>& runs, const Column& column) {
+  double best = kNone;
+  for (const Run* run : runs) {
+    const double value = column.value(*run);
+    if (std::isnan(value) || !run->failure.empty() || column.better == Column::Better::Neither) continue;
+    const bool better = column.better == Column::Better::Less ? value < best : value > best;
+    if (std::isnan(best) || better) best = value;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string figures(const Comparison& c, std::size_t pair) {
+  const std::vector<const Run*> runs = runs_of(c, pair);
+  std::vector<Column> columns;
+  const auto add = [&columns](std::vector<Column> more) { columns.insert(columns.end(), more.begin(), more.end()); };
+  const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
+  if (any([](const Run* r) { return r->model.has_value(); })) add(model_columns());
+  if (any([](const Run* r) { return r->score.has_value(); })) add(disparity_columns(pipeline::report::number(c.limit_px, 2)));
+  add(common_columns());
+  std::vector<std::string> titles{"Set"};
+  for (const Column& column : columns) titles.push_back(column.title);
+  std::string out = "<div class=\"scroll\">\n" + table_head(titles);
+  std::vector<double> best;
+  for (const Column& column : columns) best.push_back(runs.size() > 1 ? best_of(runs, column) : kNone);
+  for (const Run* run : runs) {
+    out += "<tr>" + row_head(name_of(c, *run));
+    const bool nothing = !run->failure.empty() && !run->score && run->matches.matches == 0;
+    if (nothing) out += "<td class=\"failed\" colspan=\"" + std::to_string(columns.size()) + "\">" + escaped(run->failure) + "</td>";
+    for (std::size_t i = 0; i < columns.size() && !nothing; ++i) {
+      const double value = columns[i].value(*run);
+      out += best_cell(figure(value, columns[i].decimals), value == best[i]);
+    }
+    out += "</tr>\n";
+    if (!nothing && !run->failure.empty())
+      out += "<tr><th scope=\"row\"></th><td class=\"failed\" colspan=\"" + std::to_string(columns.size()) + "\">" + escaped(run->failure) + "</td></tr>\n";
+  }
+  return out + "</tbody>\n</table>\n</div>\n";
+}
+
+}  // namespace relievo::firmware::compare::sections
