@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 
 #include "pipeline/algorithms.h"
 
@@ -23,14 +22,6 @@ std::vector<std::string> names_of(std::string_view kind) {
 bool has(std::string_view kind, std::string_view name) {
   const auto names = names_of(kind);
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// Those of the names that exist here, joined by '+'; "none" where none does.
-std::string joined(std::initializer_list<std::string_view> names) {
-  std::string all;
-  for (const std::string_view name : names)
-    if (has("constraints", name)) all += (all.empty() ? "" : "+") + std::string(name);
-  return all.empty() ? "none" : all;
 }
 
 // Every matcher, as it is by default; `file` matches nothing without its file.
@@ -76,10 +67,13 @@ Words dissertation() {
   };
   add("SSD", "ssd", "none");
   add("ZMNCC", "zmncc", "none");
-  add("ZMNCC, similarity", "zmncc", joined({"similarity"}));
-  add("ZMNCC, + uniqueness", "zmncc", joined({"similarity", "uniqueness"}));
-  add("ZMNCC, + continuity", "zmncc", joined({"similarity", "uniqueness", "continuity"}));
-  add("ZMNCC, + left-right", "zmncc", joined({"similarity", "uniqueness", "continuity", "left-right"}));
+  std::string rules;
+  for (const std::string_view rule : {"similarity", "uniqueness", "continuity", "ordering", "left-right", "statistical"}) {
+    if (!has("constraints", rule)) continue;
+    const std::string plus = rules.empty() ? "" : "+";
+    rules.append(plus).append(rule);
+    add("ZMNCC " + (plus.empty() ? "" : plus + " ") + std::string(rule), "zmncc", rules);
+  }
   words.push_back({"Relievo", {}});
   return words;
 }

@@ -26,10 +26,10 @@ std::string cell(const std::string& html) { return "<td class=\"value\">" + html
 std::string best_cell(const std::string& html, bool best) { return best ? "<td class=\"value best\">" + html + "</td>" : cell(html); }
 std::string row_head(const std::string& name) { return "<th scope=\"row\">" + escaped(name) + "</th>"; }
 
-std::string table_head(const std::vector<std::string>& columns, const std::string& caption) {
-  std::string out = "<table class=\"sets\">\n" + (caption.empty() ? "" : "<caption>" + caption + "</caption>\n") + "<thead><tr>";
+std::string table_head(const std::vector<std::string>& columns, std::size_t words) {
+  std::string out = "<table class=\"sets\">\n<thead><tr>";
   for (std::size_t i = 0; i < columns.size(); ++i)
-    out += std::string("<th scope=\"col\"") + (i == 0 ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
+    out += std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
   return out + "</tr></thead>\n<tbody>\n";
 }
 

@@ -66,7 +66,7 @@ std::string costs(const Comparison& c, std::size_t pair) {
     if (std::any_of(runs.begin(), runs.end(), [step](const Run* run) { return of_step(*run, step) > 0; })) steps.push_back(step);
   for (const std::string_view step : steps) titles.push_back(std::string(step) + "<small>ms</small>");
   titles.insert(titles.end(), {"arenas<small>peak, MiB</small>", "heap<small>peak, MiB</small>"});
-  std::string out = "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) + "<div class=\"scroll\">\n" + table_head(titles);
+  std::string out = "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) + "<div class=\"scroll\">\n" + table_head(titles, 2);
   for (const Run* run : runs) {
     out += "<tr>" + row_head(name_of(c, *run)) + "<td class=\"bars\">" + bar(*run, longest) + "</td>";
     for (const std::string_view step : steps) out += cell(figure(of_step(*run, step), 0));

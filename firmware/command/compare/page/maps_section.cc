@@ -72,7 +72,7 @@ Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& rea
   RELIEVO_TRY_ASSIGN(const Png rejected, rejected_picture(pair, run, kWidthPx));
   std::string out = "<div class=\"set\">\n<h3>" + escaped(name) + "</h3>\n<div class=\"three\">\n";
   out += drawn(pair, disparities, name + ": disparities", "", figure(100.0 * static_cast<double>(std::count_if(run.map.values.begin(), run.map.values.end(), [](float d) { return !std::isnan(d); })) /
-                                                              static_cast<double>(std::max<std::size_t>(1, run.map.values.size())), 1) + " % of the picture");
+                                                              static_cast<double>(std::max<std::size_t>(1, run.map.values.size())), 1) + " % of the picture have one");
   if (run.score) {
     RELIEVO_TRY_ASSIGN(const Png errors, error_picture(run.map, *pair.truth, c.limit_px, kWidthPx));
     out += drawn(pair, errors, name + ": errors", "", figure(100 * run.score->bad_limit, 2) + " % bad, median error " + figure(run.score->median_px, 3) + " px");

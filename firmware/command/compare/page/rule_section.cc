@@ -44,10 +44,10 @@ std::string rules(const Comparison& c, std::size_t pair) {
   if (truth) titles.insert(titles.end(), {"truly bad<small>of these, %</small>", "holds<small>of all bad ones, %</small>"});
   std::string rows;
   for (const Run* run : runs_of(c, pair))
-    if (run->matches.matches > 0) rows += rows_of(c, *run, truth);
+    if (run->matches.matches > 0 && !run->matches.rules.empty()) rows += rows_of(c, *run, truth);
   if (rows.empty()) return rows;
   return "<h3 class=\"topic\">What the constraints took away</h3>\n<p class=\"lead\">Each match is counted with the first rule that rejected it. "
-         "A good rule’s rejects are bad ones.</p>\n<div class=\"scroll\">\n" + table_head(titles) + rows + "</tbody>\n</table>\n</div>\n";
+         "A good rule’s rejects are bad ones.</p>\n<div class=\"scroll\">\n" + table_head(titles, 2) + rows + "</tbody>\n</table>\n</div>\n";
 }
 
 Result<std::string> selectors(const Comparison& c, std::size_t pair) {

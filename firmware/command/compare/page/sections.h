@@ -28,6 +28,6 @@ const std::string& name_of(const Comparison& c, const Run& run);
 std::string cell(const std::string& html);                            // a number's
 std::string best_cell(const std::string& html, bool best);
 std::string row_head(const std::string& name);                        // escapes
-std::string table_head(const std::vector<std::string>& columns, const std::string& caption = "");
+std::string table_head(const std::vector<std::string>& columns, std::size_t words = 1);  // the first are words, not numbers
 
 }  // namespace relievo::firmware::compare::sections
