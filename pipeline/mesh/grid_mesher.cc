@@ -30,7 +30,7 @@ Stride stride_for(std::size_t points, int max_triangles) {
   return stride;
 }
 
-FaceMesh pack(const CutSurface& surface, StageContext& context) {
+FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& context) {
   std::pmr::vector<std::uint32_t> place(surface.at_mm.size(), kUnused, &context.scratch);
   std::uint32_t used = 0;
   for (const Triangle& t : surface.triangles)
@@ -48,7 +48,7 @@ FaceMesh pack(const CutSurface& surface, StageContext& context) {
     if (place[k] == kUnused) continue;
     mesh.vertices_mm.push_back(surface.at_mm[k]);
     mesh.sigma_mm.push_back(surface.sigma_mm[k]);
-    mesh.measured.push_back(surface.measured[k]);
+    mesh.measured.push_back(surface.sigma_mm[k] <= measured_sigma_mm ? surface.measured[k] : std::uint8_t{0});
   }
   for (const Triangle& t : surface.triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   return mesh;
@@ -102,6 +102,7 @@ Result<void> GridMesherOptions::check() const {
     return Error{Errc::InvalidInput, "outline_smoothing_mm and rim_smoothing_mm must lie in 0 .. 10"}.at("mesher.grid");
   if (normal_passes < 0 || normal_passes > 16)
     return Error{Errc::InvalidInput, "normal_passes must lie in 0 .. 16"}.at("mesher.grid");
+  if (!(measured_sigma_mm > 0)) return Error{Errc::InvalidInput, "measured_sigma_mm must be positive"}.at("mesher.grid");
   if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
     return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at("mesher.grid");
   return {};
@@ -128,7 +129,7 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   if (context.stop()) return stopped;
   if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;
 
-  FaceMesh mesh = pack(surface, context);
+  FaceMesh mesh = pack(surface, static_cast<float>(options_.measured_sigma_mm), context);
   compute_normals(mesh, options_.normal_passes, &context.scratch);
   turn_sigma_perpendicular(mesh);
   context.progress.done.store(1, std::memory_order_relaxed);

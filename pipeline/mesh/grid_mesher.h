@@ -7,7 +7,8 @@
 // Promises: one connected component (the largest), every edge in at most two triangles, one fan a
 // vertex, counter-clockwise seen from the cameras, no triangle steeper than max_incidence_deg to the
 // line of sight of the left camera, a boundary without fringe. Small holes are closed with
-// measured = 0 and a thin-plate surface, larger ones stay open. sigma_mm is perpendicular to the
+// measured = 0 and a thin-plate surface, larger ones stay open; so is marked what is less certain than
+// measured_sigma_mm (a chin that moved between the exposures). sigma_mm is perpendicular to the
 // surface: the line of sight's sigma times the cosine of the angle of incidence.
 // Frame: the left camera's, millimetres. Memory: arenas only; one exact reserve a vector.
 // Errors: Unsupported (scattered points), PoorGeometry (no surface of a face's size), OutOfMemory,
@@ -32,6 +33,7 @@ struct GridMesherOptions {
   double outline_smoothing_mm = 3;    // sigma of the outline's smoothing; 0 leaves it on the lattice
   double rim_smoothing_mm = 1.5;      // the same, of the rims of open holes
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
+  double measured_sigma_mm = 1.5;     // what is less certain along the line of sight is shown, but not as measured
   double min_area_mm2 = 2500;         // less surface than this is no face
 
   Result<void> check() const;
@@ -51,6 +53,7 @@ void describe(GridMesherOptions& o, Field&& field) {
   field("outline_smoothing_mm", o.outline_smoothing_mm, OptionRange{0, 10}, "how far the outline is smoothed, sigma in mm");
   field("rim_smoothing_mm", o.rim_smoothing_mm, OptionRange{0, 10}, "how far the rims of open holes are smoothed, sigma in mm");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
+  field("measured_sigma_mm", o.measured_sigma_mm, OptionRange{0.01, 1000}, "surface less certain than this is shown, but not as measured, mm");
   field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
 }
 

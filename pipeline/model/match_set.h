@@ -48,6 +48,8 @@ struct MatchSet {
   explicit MatchSet(std::pmr::memory_resource* memory) : matches(memory) {}
   std::pmr::vector<Match> matches;
   EpipolarShift epipolar_shift;    // measured by `refined`
+  double motion_px = 0;            // rms over the face of what moved across the rows between the exposures, beside
+                                   // the linear shift; 0: nothing was seen. sigma_px of a match has its part of it
   int lattice_step_px = 0;         // as in Keypoints: left_px of accepted and rejected lie on a lattice
 };
 

@@ -47,6 +47,11 @@ bool BumpScene::judged(double x, double y) const {
   return x > kMargin && y > kMargin && x < width_px - kMargin && y < height_px - kMargin && right > kMargin;
 }
 
+double BumpScene::moved(double x, double y) const {
+  const double u = (x - width_px / 2.0) / moved_radius_px, v = (y - 0.7 * height_px) / moved_radius_px;
+  return moved_px * std::exp(-0.5 * (u * u + v * v));
+}
+
 pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) const {
   pipeline::RectifiedPair pair(memory);
   pair.width_px = width_px;
@@ -75,7 +80,7 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
     for (int x = 0; x < width_px; ++x) {
       const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
       pair.left.grey[k] = static_cast<float>(texture.at(x, y) + normal(random));
-      const double row = y - rows_px - rows_tilt * (x - width_px / 2.0);
+      const double row = y - rows_px - rows_tilt * (x - width_px / 2.0) - moved(x, y);
       double from = x + disparity(x, row);  // x_left with x_left - d(x_left) = x
       for (int i = 0; i < 60; ++i) from = x + disparity(from, row);
       pair.right.grey[k] = static_cast<float>(right_gain * texture.at(from, row) + right_offset + normal(random));

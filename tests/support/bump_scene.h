@@ -27,8 +27,11 @@ struct BumpScene {
   std::uint32_t seed = 1;
   double rows_px = 0;         // what belongs on row y of the right view stands on y + rows_px + rows_tilt * (x - middle)
   double rows_tilt = 0;
+  double moved_px = 0;        // and a Gaussian hill of this height, in the middle of the lower half, moved down besides
+  double moved_radius_px = 40;
 
   double disparity(double x, double y) const;
+  double moved(double x, double y) const;  // of the right view, beside rows_px and rows_tilt
   pipeline::RectifiedPair render(std::pmr::memory_resource* memory) const;
   // Inside the picture, away from its edges and from what the other view does not see.
   bool judged(double x, double y) const;

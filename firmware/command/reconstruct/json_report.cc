@@ -49,6 +49,7 @@ std::string report_json(const Report& report) {
                     {"height_mm", q.height_mm},
                     {"nose_relief_mm", q.nose_relief_mm},
                     {"epipolar_residual_px", q.epipolar_residual_px}}},
+                  {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
                   {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -20,6 +20,14 @@ std::string line_of(const pipeline::DriftJudgement& drift) {
   return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
 }
 
+std::string line_of_motion(double motion_px) {
+  char line[192];
+  std::snprintf(line, sizeof line,
+                "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
+                "Hold still, or expose both cameras together", motion_px);
+  return line;
+}
+
 std::uint64_t peak_rss_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -25,10 +25,12 @@ struct Report {
   std::uint64_t peak_rss_bytes = 0;
   pipeline::ModelQuality quality;
   std::optional<pipeline::DriftJudgement> drift;  // none where nothing was matched
+  std::optional<double> motion_px;       // MatchSet::motion_px, where it is known
 };
 
 std::string line_of(const StageRecord& stage);   // for a terminal
 std::string line_of(const pipeline::DriftJudgement& drift);
+std::string line_of_motion(double motion_px);
 std::string report_json(const Report& report);
 std::uint64_t peak_rss_bytes();          // of this process, up to now
 

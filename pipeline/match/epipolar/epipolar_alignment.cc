@@ -15,6 +15,8 @@ constexpr int kFirstLevel = 3;
 constexpr int kLastLevel = 1;  // full size would add noise, hardly detail
 constexpr int kSearchRounds = 3;  // at each level
 constexpr int kRefineRounds = 2;
+constexpr int kMotionRounds = 10;  // a chin may move by many pixels, a round by one of half the size
+constexpr double kMotionSettledPx = 0.02;
 
 }  // namespace
 
@@ -28,7 +30,7 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
     LocalShifts locals(pyramids, level, field, face, context);
     for (int round = 0; round < (whole ? kSearchRounds : kRefineRounds); ++round) {
       // Small pictures have too few patches for slopes.
-      const EpipolarShift better = fit_shift_field(locals.measure(shift), level == kLastLevel, context.scratch);
+      const EpipolarShift better = fit_shift_field(locals.measure({shift}), level == kLastLevel, context.scratch);
       if (!better.measured()) break;
       shift = better;
     }
@@ -36,18 +38,30 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
   return shift;
 }
 
-void shift_rows(const EpipolarShift& shift, int level, Plane<float>& right, StageContext& context) {
+RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
+                             const EpipolarShift& linear, StageContext& context) {
+  RowMotion motion(&context.scratch, pair.width_px, pair.height_px);
   Arena::Mark mark(context.scratch);
-  Plane<float> copy(&context.scratch, right.width, right.height);
-  copy.values = right.values;
-  const double scale = 1 << level;
-  context.pool.for_each_band(right.height, kBands, [&](int begin, int end, int) {
+  const FaceEllipse face(pair);
+  LocalShifts locals(pyramids, kLastLevel, field, face, context);
+  double before = 0;
+  for (int round = 0; round < kMotionRounds; ++round) {
+    fit_row_motion(locals.measure({linear, &motion}), linear, pair.face_width_px, context, motion);
+    if (!motion.seen || std::abs(motion.rms_px - before) < kMotionSettledPx) break;
+    before = motion.rms_px;
+  }
+  return motion;
+}
+
+void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context) {
+  context.pool.for_each_band(to.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < right.width; ++x) {
-        const double at = y + shift.at(x * scale, y * scale) / scale;
+      for (int x = 0; x < to.width; ++x) {
+        const double at = y + shift.at(x, y);
         const int k = static_cast<int>(std::floor(at));
-        if (k < kColumnReach || k + kColumnReach >= right.height) continue;
-        right.row(y)[x] = ColumnWeights(static_cast<float>(at - k)).sample(copy.row(k) + x, right.width);
+        const bool inside = k >= kColumnReach && k + kColumnReach < to.height;
+        const float* above = from.data() + static_cast<std::ptrdiff_t>(inside ? k : y) * to.width + x;
+        to.row(y)[x] = inside ? ColumnWeights(static_cast<float>(at - k)).sample(above, to.width) : *above;
       }
   });
 }

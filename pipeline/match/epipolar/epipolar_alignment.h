@@ -15,6 +15,7 @@
 #pragma once
 
 #include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/epipolar/row_motion.h"
 #include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
@@ -29,7 +30,12 @@ enum class EpipolarSearch : std::uint8_t { Search, Refine };
 EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
                                      EpipolarSearch search, StageContext& context);
 
-// right(x, y) = right(x, y + shift), by cubic convolution along the columns; a picture of one level.
-void shift_rows(const EpipolarShift& shift, int level, Plane<float>& right, StageContext& context);
+// What moved beside the linear shift that the pictures still have, on a surface good to about a pixel of half the size.
+RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
+                             const EpipolarShift& linear, StageContext& context);
+
+// to(x, y) = from(x, y + shift), full size, by cubic convolution along the columns; pixels that would need rows
+// outside are copied.
+void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -69,7 +69,7 @@ LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField
   high_pass(right_.grey, context, right_detail_);
 }
 
-void LocalShifts::add_node(const EpipolarShift& from, int x, int y, double disparity_px, Patch& patch) const {
+void LocalShifts::add_node(const RowShift& from, int x, int y, double disparity_px, Patch& patch) const {
   const double scale = 1 << level_;
   const double xr = x - disparity_px / scale;
   const double yr = y + from.at(xr * scale, y * scale) / scale;
@@ -98,7 +98,7 @@ void LocalShifts::add_node(const EpipolarShift& from, int x, int y, double dispa
   ++patch.samples;
 }
 
-void LocalShifts::gather(const EpipolarShift& from) {
+void LocalShifts::gather(const RowShift& from) {
   const int reach = kPatchPx * stride_;
   context_.pool.for_each_band(patches_.height, kBands, [&](int begin, int end, int) {
     for (int q = begin; q < end; ++q)
@@ -114,7 +114,7 @@ void LocalShifts::gather(const EpipolarShift& from) {
   });
 }
 
-std::span<const LocalShift> LocalShifts::measure(const EpipolarShift& from) {
+std::span<const LocalShift> LocalShifts::measure(const RowShift& from) {
   gather(from);
   Extent across, down;
   for (int q = 0; q < patches_.height; ++q)

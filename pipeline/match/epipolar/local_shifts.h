@@ -11,7 +11,7 @@
 #include <span>
 
 #include "pipeline/match/coarse/coarse_surface.h"
-#include "pipeline/match/epipolar/shift_field.h"
+#include "pipeline/match/epipolar/row_motion.h"
 #include "pipeline/match/refine/surface_refiner.h"
 
 namespace relievo::pipeline {
@@ -32,12 +32,12 @@ class LocalShifts {
               StageContext& context);
 
   // Valid until the next call.
-  std::span<const LocalShift> measure(const EpipolarShift& from);
+  std::span<const LocalShift> measure(const RowShift& from);
 
  private:
   struct Patch;
-  void gather(const EpipolarShift& from);
-  void add_node(const EpipolarShift& from, int x, int y, double disparity_px, Patch& patch) const;
+  void gather(const RowShift& from);
+  void add_node(const RowShift& from, int x, int y, double disparity_px, Patch& patch) const;
 
   // Order of the sums of a patch: lower triangle over slope_x, detail, 1, slope_y, residual.
   struct Patch {

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/epipolar/epipolar_alignment.h"
-#include "pipeline/match/epipolar/shift_field.h"
+#include "pipeline/match/epipolar/row_aligner.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr int kLevels = 4;
 constexpr int kNodeStepPx = 2;  // the final lattice
+// Rows further apart than half a pixel of a quarter of the size mislead the coarse surface: it is looked for again.
+constexpr double kSearchAgainPx = 2;
+constexpr int kPasses = 2;
 
 Pyramids build_pyramids(const RectifiedPair& pair, StageContext& context) {
   Pyramids pyramids{std::pmr::vector<PyramidLevel>(&context.scratch), std::pmr::vector<PyramidLevel>(&context.scratch)};
@@ -23,16 +25,9 @@ Pyramids build_pyramids(const RectifiedPair& pair, StageContext& context) {
     levels.emplace_back(&context.scratch, pair.width_px, pair.height_px);
     std::copy(view.grey.begin(), view.grey.end(), levels[0].grey.values.begin());
     std::copy(view.valid.begin(), view.valid.end(), levels[0].valid.values.begin());
-    for (int level = 1; level < kLevels; ++level) {
-      const int w = levels.back().grey.width;
-      const int h = levels.back().grey.height;
-      levels.emplace_back(&context.scratch, (w + 1) / 2, (h + 1) / 2);
-      const PyramidLevel& from = levels[levels.size() - 2];
-      PyramidLevel& to = levels.back();
-      context.pool.for_each_band(to.grey.height, 8, [&](int begin, int end, int) {
-        halve_rows(from.grey.values.data(), from.valid.values.data(), w, h, to, begin, end);
-      });
-    }
+    for (int level = 1; level < kLevels; ++level)
+      levels.emplace_back(&context.scratch, (levels.back().grey.width + 1) / 2, (levels.back().grey.height + 1) / 2);
+    halve_levels(levels, context.pool);
   }
   return pyramids;
 }
@@ -102,37 +97,40 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
   Pyramids pyramids = build_pyramids(pair, context);
-  const auto& fine = pyramids.left[kFineLevel].grey;
-  SurfaceField field4(&context.scratch, fine.width, fine.height, 4);
-  {
-    Arena::Mark mark(context.scratch);
-    RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));
-  }
-  context.progress.done.store(0.4F, std::memory_order_relaxed);
   const double lambda = bending_weight(pair, options_.refiner.bending);
   const auto refine = [&](int level, SurfaceField& field) {
     const RefinerScene scene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
                              pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
     return refine_surface(scene, options_.refiner, context, field);
   };
-  RELIEVO_TRY(refine(2, field4));
   const auto& half = pyramids.left[1].grey;
+  const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
-  densify(field4, field2);
-  const EpipolarShift coarse = measure_epipolar_shift(pair, pyramids, field2, EpipolarSearch::Search, context);
-  const bool realign = coarse.residual_px > static_cast<double>(options_.align_beyond_px);
-  if (realign)
-    for (const int level : {0, 1})
-      shift_rows(coarse, level, pyramids.right[static_cast<std::size_t>(level)].grey, context);
+  RowAligner rows(pair, pyramids, {static_cast<double>(options_.align_beyond_px), options_.follow_motion != 0}, context);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    {
+      Arena::Mark mark(context.scratch);
+      SurfaceField field4(&context.scratch, fine.width, fine.height, 1 << kFineLevel);
+      RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));
+      context.progress.done.store(0.4F, std::memory_order_relaxed);
+      RELIEVO_TRY(refine(kFineLevel, field4));
+      densify(field4, field2);
+    }
+    if (rows.align(field2) < kSearchAgainPx) break;
+  }
   RELIEVO_TRY(refine(1, field2));
+  if (rows.motion().seen) rows.align_motion(field2);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   RELIEVO_TRY(refine(0, field2));
-  const EpipolarShift rest = measure_epipolar_shift(pair, pyramids, field2, EpipolarSearch::Refine, context);
-  set.epipolar_shift = !rest.measured() ? coarse : realign ? sum_of(coarse, rest) : rest;
+  set.epipolar_shift = rows.measure_linear(field2);
+  set.motion_px = rows.motion().rms_px;
   for (const Keypoint& keypoint : keypoints.points) {
     Match match{.left_px = keypoint.at_px};
-    if (read_field(field2, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px)
-      set.matches.push_back(match);
+    if (!read_field(field2, keypoint.at_px, match) || !(match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px)) continue;
+    // What moved across the rows moved along them as well, for all we know.
+    const double moved = rows.motion().at(static_cast<double>(match.left_px.x - match.disparity_px), static_cast<double>(match.left_px.y));
+    match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));
+    set.matches.push_back(match);
   }
   if (set.matches.size() < 100)
     return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};

@@ -19,6 +19,7 @@ struct RefinedMatcherOptions {
   SurfaceRefinerOptions refiner;
   float sigma_limit_px = 1.5F;   // a place less certain than this has no match
   float align_beyond_px = 0.03F; // the rows are realigned on the face itself where they disagree by more
+  int follow_motion = 1;         // whether what moved across the rows between the exposures is followed
   Result<void> check() const;
 };
 
@@ -31,6 +32,7 @@ void describe(RefinedMatcherOptions& o, Field&& field) {
   field("solver_steps", o.refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");
   field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
   field("align_beyond_px", o.align_beyond_px, OptionRange{0, 1000}, "rows of the two views that disagree by more are realigned on the face");
+  field("follow_motion", o.follow_motion, OptionRange{0, 1}, "1: what moved across the rows between the two exposures is followed");
   field("band", o.coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
   field("largest_hole", o.coarse.largest_hole, OptionRange{0, 100000}, "enclosed holes up to this many pixels, at a quarter of the size, are bridged for refinement");
   field("cross_check_px", o.coarse.cross_check_px, OptionRange{0.25, 16}, "how far the two views may disagree, pixels at a quarter of the size");

@@ -96,10 +96,9 @@ TEST(EpipolarAlignment, ShiftedRowsAgree) {
   scene.rows_px = scene.rows_tilt = 0;
   const RectifiedPair still = scene.render(&bench.output);
   Plane<float> right(&bench.output, moved.width_px, moved.height_px);
-  std::copy(moved.right.grey.begin(), moved.right.grey.end(), right.values.begin());
   EpipolarShift shift;
   shift.offset_px = 1.4, shift.slope_x = -2e-3, shift.middle_x_px = moved.width_px / 2.0;
-  shift_rows(shift, 0, right, bench.context);
+  shift_rows({shift}, moved.right.grey, right, bench.context);
   double worst = 0;
   for (int y = 12; y < moved.height_px - 12; ++y)
     for (int x = 12; x < moved.width_px - 12; ++x)

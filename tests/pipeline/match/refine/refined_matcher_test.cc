@@ -192,5 +192,40 @@ TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
   EXPECT_LT(rms(*aligned), 0.6 * rms(*unaligned));
 }
 
+// A chin that sank between the two exposures: its rows are found again, and what that says of the rows' own
+// direction is in sigma.
+TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
+  const BumpScene scene{.noise = 0.5, .seed = 32, .moved_px = 4};
+  StageBench bench;
+  const RectifiedPair pair = scene.render(&bench.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  RefinedMatcherOptions off;
+  off.follow_motion = 0;
+  const auto followed = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto ignored = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+  ASSERT_TRUE(followed);
+  ASSERT_TRUE(ignored);
+  EXPECT_GT(followed->motion_px, 0.3);
+  EXPECT_EQ(ignored->motion_px, 0);
+  const auto off_there = [&](const MatchSet& set) {
+    std::vector<double> errors;
+    for (const Match& m : set.matches)
+      if (scene.judged(m.left_px.x, m.left_px.y) && scene.moved(m.left_px.x - m.disparity_px, m.left_px.y) > 2)
+        errors.push_back(std::abs(m.disparity_px - scene.disparity(m.left_px.x, m.left_px.y)));
+    EXPECT_GT(errors.size(), 300U);
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+    return errors[errors.size() / 2];
+  };
+  EXPECT_LT(off_there(*followed), 0.1);
+  EXPECT_GT(off_there(*ignored), 3 * off_there(*followed));
+  for (const Match& m : followed->matches) {
+    const double moved = scene.moved(m.left_px.x - m.disparity_px, m.left_px.y);
+    if (scene.judged(m.left_px.x, m.left_px.y) && moved > 1) {
+      ASSERT_GT(m.sigma_px, 0.6 * moved);
+      ASSERT_LT(m.sigma_px, 1.5 * moved);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
