@@ -50,6 +50,8 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
       const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera);
       return files ? Result<void>{} : files.error().at(args.output.string());
     };
+  services.console.say(std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") + std::to_string(pairs.size()) +
+                       (pairs.size() == 1 ? " pair" : " pairs"));
   compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px, keep_model);
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
 

@@ -2,15 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/command/compare/compared_pair.h"
 
+#include <algorithm>
+
 #include "firmware/measure/true_surface.h"
 
 namespace relievo::firmware::compare {
 namespace {
 
-// "d1" of d1/left.png, where many pairs lie in folders of their own; "aloeL" of aloeL.jpg, where there is but one.
-std::string name_of(const Path& left, bool many) {
+// "aloeL" of aloeL.jpg, but "d1" of d1/left.png; none twice.
+std::string name_of(const Path& left, const std::vector<ComparedPair>& others) {
   const Path folder = std::filesystem::absolute(left).lexically_normal().parent_path().filename();
-  return (many && !folder.empty() ? folder : left.stem()).string();
+  const std::string name = (left.stem() == "left" && !folder.empty() ? folder : left.stem()).string();
+  std::string free = name;
+  const auto taken = [&](const ComparedPair& pair) { return pair.name == free; };
+  for (int i = 2; std::any_of(others.begin(), others.end(), taken); ++i) free = name + " " + std::to_string(i);
+  return free;
 }
 
 Result<void> read_truth(const Path& truth, const CompareArgs& args, ComparedPair& pair) {
@@ -38,8 +44,8 @@ Result<std::vector<ComparedPair>> read_pairs(const CompareArgs& args) {
   std::vector<ComparedPair> pairs;
   for (std::size_t i = 0; i < count; ++i) {
     const Path& left = args.pictures[2 * i];
-    ComparedPair& pair = pairs.emplace_back();
-    pair.name = name_of(left, count > 1);
+    ComparedPair pair;
+    pair.name = name_of(left, pairs);
     RELIEVO_TRY_ASSIGN(pair.pictures, read_pair(left, args.pictures[2 * i + 1]));
     const auto of_pair = [i](const std::vector<Path>& given) { return given.size() == 1 ? given[0] : given[i]; };
     if (args.rectified) {
@@ -48,6 +54,7 @@ Result<std::vector<ComparedPair>> read_pairs(const CompareArgs& args) {
       RELIEVO_TRY_ASSIGN(pair.calibration, read_calibration_for(pair.pictures, of_pair(args.calibrations), left));
     }
     if (!args.truths.empty()) RELIEVO_TRY(read_truth(of_pair(args.truths), args, pair));
+    pairs.push_back(std::move(pair));
   }
   return pairs;
 }

@@ -63,13 +63,13 @@ DisparityScore score(const DisparityMap& map, const DisparityTruth& truth, doubl
   }
   s.given = errors.size();
   s.density = share(s.given, s.judged);
-  s.bad_half = 1 - share(good[0], s.judged);
-  s.bad_1 = 1 - share(good[1], s.judged);
-  s.bad_2 = 1 - share(good[2], s.judged);
-  s.bad_4 = 1 - share(good[3], s.judged);
-  s.bad_limit = 1 - share(good[4], s.judged);
+  s.bad_half = share(s.judged - good[0], s.judged);
+  s.bad_1 = share(s.judged - good[1], s.judged);
+  s.bad_2 = share(s.judged - good[2], s.judged);
+  s.bad_4 = share(s.judged - good[3], s.judged);
+  s.bad_limit = share(s.judged - good[4], s.judged);
   s.bad_given = share(s.given - good[4], s.given);
-  s.bad_seen = 1 - share(good_seen, s.seen);
+  s.bad_seen = share(s.seen - good_seen, s.seen);
   describe_errors(errors, within_sum, good[4], s);
   return s;
 }

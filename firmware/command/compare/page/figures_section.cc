@@ -55,8 +55,8 @@ std::vector<Column> model_columns() {
 
 std::vector<Column> common_columns() {
   using B = Column::Better;
-  return {{"matched<small>accepted</small>", [](const Run& r) { return static_cast<double>(r.matches.accepted); }, 0, B::Neither},
-          {"time<small>to match, ms</small>", [](const Run& r) { return r.stages.empty() ? kNone : r.match_ms; }, 0, B::Less}};
+  return {{"matched<small>accepted</small>", [](const Run& r) { return r.matches.matches == 0 ? kNone : static_cast<double>(r.matches.accepted); }, 0, B::Neither},
+          {"time<small>to match, ms</small>", [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less}};
 }
 
 double best_of(const std::vector<const Run*>& runs, const Column& column) {
@@ -70,34 +70,41 @@ double best_of(const std::vector<const Run*>& runs, const Column& column) {
   return best;
 }
 
-}  // namespace
-
-std::string figures(const Comparison& c, std::size_t pair) {
-  const std::vector<const Run*> runs = runs_of(c, pair);
-  std::vector<Column> columns;
-  const auto add = [&columns](std::vector<Column> more) { columns.insert(columns.end(), more.begin(), more.end()); };
-  const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
-  if (any([](const Run* r) { return r->model.has_value(); })) add(model_columns());
-  if (any([](const Run* r) { return r->score.has_value(); })) add(disparity_columns(pipeline::report::number(c.limit_px, 2)));
-  add(common_columns());
+std::string table(const Comparison& c, const std::vector<const Run*>& runs, const std::vector<Column>& columns) {
   std::vector<std::string> titles{"Set"};
-  for (const Column& column : columns) titles.push_back(column.title);
-  std::string out = "<div class=\"scroll\">\n" + table_head(titles);
   std::vector<double> best;
-  for (const Column& column : columns) best.push_back(runs.size() > 1 ? best_of(runs, column) : kNone);
+  for (const Column& column : columns) {
+    titles.push_back(column.title);
+    best.push_back(runs.size() > 1 ? best_of(runs, column) : kNone);
+  }
+  const std::string width = "<td class=\"failed\" colspan=\"" + std::to_string(columns.size()) + "\">";
+  std::string out = "<div class=\"scroll\">\n" + table_head(titles);
   for (const Run* run : runs) {
     out += "<tr>" + row_head(name_of(c, *run));
-    const bool nothing = !run->failure.empty() && !run->score && run->matches.matches == 0;
-    if (nothing) out += "<td class=\"failed\" colspan=\"" + std::to_string(columns.size()) + "\">" + escaped(run->failure) + "</td>";
+    bool nothing = true;
+    for (const Column& column : columns) nothing = nothing && std::isnan(column.value(*run));
+    if (nothing) out += width + escaped(run->failure) + "</td>";
     for (std::size_t i = 0; i < columns.size() && !nothing; ++i) {
       const double value = columns[i].value(*run);
       out += best_cell(figure(value, columns[i].decimals), value == best[i]);
     }
     out += "</tr>\n";
-    if (!nothing && !run->failure.empty())
-      out += "<tr><th scope=\"row\"></th><td class=\"failed\" colspan=\"" + std::to_string(columns.size()) + "\">" + escaped(run->failure) + "</td></tr>\n";
   }
   return out + "</tbody>\n</table>\n</div>\n";
+}
+
+}  // namespace
+
+std::string figures(const Comparison& c, std::size_t pair) {
+  const std::vector<const Run*> runs = runs_of(c, pair);
+  const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
+  std::string out;
+  if (any([](const Run* r) { return r->model.has_value(); }))
+    out += "<h3>The model, against the true surface</h3>\n" + table(c, runs, model_columns()) + "<h3 class=\"topic\">The disparities</h3>\n";
+  std::vector<Column> columns;
+  if (any([](const Run* r) { return r->score.has_value(); })) columns = disparity_columns(pipeline::report::number(c.limit_px, 2));
+  for (Column& column : common_columns()) columns.push_back(std::move(column));
+  return out + table(c, runs, columns);
 }
 
 }  // namespace relievo::firmware::compare::sections

@@ -86,7 +86,7 @@ std::string shared_pixels(const Comparison& c, std::size_t pair) {
     out += "<tr>" + row_head(name_of(c, *one));
     for (const Run* other : runs) {
       const SharedScore s = one == other ? SharedScore{} : score_shared(one->map, other->map, *c.pairs[pair].truth, c.limit_px);
-      out += s.shared == 0 ? cell("–") : best_cell(figure(100 * s.bad_one, 2) + " / " + figure(100 * s.bad_other, 2), s.bad_one < s.bad_other);
+      out += s.shared == 0 ? cell("–") : best_cell(figure(100 * s.bad_one, 2) + " / " + figure(100 * s.bad_other, 2), s.bad_one + 5e-5 < s.bad_other);  // as it reads
     }
     out += "</tr>\n";
   }
