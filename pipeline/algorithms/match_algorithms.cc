@@ -3,9 +3,11 @@
 #include <array>
 
 #include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/match/coarse/sgm_matcher.h"
 #include "pipeline/match/constraints/continuity_constraint.h"
 #include "pipeline/match/constraints/similarity_constraint.h"
 #include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/peer/sgbm_matcher.h"
 #include "pipeline/match/preprocess/histogram_normaliser.h"
 #include "pipeline/match/preprocess/histogram_transfer.h"
 #include "pipeline/match/refine/refined_matcher.h"
@@ -29,6 +31,8 @@ constexpr std::array kMatchers{
     with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>("refined"),
     with_options<Matcher, SsdMatcher, SsdMatcherOptions>("ssd"),
     with_options<Matcher, ZmnccMatcher, ZmnccMatcherOptions>("zmncc"),
+    with_options<Matcher, SgmMatcher, SgmMatcherOptions>("sgm"),
+    with_options<Matcher, SgbmMatcher, SgbmMatcherOptions>("opencv-sgbm"),
 };
 
 constexpr std::array kConstraints{

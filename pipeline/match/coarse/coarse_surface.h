@@ -6,10 +6,8 @@
 // views, and the one connected surface that is the face.
 #pragma once
 
-#include <vector>
-
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/image/image_pyramid.h"
+#include "pipeline/match/image/pyramids.h"
 #include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/model/rectified_pair.h"
 
@@ -25,11 +23,6 @@ struct CoarseSurfaceOptions {
 
 inline constexpr int kCoarseLevel = 3;
 inline constexpr int kFineLevel = 2;
-
-struct Pyramids {
-  std::pmr::vector<PyramidLevel> left;   // [level]; level 0 full size
-  std::pmr::vector<PyramidLevel> right;
-};
 
 // `field` is a lattice over level 2's pixels (step 4); its domain is empty where nothing was found.
 // Errors: TooFewMatches, Cancelled.

@@ -89,7 +89,7 @@ struct Volume {
 // Four paths in one sweep over the picture: along the row and from the three neighbours of the row
 // before; dir = +1 top to bottom, -1 the other way round.
 void sweep(Volume& volume, const Plane<std::int16_t>& first, const SemiGlobalCosts& costs, int dir,
-           std::pmr::memory_resource& scratch) {
+           std::pmr::memory_resource& scratch, const std::atomic<bool>* cancelled) {
   const int w = volume.width;
   const int n = volume.candidates;
   PathRow row_path(scratch, 2, n);
@@ -99,6 +99,7 @@ void sweep(Volume& volume, const Plane<std::int16_t>& first, const SemiGlobalCos
   const int y0 = dir > 0 ? 0 : volume.height - 1;
   int now = 0;
   for (int y = y0; y >= 0 && y < volume.height; y += dir, now ^= 1) {
+    if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return;
     const std::int16_t* base = first.row(y);
     const std::int16_t* above = y == y0 ? nullptr : first.row(y - dir);
     int flip = 0;
@@ -164,15 +165,16 @@ RELIEVO_SIMD void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& ce
 }
 
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
-                 const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity) {
+                 const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity, const std::atomic<bool>* cancelled) {
   const int w = first.width;
   const int h = first.height;
   const std::size_t cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
   Volume volume{w, h, candidates, std::pmr::vector<std::uint8_t>(cells, 0, &scratch),
                 std::pmr::vector<std::uint16_t>(cells, 0, &scratch)};
   for (int y = 0; y < h; ++y) matching_costs(pair, first.row(y), y, candidates, volume.cost.data() + volume.cell(0, y));
-  sweep(volume, first, costs, +1, scratch);
-  sweep(volume, first, costs, -1, scratch);
+  sweep(volume, first, costs, +1, scratch, cancelled);
+  sweep(volume, first, costs, -1, scratch, cancelled);
+  if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return;
   for (int y = 0; y < h; ++y) {
     const std::int16_t* base = first.row(y);
     const std::uint8_t* valid = pair.from_valid.row(y);

@@ -9,6 +9,7 @@
 // Errors: std::bad_alloc when the arena is too small (run_stage makes it OutOfMemory).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "pipeline/match/image/plane.h"
@@ -35,9 +36,10 @@ struct CensusPair {
 };
 
 // Fills `disparity` (same size; kNoDisparity where nothing can be known) with sub-pixel minima.
+// Returns early, with nothing filled, once `cancelled` is set.
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
                  const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch,
-                 Plane<float>& disparity);
+                 Plane<float>& disparity, const std::atomic<bool>* cancelled = nullptr);
 
 // Marks as kNoDisparity what the other view does not confirm within `limit_px`.
 void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px);

@@ -16,22 +16,6 @@ constexpr int kNodeStepPx = 2;  // the final lattice
 constexpr double kSearchAgainPx = 2;
 constexpr int kPasses = 2;
 
-Pyramids build_pyramids(const RectifiedPair& pair, StageContext& context) {
-  Pyramids pyramids{std::pmr::vector<PyramidLevel>(&context.scratch), std::pmr::vector<PyramidLevel>(&context.scratch)};
-  for (int side = 0; side < 2; ++side) {
-    auto& levels = side == 0 ? pyramids.left : pyramids.right;
-    const RectifiedView& view = side == 0 ? pair.left : pair.right;
-    levels.reserve(kLevels);
-    levels.emplace_back(&context.scratch, pair.width_px, pair.height_px);
-    std::copy(view.grey.begin(), view.grey.end(), levels[0].grey.values.begin());
-    std::copy(view.valid.begin(), view.valid.end(), levels[0].valid.values.begin());
-    for (int level = 1; level < kLevels; ++level)
-      levels.emplace_back(&context.scratch, (levels.back().grey.width + 1) / 2, (levels.back().grey.height + 1) / 2);
-    halve_levels(levels, context.pool);
-  }
-  return pyramids;
-}
-
 // The field on a lattice twice as dense: bilinear inside, nearest at the edge.
 void densify(const SurfaceField& from, SurfaceField& to) {
   for (int y = 0; y < to.domain.height; ++y)
@@ -96,7 +80,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
-  Pyramids pyramids = build_pyramids(pair, context);
+  Pyramids pyramids = build_pyramids(pair, kLevels, context);
   const double lambda = bending_weight(pair, options_.refiner.bending);
   const auto refine = [&](int level, SurfaceField& field) {
     const RefinerScene scene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
