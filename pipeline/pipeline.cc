@@ -2,12 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pipeline.h"
 
+#include <string>
 #include <utility>
 
 #include "pipeline/mesh/head_frame.h"
 #include "pipeline/mesh/model_quality.h"
 
 namespace relievo::pipeline {
+namespace {
+
+// Said before the first picture is looked at, not after minutes of matching.
+Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& mesher) {
+  if (selector.on_lattice() || !mesher.needs_lattice()) return {};
+  return Error{Errc::InvalidInput, "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid"}
+      .at("selector=" + std::string(selector.name()) + " mesher=" + std::string(mesher.name()));
+}
+
+}  // namespace
 
 Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration& calibration,
                                 const RectifierOptions& volume, Region region) {
@@ -30,6 +41,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY_ASSIGN(pipeline.crop_, make_face_crop(set));
   RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_options(set));
   RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
+  RELIEVO_TRY(check_neighbours(*pipeline.selector_, *pipeline.mesher_));
   RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
   return pipeline;
 }

@@ -31,7 +31,7 @@ enum class Region : std::uint8_t { Face, All };
 
 class Pipeline {
  public:
-  // Errors: InvalidInput (options), NotFound or LibraryFailed (the face detector's files).
+  // Errors: InvalidInput (options; a mesher for lattices with a scattered selector), NotFound or LibraryFailed (the face detector's files).
   static Result<Pipeline> make(const AlgorithmSet& set, const StereoCalibration& calibration,
                                const RectifierOptions& volume = {}, Region region = Region::Face);
 

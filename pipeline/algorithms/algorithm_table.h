@@ -79,13 +79,14 @@ class OptionReader {
 template <typename Interface>
 struct Algorithm {
   const char* name;
+  const char* section;  // of its options: its name, unless another kind has the same
   Result<std::unique_ptr<Interface>> (*make)(const AlgorithmSet& set, std::string_view section);
   void (*describe)(std::string_view section, std::vector<OptionDescription>& all);
 };
 
 template <typename Interface, typename Concrete, typename Options>
-constexpr Algorithm<Interface> with_options(const char* name) {
-  return {name,
+constexpr Algorithm<Interface> with_options(const char* name, const char* options_section = nullptr) {
+  return {name, options_section == nullptr ? name : options_section,
           [](const AlgorithmSet& set, std::string_view section) -> Result<std::unique_ptr<Interface>> {
             RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
             return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
@@ -95,7 +96,7 @@ constexpr Algorithm<Interface> with_options(const char* name) {
 
 template <typename Interface, typename Concrete>
 constexpr Algorithm<Interface> without_options(const char* name) {
-  return {name,
+  return {name, name,
           [](const AlgorithmSet&, std::string_view) -> Result<std::unique_ptr<Interface>> {
             return std::unique_ptr<Interface>(std::make_unique<Concrete>());
           },
@@ -111,13 +112,13 @@ Kind kind_of(const char* key, const char* value, const char* sentence, const Tab
 
 template <typename Table>
 void describe_table(const Table& table, std::vector<OptionDescription>& all) {
-  for (const auto& algorithm : table) algorithm.describe(algorithm.name, all);
+  for (const auto& algorithm : table) algorithm.describe(algorithm.section, all);
 }
 
 template <typename Interface, typename Table>
 Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set, std::string_view name) {
   for (const Algorithm<Interface>& algorithm : table)
-    if (name == algorithm.name) return algorithm.make(set, name);
+    if (name == algorithm.name) return algorithm.make(set, algorithm.section);
   return Error{Errc::NotFound, "no such algorithm"}.at(name);
 }
 

@@ -12,6 +12,13 @@
 #include "pipeline/match/preprocess/histogram_transfer.h"
 #include "pipeline/match/refine/refined_matcher.h"
 #include "pipeline/match/select/dense_selector.h"
+#include "pipeline/match/select/file_selector.h"
+#include "pipeline/match/select/good_features_selector.h"
+#include "pipeline/match/select/grid_selector.h"
+#include "pipeline/match/select/haar_selector.h"
+#include "pipeline/match/select/harris_selector.h"
+#include "pipeline/match/select/random_selector.h"
+#include "pipeline/match/select/wavelet_salient_selector.h"
 #include "pipeline/match/window/ssd_matcher.h"
 #include "pipeline/match/window/zmncc_matcher.h"
 
@@ -25,6 +32,13 @@ constexpr std::array kPreprocessors{
 
 constexpr std::array kSelectors{
     with_options<KeypointSelector, DenseSelector, DenseSelectorOptions>("dense"),
+    with_options<KeypointSelector, GridSelector, GridSelectorOptions>("grid", "grid-points"),
+    with_options<KeypointSelector, GoodFeaturesSelector, GoodFeaturesSelectorOptions>("good-features"),
+    with_options<KeypointSelector, HarrisSelector, HarrisSelectorOptions>("harris"),
+    with_options<KeypointSelector, HaarSelector, HaarSelectorOptions>("haar"),
+    with_options<KeypointSelector, WaveletSalientSelector, WaveletSalientSelectorOptions>("wavelet-salient"),
+    with_options<KeypointSelector, RandomSelector, RandomSelectorOptions>("random"),
+    with_options<KeypointSelector, FileSelector, FileSelectorOptions>("file", "file-points"),
 };
 
 constexpr std::array kMatchers{

@@ -17,6 +17,8 @@ class KeypointSelector {
  public:
   virtual ~KeypointSelector() = default;
   virtual std::string_view name() const = 0;
+  // Its keypoints lie on a lattice (Keypoints::lattice_step_px > 0), as some meshers need.
+  virtual bool on_lattice() const { return false; }
   virtual Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const = 0;
 };
 

@@ -61,6 +61,7 @@ class GridMesher final : public Mesher {
  public:
   explicit GridMesher(const GridMesherOptions& options) : options_(options) {}
   std::string_view name() const override { return "grid"; }
+  bool needs_lattice() const override { return true; }
   Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
 
  private:

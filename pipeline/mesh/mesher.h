@@ -17,6 +17,8 @@ class Mesher {
  public:
   virtual ~Mesher() = default;
   virtual std::string_view name() const = 0;
+  // It joins neighbours of a lattice: PointCloud::lattice_step_px must be set.
+  virtual bool needs_lattice() const { return false; }
   virtual Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const = 0;
 };
 

@@ -42,10 +42,12 @@ TEST(Algorithms, DefaultsLieInTheirOwnRange) {
 
 TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
   for (const OptionDescription& option : describe_algorithms()) {
-    if (!option.names.empty()) continue;
+    if (!option.names.empty() || option.text) continue;
     for (const double value : {option.least, option.most}) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, std::to_string(value))) << option.key;
+      EXPECT_TRUE(make_preprocessor(set)) << option.key << " = " << value;
+      EXPECT_TRUE(make_selector(set)) << option.key << " = " << value;
       EXPECT_TRUE(make_matcher(set)) << option.key << " = " << value;
       EXPECT_TRUE(make_mesher(set)) << option.key << " = " << value;
       EXPECT_TRUE(make_texturer(set)) << option.key << " = " << value;

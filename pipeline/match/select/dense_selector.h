@@ -24,6 +24,7 @@ class DenseSelector final : public KeypointSelector {
  public:
   explicit DenseSelector(const DenseSelectorOptions& options) : options_(options) {}
   std::string_view name() const override { return "dense"; }
+  bool on_lattice() const override { return true; }
   Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
 
  private:

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FileSelector ("file"): the keypoints of a text file, one a line: x and y in pixels of the left rectified
+// view, apart by a comma, a semicolon or blanks; further columns are not looked at. Empty lines, lines
+// that begin with # and a first line of names (x,y) are passed over. What lies outside of the face region
+// is left out; the same place is taken once; keypoints are in rows from the top.
+// Errors: NotFound, IoFailed (the file); InvalidInput with the line's number: not two numbers, or outside of
+// the view; too long; NoFace (none in the face region); OutOfMemory, Cancelled.
+#pragma once
+
+#include <string>
+
+#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct FileSelectorOptions {
+  std::string path;
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(FileSelectorOptions& o, Field&& field) {
+  field("path", o.path, OptionRange{0, 0}, "text file of keypoints: x,y in pixels of the left rectified view, one a line");
+}
+
+class FileSelector final : public KeypointSelector {
+ public:
+  explicit FileSelector(const FileSelectorOptions& options) : options_(options) {}
+  std::string_view name() const override { return "file"; }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
+
+ private:
+  FileSelectorOptions options_;
+};
+
+}  // namespace relievo::pipeline

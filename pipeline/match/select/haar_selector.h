@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HaarSelector ("haar"): blobs by Haar-like box filters on the integral image, the Fast-Hessian of
+// H. Bay, A. Ess, T. Tuytelaars, L. Van Gool, Speeded-Up Robust Features (SURF), CVIU 110, 2008:
+// det = Dxx Dyy - (0.9 Dxy)^2 of box filters 9, 15, 21, 27 pixels wide (first octave; twice the growth
+// and half the sampling in each further one), peaks among their 26 neighbours in place and size,
+// placed by a quadratic (Brown and Lowe 2002), then rounded to whole pixels.
+// Keypoints are in rows from the top; strength is the share of the strongest response.
+// Errors: InvalidInput (no pixels, options), NoFace (an empty region), TooFewMatches (no blob),
+// OutOfMemory, Cancelled. Memory: ten planes of the picture's size in `scratch`.
+#pragma once
+
+#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct HaarSelectorOptions {
+  int octaves = 2;
+  double quality = 0.0001;
+  int min_distance_px = 3;
+  int max_points = 20'000;
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(HaarSelectorOptions& o, Field&& field) {
+  field("octaves", o.octaves, OptionRange{1, 4}, "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
+  field("quality", o.quality, OptionRange{1e-6, 1}, "least response, share of the strongest; it grows with the square of the contrast");
+  field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "blobs keep this distance, pixels");
+  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
+}
+
+class HaarSelector final : public KeypointSelector {
+ public:
+  explicit HaarSelector(const HaarSelectorOptions& options) : options_(options) {}
+  std::string_view name() const override { return "haar"; }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
+
+ private:
+  HaarSelectorOptions options_;
+};
+
+}  // namespace relievo::pipeline

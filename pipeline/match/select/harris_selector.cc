@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/select/harris_selector.h"
+
+#include "pipeline/match/select/response/corner_response.h"
+
+namespace relievo::pipeline {
+
+Result<void> HarrisSelectorOptions::check() const {
+  if (!(sensitivity >= 0.01 && sensitivity <= 0.24) || !(quality > 0 && quality <= 1))
+    return Error{Errc::InvalidInput, "harris: sensitivity must lie in 0.01 .. 0.24 and quality above 0 to 1"};
+  if (window_px < 3 || window_px > 15 || min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "harris: window_px 3 .. 15, min_distance_px 1 .. 64, max_points 1 .. 1000000"};
+  if (window_px % 2 == 0) return Error{Errc::InvalidInput, "harris: window_px must be odd"};
+  return {};
+}
+
+Result<Keypoints> HarrisSelector::select(const RectifiedPair& pair, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_pixels_of_left(pair));
+  const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
+  if (context.stop()) return stopped;
+  const Selectable selectable(pair, &context.scratch);
+  RELIEVO_TRY(check_selectable(selectable));
+  Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
+  Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
+  if (!corner_response(pair.left.grey, selectable, {options_.window_px / 2, 3}, harris_measure, static_cast<float>(options_.sensitivity), context, response))
+    return stopped;
+  if (const float strongest = greatest(response); strongest > 0) {
+    for (float& r : response.values) r /= strongest;
+    Candidates peaks = peaks_of(response, static_cast<float>(options_.quality), 1, context, &context.scratch);
+    if (context.stop()) return stopped;
+    choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
+  }
+  return keypoints_of(chosen, options_.max_points, context);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+
+#include <cmath>
+
+#include "pipeline/match/file/number_table.h"
+#include "tests/pipeline/match/select/selection_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::SelectionBench;
+
+class FilePoints : public testing::Test {
+ protected:
+  Result<Keypoints> read(const std::string& text) {
+    test::write_text(here_ / "points.csv", text);
+    return choose((here_ / "points.csv").string());
+  }
+  Result<Keypoints> choose(const std::string& path) {
+    return bench_.select(*test::make_selector("file", {{"file-points.path", path}}), SelectionBench::rendered());
+  }
+  void refused(const std::string& text, const std::string& place) {
+    const auto chosen = read(text);
+    ASSERT_FALSE(chosen) << text;
+    EXPECT_EQ(chosen.error().code, Errc::InvalidInput) << text;
+    const std::string where(chosen.error().where());
+    EXPECT_EQ(where.substr(where.size() - std::min(where.size(), place.size())), place) << text;
+  }
+  test::TemporaryFolder here_;
+  SelectionBench bench_;  // 200 x 160
+};
+
+TEST_F(FilePoints, EveryFormIsRead) {
+  const auto chosen = read("# by hand\r\nx,y\n\n10.25,20.5\r\n 30 40\n12;7 ; left eye, the corner\n\t+1e1\t8\n10.25, 20.5\n0,0\n199,159");
+  ASSERT_TRUE(chosen);
+  const Vec2f expected[] = {{0, 0}, {12, 7}, {10, 8}, {10.25F, 20.5F}, {30, 40}, {199, 159}};
+  ASSERT_EQ(chosen->points.size(), std::size(expected));
+  for (std::size_t k = 0; k < std::size(expected); ++k) {
+    EXPECT_EQ(chosen->points[k].at_px.x, expected[k].x);
+    EXPECT_EQ(chosen->points[k].at_px.y, expected[k].y);
+  }
+  EXPECT_EQ(chosen->lattice_step_px, 0);
+}
+
+TEST_F(FilePoints, HostileLinesAreNamed) {
+  refused("1,2\n3,4\nfive,6\n", "points.csv, line 3");
+  refused("1,2\n3\n", "points.csv, line 2");
+  refused("1,2\n3,\n", "points.csv, line 2");
+  refused("1,,2\n", "points.csv, line 1");
+  refused("1 2\nnan,4\n", "points.csv, line 2");
+  refused("1 2\n3,inf\n", "points.csv, line 2");
+  refused("1 2\n3,1e999\n", "points.csv, line 2");
+  refused("1 2\n3,4abc\n", "points.csv, line 2");
+  refused("1 2\nx,y\n", "points.csv, line 2");  // a title belongs on top
+  refused("1 2\n--3,4\n", "points.csv, line 2");
+  refused("1 2\n-1,4\n", "points.csv, line 2");
+  refused("1 2\n200,4\n", "points.csv, line 2");
+  refused("1 2\n4,159.5\n", "points.csv, line 2");
+  refused(std::string("1 2\n\0 3\n", 8), "points.csv, line 2");
+  refused("1 2\n\xff\xfe\x00\n", "points.csv, line 2");
+  refused("", "points.csv");
+  refused("# nothing\n\n", "points.csv");
+  refused("x,y\n", "points.csv");
+}
+
+TEST_F(FilePoints, WhatIsNoFileIsRefused) {
+  EXPECT_EQ(choose("").error().code, Errc::InvalidInput);
+  EXPECT_EQ(choose((here_ / "none.csv").string()).error().code, Errc::NotFound);
+  EXPECT_EQ(choose(here_.path().string()).error().code, Errc::InvalidInput);
+  const std::string pipe = (here_ / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(choose(pipe).error().code, Errc::InvalidInput);  // and nobody waits for a writer
+}
+
+TEST(NumberTable, TooManyLinesAndTooLargeFilesAreRefused) {
+  test::StageBench bench(1 << 20, 1 << 20);
+  const auto table = parse_number_table("1 2\n\n3 4\n5 6\n", "t.txt", 2, 2, &bench.scratch);
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().where(), "t.txt, line 4");
+  test::TemporaryFolder here;
+  test::write_text(here / "large.txt", std::string(1000, ' '));
+  const auto large = read_number_table((here / "large.txt").string(), 2, 2, bench.scratch);
+  ASSERT_FALSE(large);
+  EXPECT_EQ(large.error().code, Errc::InvalidInput);
+  const auto fits = parse_number_table("1 2 x\n3 4,9\n", "t.txt", 2, 2, &bench.scratch);
+  ASSERT_TRUE(fits);
+  EXPECT_EQ(fits->at(1, 0), 3);
+  EXPECT_EQ(fits->place(1), "t.txt, line 2");
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
