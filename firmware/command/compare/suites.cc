@@ -24,6 +24,16 @@ bool has(std::string_view kind, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// The six of the dissertation, in its order, as far as they are here.
+constexpr std::array<std::string_view, 6> kRules{"similarity", "uniqueness", "continuity", "ordering", "left-right", "statistical"};
+
+std::string all_rules() {
+  std::string all;
+  for (const std::string_view rule : kRules)
+    if (has("constraints", rule)) all += (all.empty() ? "" : "+") + std::string(rule);
+  return all.empty() ? "none" : all;
+}
+
 // Every matcher, as it is by default; `file` matches nothing without its file.
 Words matchers() {
   Words words;
@@ -68,7 +78,7 @@ Words dissertation() {
   add("SSD", "ssd", "none");
   add("ZMNCC", "zmncc", "none");
   std::string rules;
-  for (const std::string_view rule : {"similarity", "uniqueness", "continuity", "ordering", "left-right", "statistical"}) {
+  for (const std::string_view rule : kRules) {
     if (!has("constraints", rule)) continue;
     const std::string plus = rules.empty() ? "" : "+";
     rules.append(plus).append(rule);
@@ -78,13 +88,44 @@ Words dissertation() {
   return words;
 }
 
+// Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
+Words dissertation_face() {
+  std::vector<std::string> chain{"triangulator=linear-least-squares", "mesher=delaunay", "texturer=single-view"};
+  if (has("preprocessor", "histogram-match")) chain.emplace_back("preprocessor=histogram-match");
+  if (has("matcher", "zmncc")) chain.emplace_back("matcher=zmncc");
+  chain.push_back("constraints=" + all_rules());
+  Words words{{"2004, dense", chain}};
+  for (const char* selector : {"good-features", "haar"}) {
+    if (!has("selector", selector)) continue;
+    words.push_back({std::string("2004, ") + selector, chain});
+    words.back().settings.push_back(std::string("selector=") + selector);
+  }
+  words.push_back({"Relievo", {}});
+  return words;
+}
+
+// What an OpenCV user writes today beside what is ours; the peer's own checks instead of our rules.
+Words peers() {
+  Words words{{"Relievo", {}}};
+  if (has("matcher", "sgm")) words.push_back({"sgm", {"matcher=sgm"}});
+  if (!has("matcher", "opencv-sgbm")) return words;
+  const std::vector<std::string> peer{"matcher=opencv-sgbm", "constraints=none", "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
+                                      "opencv-sgbm.max_lr_px=1", "opencv-sgbm.speckle_px=200"};
+  words.push_back({"OpenCV SGBM 3-way", peer});
+  words.back().settings.emplace_back("opencv-sgbm.mode=1");
+  words.push_back({"OpenCV SGBM HH", peer});
+  words.back().settings.emplace_back("opencv-sgbm.mode=2");
+  return words;
+}
+
 struct Suite {
   std::string_view name;
   Words (*make)();
 };
 constexpr std::array kSuites{
-    Suite{"dissertation", dissertation}, Suite{"matchers", matchers},           Suite{"constraints", constraints},
-    Suite{"selectors", selectors},       Suite{"preprocessors", preprocessors},
+    Suite{"dissertation", dissertation}, Suite{"dissertation-face", dissertation_face}, Suite{"peers", peers},
+    Suite{"matchers", matchers},         Suite{"constraints", constraints},             Suite{"selectors", selectors},
+    Suite{"preprocessors", preprocessors},
 };
 
 }  // namespace
