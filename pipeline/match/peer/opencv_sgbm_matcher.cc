@@ -16,7 +16,7 @@ namespace {
 constexpr int kCorrelationRadius = 4;
 constexpr float kFitPx = 1.0F / 6;
 constexpr float kNothing = -1.0e6F;
-constexpr double kMostBytes = 1 << 30;
+constexpr double kMostBytes = 2.0 * (1 << 30);  // aloe with 256 disparities needs 1.4
 constexpr int kBands = 32;
 
 // The part of both pictures that the keypoints need.
@@ -91,7 +91,7 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   // Its own volumes: two of 16 bits.
   const double bytes = 4.0 * crop.width * crop.height * count;
   if (options_.mode == 2 && bytes > kMostBytes)
-    return Error{Errc::OutOfMemory, "opencv-sgbm: hh would need more than 1 GiB here: choose mode 1 or narrow the volume (--near, --far)"};
+    return Error{Errc::OutOfMemory, "opencv-sgbm: hh would need more than 2 GiB here: choose mode 1 or narrow the volume (--near, --far)"};
   if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;

@@ -7,7 +7,7 @@
 //
 // The peer works on 8-bit greys (values outside 0 .. 255 are cut) of the rows and columns the keypoints need.
 // Its memory is the heap, not an arena, and it must not run out inside OpenCV, which would end the
-// process: `hh` is refused where its volume would take more than 1 GiB.
+// process: `hh` is refused where its volume would take more than 2 GiB.
 // cost and sigma_px are ours (as in sgm): one minus the correlation of 9 x 9 pixels; scatter about the local
 // plane and a sixth of a pixel for its fit. It cannot be stopped while OpenCV works. Errors: as Matcher.
 #pragma once
