@@ -40,7 +40,10 @@ function(relievo_room name)
   endforeach()
   add_library(relievo_${name} STATIC ${sources})
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(relievo_${name} PUBLIC relievo_options ${arg_DOORS} PRIVATE ${arg_LIBS})
+  # Who uses an installed room gets its headers, not our warnings.
+  target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_DOORS} PRIVATE ${arg_LIBS})
+  target_include_directories(relievo_${name} INTERFACE $<INSTALL_INTERFACE:include/relievo>)
+  target_compile_features(relievo_${name} PUBLIC cxx_std_20)
 endfunction()
 
 # relievo_tests(NAME LIBS...): one GoogleTest program from every *_test.cc below the current folder.
