@@ -5,8 +5,12 @@
 #include "pipeline/algorithms/algorithm_table.h"
 #include "pipeline/match/coarse/sgm_matcher.h"
 #include "pipeline/match/constraints/continuity_constraint.h"
+#include "pipeline/match/constraints/left_right_constraint.h"
+#include "pipeline/match/constraints/ordering_constraint.h"
 #include "pipeline/match/constraints/similarity_constraint.h"
+#include "pipeline/match/constraints/statistical_constraint.h"
 #include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/file/file_matcher.h"
 #include "pipeline/match/peer/sgbm_matcher.h"
 #include "pipeline/match/preprocess/histogram_normaliser.h"
 #include "pipeline/match/preprocess/histogram_transfer.h"
@@ -19,6 +23,7 @@
 #include "pipeline/match/select/harris_selector.h"
 #include "pipeline/match/select/random_selector.h"
 #include "pipeline/match/select/wavelet_salient_selector.h"
+#include "pipeline/match/wavelet/wavelet_matcher.h"
 #include "pipeline/match/window/ssd_matcher.h"
 #include "pipeline/match/window/zmncc_matcher.h"
 
@@ -45,14 +50,19 @@ constexpr std::array kMatchers{
     with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>("refined"),
     with_options<Matcher, SsdMatcher, SsdMatcherOptions>("ssd"),
     with_options<Matcher, ZmnccMatcher, ZmnccMatcherOptions>("zmncc"),
+    with_options<Matcher, WaveletMatcher, WaveletMatcherOptions>("wavelet"),
     with_options<Matcher, SgmMatcher, SgmMatcherOptions>("sgm"),
     with_options<Matcher, SgbmMatcher, SgbmMatcherOptions>("opencv-sgbm"),
+    with_options<Matcher, FileMatcher, FileMatcherOptions>("file-matches"),
 };
 
 constexpr std::array kConstraints{
     with_options<MatchConstraint, SimilarityConstraint, SimilarityConstraintOptions>("similarity"),
     with_options<MatchConstraint, UniquenessConstraint, UniquenessConstraintOptions>("uniqueness"),
     with_options<MatchConstraint, ContinuityConstraint, ContinuityConstraintOptions>("continuity"),
+    with_options<MatchConstraint, OrderingConstraint, OrderingConstraintOptions>("ordering"),
+    with_options<MatchConstraint, LeftRightConstraint, LeftRightConstraintOptions>("left-right"),
+    with_options<MatchConstraint, StatisticalConstraint, StatisticalConstraintOptions>("statistical"),
 };
 
 }  // namespace

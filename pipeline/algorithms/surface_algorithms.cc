@@ -7,6 +7,7 @@
 #include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
+#include "pipeline/reconstruct/optimal_triangulator.h"
 #include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/two_view_texturer.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr std::array kTriangulators{
     without_options<Triangulator, InverseDisparityTriangulator>("inverse-disparity"),
     without_options<Triangulator, LinearTriangulator>("linear-least-squares"),
+    without_options<Triangulator, OptimalTriangulator>("optimal"),
 };
 
 constexpr std::array kMeshers{

@@ -20,16 +20,22 @@ void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool
   });
 }
 
-// Pixels whose square of 2 radius + 1 lies inside the picture and is valid throughout.
-void mark_whole(const std::pmr::vector<std::uint8_t>& valid, int radius, StageContext& context, Plane<std::uint8_t>& whole) {
-  const int w = whole.width;
-  const int h = whole.height;
+}  // namespace
+
+DisparityRange disparity_range(const RectifiedPair& pair) {
+  return {static_cast<int>(std::floor(pair.disparity_px(pair.far_mm))) - 1, static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
+}
+
+Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius, StageContext& context) {
+  const int w = pair.width_px;
+  const int h = pair.height_px;
+  Plane<std::uint8_t> whole(&context.scratch, w, h);
   Arena::Mark mark(context.scratch);
   Plane<int> run(&context.scratch, w, 1);  // valid pixels above and on this row, without a gap
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x)
       run.values[static_cast<std::size_t>(x)] =
-          valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)] != 0 ? run.values[static_cast<std::size_t>(x)] + 1 : 0;
+          view.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)] != 0 ? run.values[static_cast<std::size_t>(x)] + 1 : 0;
     const int centre = y - radius;
     if (centre < radius) continue;
     int across = 0;
@@ -38,12 +44,7 @@ void mark_whole(const std::pmr::vector<std::uint8_t>& valid, int radius, StageCo
       if (across >= 2 * radius + 1) whole.row(centre)[x - radius] = 1;
     }
   }
-}
-
-}  // namespace
-
-DisparityRange disparity_range(const RectifiedPair& pair) {
-  return {static_cast<int>(std::floor(pair.disparity_px(pair.far_mm))) - 1, static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
+  return whole;
 }
 
 ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int radius, StageContext& context) {
@@ -57,8 +58,8 @@ ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int r
     planes.right.emplace_back(&context.scratch, pair.width_px, pair.height_px);
     fill_plane(pair.right, c, channels, context.pool, planes.right.back());
   }
-  mark_whole(pair.left.valid, radius, context, planes.whole_left);
-  mark_whole(pair.right.valid, radius, context, planes.whole_right);
+  planes.whole_left = whole_windows(pair, pair.left, radius, context);
+  planes.whole_right = whole_windows(pair, pair.right, radius, context);
   return planes;
 }
 

@@ -32,6 +32,9 @@ struct DisparityRange {
 };
 DisparityRange disparity_range(const RectifiedPair& pair);
 
+// 1 where the square of 2 radius + 1 pixels about a pixel lies inside the picture and is valid throughout.
+Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius, StageContext& context);
+
 // `channels` is 1 (grey) or 3 (colours). On context.scratch.
 ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int radius, StageContext& context);
 

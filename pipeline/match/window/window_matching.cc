@@ -41,13 +41,6 @@ struct Fit {
   double unlike = 0;
 };
 
-// What a window takes off a surface bent both ways: (w^2 - 1) / 24 times its second derivatives, each of
-// which is bend * baseline / focal length.
-double bias_px(const RectifiedPair& pair, int window_px) {
-  const double flattened = (window_px * window_px - 1) / 24.0 * 2 * kFaceBend * pair.baseline_mm / pair.focal_px;
-  return std::hypot(kFitBiasPx, flattened);
-}
-
 Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here, const PatchScores::Score& after,
                 int disparity, double bias, const WindowRule& rule) {
   Fit fit;
@@ -69,7 +62,7 @@ Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here
 class WindowMatching {
  public:
   WindowMatching(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule, StageContext& context)
-      : keypoints_(keypoints), rule_(rule), bias_px_(bias_px(pair, rule.window_px)), range_(disparity_range(pair)), rows_(rows_of(keypoints, pair.height_px)),
+      : keypoints_(keypoints), rule_(rule), bias_px_(method_bias_px(pair, rule.window_px)), range_(disparity_range(pair)), rows_(rows_of(keypoints, pair.height_px)),
         planes_(make_channel_planes(pair, rule.channels, rule.window_px / 2, context)),
         best_(&context.scratch, pair.width_px, rows_ ? rows_->count : 0), fits_(keypoints.points.size(), Fit{}, &context.scratch),
         scores_(&context.scratch) {
@@ -135,6 +128,13 @@ class WindowMatching {
 };
 
 }  // namespace
+
+// What a window takes off a surface bent both ways: (w^2 - 1) / 24 times its second derivatives, each of
+// which is bend * baseline / focal length.
+double method_bias_px(const RectifiedPair& pair, int window_px) {
+  const double flattened = (window_px * window_px - 1) / 24.0 * 2 * kFaceBend * pair.baseline_mm / pair.focal_px;
+  return std::hypot(kFitBiasPx, flattened);
+}
 
 Result<void> check_window(int window_px, int channels) {
   if (window_px < 3 || window_px > 63 || window_px % 2 == 0)

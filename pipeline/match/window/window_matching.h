@@ -33,6 +33,9 @@ struct WindowRule {
 Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
                                StageContext& context);
 
+// `bias` above, pixels: of a window this wide on a face before this rig.
+double method_bias_px(const RectifiedPair& pair, int window_px);
+
 // Errors: InvalidInput (an even window, or channels other than 1 and 3).
 Result<void> check_window(int window_px, int channels);
 

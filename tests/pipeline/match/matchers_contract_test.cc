@@ -8,6 +8,7 @@
 
 #include "pipeline/algorithms.h"
 #include "tests/pipeline/match/match_truth.h"
+#include "tests/support/names_of.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -15,10 +16,11 @@ namespace {
 using test::BumpScene;
 using test::StageBench;
 
-std::vector<std::string> names_of(const char* kind) {
-  for (const OptionDescription& option : describe_algorithms())
-    if (option.key == kind) return option.names;
-  return {};
+// What is read from a file has tests of its own.
+std::vector<std::string> searching_matchers() {
+  std::vector<std::string> names = test::names_of("matcher");
+  std::erase(names, "file-matches");
+  return names;
 }
 
 class Matchers : public testing::TestWithParam<std::string> {
@@ -132,11 +134,8 @@ TEST_P(Matchers, StopWhenAsked) {
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Matchers, testing::ValuesIn(names_of("matcher")), [](const auto& chosen) {
-  std::string name = chosen.param;
-  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, Matchers, testing::ValuesIn(searching_matchers()),
+                         [](const auto& chosen) { return test::test_name(chosen.param); });
 
 }  // namespace
 }  // namespace relievo::pipeline

@@ -9,6 +9,7 @@
 
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
+#include "pipeline/reconstruct/optimal_triangulator.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::pipeline {
@@ -16,6 +17,7 @@ namespace {
 
 std::unique_ptr<Triangulator> make(const std::string& name) {
   if (name == "linear-least-squares") return std::make_unique<LinearTriangulator>();
+  if (name == "optimal") return std::make_unique<OptimalTriangulator>();
   return std::make_unique<InverseDisparityTriangulator>();
 }
 
@@ -102,8 +104,93 @@ TEST_P(Triangulators, SayWhenMemoryIsUsedUpAndWhenCancelled) {
   EXPECT_EQ(cloud.error().code, Errc::Cancelled);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Triangulators, testing::Values("inverse-disparity", "linear-least-squares"),
-                         [](const auto& chosen) { return std::string(chosen.param) == "inverse-disparity" ? "InverseDisparity" : "LinearLeastSquares"; });
+INSTANTIATE_TEST_SUITE_P(All, Triangulators, testing::Values("inverse-disparity", "linear-least-squares", "optimal"), [](const auto& chosen) {
+  const std::string name = chosen.param;
+  return name == "optimal" ? "Optimal" : name == "inverse-disparity" ? "InverseDisparity" : "LinearLeastSquares";
+});
+
+// Two cameras turned towards each other by 20 degrees, lines of sight as x y 1.
+struct ToedRig {
+  Rotation right_from_left{{std::cos(0.35), 0, std::sin(0.35), 0, 1, 0, -std::sin(0.35), 0, std::cos(0.35)}};
+  Vec3d translation{-200, 3, 30};
+  EpipolarRelation relation{};
+
+  ToedRig() {
+    // (R l) . (t cross r) = 0, column by column.
+    const auto cross = [&](const Vec3d& v) {
+      return Vec3d{translation.y * v.z - translation.z * v.y, translation.z * v.x - translation.x * v.z, translation.x * v.y - translation.y * v.x};
+    };
+    for (int j = 0; j < 3; ++j) {
+      const Vec3d column = apply(transposed(right_from_left), cross({j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0}));
+      relation.m[j] = column.x;
+      relation.m[3 + j] = column.y;
+      relation.m[6 + j] = column.z;
+    }
+  }
+  double miss(const PlacePair& p) const {
+    const double* m = relation.m;
+    return p.left.x * (m[0] * p.right.x + m[1] * p.right.y + m[2]) + p.left.y * (m[3] * p.right.x + m[4] * p.right.y + m[5]) +
+           m[6] * p.right.x + m[7] * p.right.y + m[8];
+  }
+  PlacePair see(const Vec3d& p) const {
+    const Vec3d q = apply(right_from_left, p);
+    const Vec3d r{q.x + translation.x, q.y + translation.y, q.z + translation.z};
+    return {{p.x / p.z, p.y / p.z}, {r.x / r.z, r.y / r.z}};
+  }
+};
+
+double moved2(const PlacePair& a, const PlacePair& b) {
+  return std::pow(a.left.x - b.left.x, 2) + std::pow(a.left.y - b.left.y, 2) + std::pow(a.right.x - b.right.x, 2) + std::pow(a.right.y - b.right.y, 2);
+}
+
+// The slow twin: the depth and place whose images are nearest, by descent from the truth in ever smaller steps.
+double least_moved2(const ToedRig& rig, const PlacePair& seen, Vec3d p) {
+  double best = moved2(rig.see(p), seen);
+  for (double step = 4; step > 1e-7; step /= 2)
+    for (bool better = true; better;) {
+      better = false;
+      for (const Vec3d& way : {Vec3d{step, 0, 0}, Vec3d{-step, 0, 0}, Vec3d{0, step, 0}, Vec3d{0, -step, 0}, Vec3d{step * p.x / p.z, step * p.y / p.z, step},
+                               Vec3d{-step * p.x / p.z, -step * p.y / p.z, -step}}) {
+        const Vec3d q{p.x + way.x, p.y + way.y, p.z + way.z};
+        if (const double here = moved2(rig.see(q), seen); here < best) {
+          best = here;
+          p = q;
+          better = true;
+        }
+      }
+    }
+  return best;
+}
+
+TEST(OptimalTriangulator, MovesThePlacesNoMoreThanItMust) {
+  const ToedRig rig;
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 2.0 / 1500);  // two pixels
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int k = 0; k < 200; ++k) {
+    const Vec3d truth{90 * unit(random), 90 * unit(random), 560 + 60 * unit(random)};
+    PlacePair seen = rig.see(truth);
+    EXPECT_NEAR(rig.miss(seen), 0, 1e-9);
+    seen.left.x += noise(random); seen.left.y += noise(random);
+    seen.right.x += noise(random); seen.right.y += noise(random);
+    const PlacePair moved = correct_optimally(rig.relation, seen);
+    EXPECT_NEAR(rig.miss(moved), 0, 1e-6);
+    EXPECT_LT(moved2(moved, seen), 1.0001 * least_moved2(rig, seen, truth) + 1e-14);
+  }
+}
+
+TEST(OptimalTriangulator, UsesTheRowsThatWereMeasured) {
+  const RectifiedPair pair = rig();
+  test::StageBench bench(1 << 20, 1 << 20, 1);
+  MatchSet set(&bench.output);
+  set.matches.assign(10, {{700, 400}, static_cast<float>(pair.disparity_px(560)), 0, 0.1F, 0});
+  set.epipolar_shift.offset_px = 2;
+  set.epipolar_shift.sigma_px = 0.1;
+  const auto cloud = run_stage(bench.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
+  ASSERT_TRUE(cloud);
+  // Half of the two pixels go to each view: 1 / 1500 * 560 mm.
+  EXPECT_NEAR(cloud->points[0].at_mm.y, 560.0 / 1500, 0.01);
+}
 
 }  // namespace
 }  // namespace relievo::pipeline

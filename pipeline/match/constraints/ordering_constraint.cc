@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/constraints/ordering_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+struct Entry {
+  int row;
+  float left;
+  float place;          // on the right row, with its slack
+  std::uint32_t match;
+};
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+// Marks the largest subset of a row's entries (sorted by `left`) whose places do not fall.
+class RowJudge {
+ public:
+  RowJudge(std::size_t most, std::pmr::memory_resource* memory) : tails_(memory), before_(memory), kept_(memory) {
+    tails_.reserve(most);
+    before_.reserve(most);
+    kept_.reserve(most);
+  }
+
+  const std::pmr::vector<std::uint8_t>& keep(std::span<const Entry> row) {
+    tails_.clear();
+    before_.assign(row.size(), kNone);
+    kept_.assign(row.size(), std::uint8_t{0});
+    for (std::uint32_t k = 0; k < row.size(); ++k) {
+      // tails_[n]: the end of the ordered set of n + 1 whose last place is least.
+      const auto at = std::upper_bound(tails_.begin(), tails_.end(), k, [&](std::uint32_t a, std::uint32_t b) { return row[a].place < row[b].place; });
+      before_[k] = at == tails_.begin() ? kNone : *(at - 1);
+      if (at == tails_.end()) tails_.push_back(k);
+      else *at = k;
+    }
+    for (std::uint32_t k = tails_.empty() ? kNone : tails_.back(); k != kNone; k = before_[k]) kept_[k] = 1;
+    return kept_;
+  }
+
+ private:
+  std::pmr::vector<std::uint32_t> tails_, before_;
+  std::pmr::vector<std::uint8_t> kept_;
+};
+
+}  // namespace
+
+Result<void> OrderingConstraintOptions::check() const {
+  if (!(slack >= 0 && slack <= 1)) return Error{Errc::InvalidInput, "ordering: slack must lie in 0 .. 1"};
+  return {};
+}
+
+void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit, StageContext& context) const {
+  Arena::Mark mark(context.scratch);
+  std::pmr::vector<Entry> entries(&context.scratch);
+  entries.reserve(matches.size());
+  for (std::uint32_t k = 0; k < matches.size(); ++k) {
+    const Match& m = matches[k];
+    if (m.rejected_by != 0 || !std::isfinite(m.disparity_px)) continue;
+    entries.push_back({static_cast<int>(std::lround(m.left_px.y)), m.left_px.x, m.left_px.x - m.disparity_px + options_.slack * m.left_px.x, k});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.row != b.row) return a.row < b.row;
+    return a.left != b.left ? a.left < b.left : a.match < b.match;
+  });
+  RowJudge judge(entries.size(), &context.scratch);
+  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+    if (context.stop()) return;
+    while (end < entries.size() && entries[end].row == entries[begin].row) ++end;
+    const auto& kept = judge.keep(std::span<const Entry>(entries).subspan(begin, end - begin));
+    for (std::size_t k = begin; k < end; ++k)
+      if (kept[k - begin] == 0) matches[entries[k].match].rejected_by = bit;
+  }
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/constraints/statistical_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 32;
+constexpr int kFewest = 5;
+constexpr int kMostNeighbours = 256;   // of more, every second, third, ... votes
+constexpr float kMadToSigma = 1.4826F;
+
+struct Spread {
+  float median;
+  float sigma;
+};
+
+// Changes the order of the values.
+Spread spread_of(std::span<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const float median = *middle;
+  for (float& v : values) v = std::abs(v - median);
+  std::nth_element(values.begin(), middle, values.end());
+  return {median, kMadToSigma * *middle};
+}
+
+// Accepted matches in square cells of one radius.
+struct Cells {
+  Cells(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory) : size(radius), first(memory), members(memory) {
+    float right = 0;
+    float bottom = 0;
+    std::size_t count = 0;
+    for (const Match& m : matches) {
+      if (m.rejected_by != 0) continue;
+      right = std::max(right, m.left_px.x);
+      bottom = std::max(bottom, m.left_px.y);
+      ++count;
+    }
+    columns = static_cast<int>(right / size) + 1;
+    rows = static_cast<int>(bottom / size) + 1;
+    first.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 2, 0U);
+    members.assign(count, 0U);
+    // Counting sort; shifted by two so that filling leaves each start in place.
+    for (const Match& m : matches)
+      if (m.rejected_by == 0) ++first[cell(m) + 2];
+    for (std::size_t k = 2; k < first.size(); ++k) first[k] += first[k - 1];
+    for (std::uint32_t k = 0; k < matches.size(); ++k)
+      if (matches[k].rejected_by == 0) members[first[cell(matches[k]) + 1]++] = k;
+  }
+  int column(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.x / size)); }
+  int row(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.y / size)); }
+  std::size_t cell(const Match& m) const {
+    return static_cast<std::size_t>(row(m)) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column(m));
+  }
+  std::span<const std::uint32_t> at(int c, int r) const {
+    if (c < 0 || r < 0 || c >= columns || r >= rows) return {};
+    const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
+    return {members.data() + first[k], first[k + 1] - first[k]};
+  }
+  float size;
+  int columns = 0, rows = 0;
+  std::pmr::vector<std::uint32_t> first, members;
+};
+
+bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& cells, const StatisticalConstraintOptions& options) {
+  const Match& m = matches[k];
+  const int c = cells.column(m);
+  const int r = cells.row(m);
+  std::size_t around = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) around += cells.at(c + i, r + j).size();
+  const std::size_t stride = around / kMostNeighbours + 1;
+  float near[kMostNeighbours];
+  std::size_t n = 0;
+  std::size_t turn = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i)
+      for (const std::uint32_t other : cells.at(c + i, r + j)) {
+        if (turn++ % stride != 0 || other == k || n == kMostNeighbours) continue;
+        const Match& q = matches[other];
+        if (std::abs(q.left_px.x - m.left_px.x) <= options.radius_px && std::abs(q.left_px.y - m.left_px.y) <= options.radius_px)
+          near[n++] = q.disparity_px;
+      }
+  if (n < kFewest) return false;
+  const Spread spread = spread_of({near, n});
+  return std::abs(m.disparity_px - spread.median) > options.local_sigmas * std::max(spread.sigma, options.floor_px);
+}
+
+}  // namespace
+
+Result<void> StatisticalConstraintOptions::check() const {
+  if (!(global_sigmas >= 0 && local_sigmas >= 0)) return Error{Errc::InvalidInput, "statistical: sigmas must not be negative"};
+  if (!(radius_px >= 1 && floor_px > 0)) return Error{Errc::InvalidInput, "statistical: radius_px must be at least 1 and floor_px positive"};
+  return {};
+}
+
+void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit, StageContext& context) const {
+  Arena::Mark mark(context.scratch);
+  std::pmr::vector<float> all(&context.scratch);
+  all.reserve(matches.size());
+  for (const Match& m : matches)
+    if (m.rejected_by == 0) all.push_back(m.disparity_px);
+  if (all.size() < kFewest) return;
+  const Spread whole = spread_of(all);
+  std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
+  const Cells cells(matches, options_.radius_px, &context.scratch);
+  context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int) {
+    for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop(); ++k) {
+      if (matches[k].rejected_by != 0) continue;
+      const float limit = options_.global_sigmas * std::max(whole.sigma, options_.floor_px);
+      const bool far = options_.global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;
+      out[k] = far || (options_.local_sigmas > 0 && stands_out(k, matches, cells, options_)) ? 1 : 0;
+    }
+  });
+  for (std::size_t k = 0; k < matches.size(); ++k)
+    if (out[k] != 0) matches[k].rejected_by = bit;
+}
+
+}  // namespace relievo::pipeline

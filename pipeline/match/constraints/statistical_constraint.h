@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// StatisticalConstraint ("statistical"): a match must not stand out from the others, by robust statistics
+// (median and median absolute deviation, Huber 1981; the dissertation's statistical constraint uses mean and
+// standard deviation, which the outliers themselves move). Two rules, each off at 0:
+//   global  |d - median of all d|     <= global_sigmas * 1.4826 MAD of all
+//   local   |d - median of neighbours| <= local_sigmas * max(1.4826 MAD of the neighbours, floor_px)
+// Neighbours are the accepted matches no further than radius_px across and down, the match itself not; fewer
+// than five say nothing and the match stays. What earlier rules rejected has no vote; what this one rejects has.
+#pragma once
+
+#include "pipeline/match/match_constraint.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct StatisticalConstraintOptions {
+  float global_sigmas = 6;
+  float local_sigmas = 4;
+  float radius_px = 10;
+  float floor_px = 0.5F;   // neighbours that agree better than this do not make the rule stricter
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(StatisticalConstraintOptions& o, Field&& field) {
+  field("global_sigmas", o.global_sigmas, OptionRange{0, 100}, "distance from the median of all disparities, in their scatter; 0: any");
+  field("local_sigmas", o.local_sigmas, OptionRange{0, 100}, "distance from the median of the neighbours, in their scatter; 0: any");
+  field("radius_px", o.radius_px, OptionRange{1, 256}, "how far neighbours reach, pixels");
+  field("floor_px", o.floor_px, OptionRange{0.01, 64}, "least scatter the neighbours are taken to have, pixels");
+}
+
+class StatisticalConstraint final : public MatchConstraint {
+ public:
+  explicit StatisticalConstraint(const StatisticalConstraintOptions& options) : options_(options) {}
+  std::string_view name() const override { return "statistical"; }
+  void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
+             StageContext& context) const override;
+
+ private:
+  StatisticalConstraintOptions options_;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/wavelet/wavelet_matcher.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/match/wavelet/dyadic_wavelet.h"
+#include "pipeline/match/window/window_matching.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 32;
+constexpr int kMostSamples = 21 * 21;
+constexpr int kMostCandidates = 8;
+constexpr int kMostScales = 6;
+constexpr int kStacked = 2;           // scales that make the last comparison
+
+using Scales = std::pmr::vector<Plane<Vec2f>>;
+
+struct Agreement {
+  double together = 0;  // sum of W_L . W_R
+  double left = 0;      // energies
+  double right = 0;
+  double correlation() const {
+    const double scale = std::sqrt(left * right);
+    return scale > 1e-6 ? together / scale : 0;
+  }
+};
+
+// One keypoint's description at every scale, and what it has in common with the right view.
+class Place {
+ public:
+  Place(const Scales& left, const Scales& right, int radius) : left_(left), right_(right), radius_(radius) {}
+
+  void look_at(Vec2f at) {
+    x_ = static_cast<int>(std::floor(at.x));
+    y_ = static_cast<int>(std::floor(at.y));
+    tx_ = at.x - static_cast<float>(x_);
+    ty_ = at.y - static_cast<float>(y_);
+    for (std::size_t s = 0; s < left_.size(); ++s) {
+      std::size_t k = 0;
+      energy_[s] = 0;
+      for (int j = -radius_; j <= radius_; ++j)
+        for (int i = -radius_; i <= radius_; ++i, ++k) {
+          const Vec2f c = sample(left_[s], x_ + (i << s), y_ + (j << s));
+          patch_[s][k] = c;
+          energy_[s] += static_cast<double>(c.x * c.x + c.y * c.y);
+        }
+    }
+  }
+
+  // At scale index s (0: the finest) and a whole disparity.
+  Agreement compare(std::size_t s, int disparity) const {
+    Agreement all;
+    all.left = energy_[s];
+    std::size_t k = 0;
+    const Plane<Vec2f>& from = right_[s];
+    const int reach = radius_ << s;
+    const int x = x_ - disparity;
+    const bool plain = tx_ == 0 && ty_ == 0 && x >= reach && x + reach < from.width && y_ >= reach && y_ + reach < from.height;
+    for (int j = -radius_; j <= radius_; ++j) {
+      float together = 0;
+      float right = 0;
+      const Vec2f* row = plain ? from.row(y_ + (j << s)) + x - reach : nullptr;
+      for (int i = 0; i <= 2 * radius_; ++i, ++k) {
+        const Vec2f c = plain ? row[i << s] : sample(from, x - reach + (i << s), y_ + (j << s));
+        together += c.x * patch_[s][k].x + c.y * patch_[s][k].y;
+        right += c.x * c.x + c.y * c.y;
+      }
+      all.together += static_cast<double>(together);
+      all.right += static_cast<double>(right);
+    }
+    return all;
+  }
+
+  double stacked(int disparity) const {
+    Agreement all;
+    for (std::size_t s = 0; s < kStacked; ++s) {
+      const Agreement one = compare(s, disparity);
+      all.together += one.together;
+      all.left += one.left;
+      all.right += one.right;
+    }
+    return all.correlation();
+  }
+
+ private:
+  Vec2f sample(const Plane<Vec2f>& from, int x, int y) const {
+    const int x0 = std::clamp(x, 0, from.width - 1);
+    const Vec2f* upper = from.row(std::clamp(y, 0, from.height - 1));
+    if (tx_ == 0 && ty_ == 0) return upper[x0];
+    const int x1 = std::clamp(x + 1, 0, from.width - 1);
+    const Vec2f* lower = from.row(std::clamp(y + 1, 0, from.height - 1));
+    const auto mix = [&](float a, float b, float c, float d) {
+      const float top = a + tx_ * (b - a);
+      return top + ty_ * (c + tx_ * (d - c) - top);
+    };
+    return {mix(upper[x0].x, upper[x1].x, lower[x0].x, lower[x1].x), mix(upper[x0].y, upper[x1].y, lower[x0].y, lower[x1].y)};
+  }
+
+  const Scales& left_;
+  const Scales& right_;
+  int radius_;
+  int x_ = 0, y_ = 0;
+  float tx_ = 0, ty_ = 0;
+  std::array<double, kMostScales> energy_{};
+  std::array<std::array<Vec2f, kMostSamples>, kMostScales> patch_{};
+};
+
+struct Candidate {
+  int disparity = 0;
+  double latest = 0;  // correlation at the last scale
+  double sum = 0;     // over the scales so far
+};
+
+struct Candidates {
+  std::array<Candidate, kMostCandidates> best{};
+  int count = 0;
+  // In falling order; the worst falls out.
+  void offer(const Candidate& one, int most) {
+    int at = count < most ? count++ : most;
+    if (at == most && !(one.latest > best[static_cast<std::size_t>(most - 1)].latest)) return;
+    at = std::min(at, most - 1);
+    for (; at > 0 && best[static_cast<std::size_t>(at - 1)].latest < one.latest; --at)
+      best[static_cast<std::size_t>(at)] = best[static_cast<std::size_t>(at - 1)];
+    best[static_cast<std::size_t>(at)] = one;
+  }
+};
+
+Candidates search_coarsest(const Place& place, const DisparityRange& range, std::size_t scale, int most) {
+  Candidates found;
+  const int step = std::max(1, 1 << scale >> 1);
+  double before = -2;
+  double here = place.compare(scale, range.first).correlation();
+  for (int d = range.first; d <= range.last; d += step) {
+    const double after = d + step <= range.last ? place.compare(scale, d + step).correlation() : -2;
+    if (here >= before && here > after) found.offer({d, here, here}, most);
+    before = here;
+    here = after;
+  }
+  return found;
+}
+
+void refine(const Place& place, const DisparityRange& range, std::size_t scale, Candidate& candidate) {
+  const int step = std::max(1, 1 << scale >> 1);
+  const int middle = candidate.disparity;
+  candidate.latest = -2;
+  for (int k = -2; k <= 2; ++k) {
+    const int d = std::clamp(middle + k * step, range.first, range.last);
+    const double rho = place.compare(scale, d).correlation();
+    if (rho > candidate.latest) {
+      candidate.latest = rho;
+      candidate.disparity = d;
+    }
+  }
+  candidate.sum += candidate.latest;
+}
+
+struct Fitted {
+  float disparity_px = 0;
+  float cost = 1;
+  float sigma_px = 0;  // 0: no match
+};
+
+Fitted fit(const Place& place, const DisparityRange& range, int d, double samples, double bias) {
+  Fitted fitted;
+  double here = place.stacked(d);
+  double before = place.stacked(d - 1);
+  double after = place.stacked(d + 1);
+  for (int step = 0; step < 3 && (before > here || after > here); ++step) {
+    const int way = before > after ? -1 : 1;
+    d += way;
+    const double next = way < 0 ? before : after;
+    (way < 0 ? after : before) = here;
+    here = next;
+    (way < 0 ? before : after) = place.stacked(d + way);
+  }
+  const double bend = 2 * here - before - after;
+  if (!(bend > 0) || before > here || after > here || d <= range.first || d >= range.last) return fitted;
+  const double tilt = after - before;
+  const double least = std::max(1 - here - tilt * tilt / (8 * bend), 1e-6 * bend);
+  fitted.disparity_px = static_cast<float>(d + tilt / (2 * bend));
+  fitted.cost = static_cast<float>(std::clamp(1 - here, 0.0, 1.0));
+  fitted.sigma_px = static_cast<float>(std::sqrt(2 * least / (samples * bend) + bias * bias));
+  return fitted;
+}
+
+Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcherOptions& options, double bias) {
+  const auto coarsest = static_cast<std::size_t>(options.scales - 1);
+  Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
+  const Candidate* winner = nullptr;
+  for (int c = 0; c < candidates.count; ++c) {
+    Candidate& candidate = candidates.best[static_cast<std::size_t>(c)];
+    for (std::size_t s = coarsest; s-- > 0;) refine(place, range, s, candidate);
+    if (winner == nullptr || candidate.sum > winner->sum) winner = &candidate;
+  }
+  if (winner == nullptr || winner->sum < static_cast<double>(options.min_score) * options.scales) return {};
+  const double side = 2 * options.radius + 1;
+  return fit(place, range, winner->disparity, side * side, bias);
+}
+
+}  // namespace
+
+Result<void> WaveletMatcherOptions::check() const {
+  if (scales < 2 || scales > kMostScales || radius < 1 || radius > 10 || candidates < 1 || candidates > kMostCandidates)
+    return Error{Errc::InvalidInput, "scales must lie in 2 .. 6, radius in 1 .. 10, candidates in 1 .. 8"}.at("wavelet");
+  if (!(min_score >= 0 && min_score <= 1) || !(sigma_limit_px > 0))
+    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at("wavelet");
+  return {};
+}
+
+Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+  const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
+    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  MatchSet set(&context.output);
+  set.lattice_step_px = keypoints.lattice_step_px;
+  set.matches.reserve(keypoints.points.size());
+  const Scales left = transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, options_.scales, context);
+  const Scales right = transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, options_.scales, context);
+  // The finest samples and their filters lie inside both pictures; coarser ones may reach over the edge.
+  const int reach = options_.radius + 1;
+  const Plane<std::uint8_t> whole_left = whole_windows(pair, pair.left, reach, context);
+  const Plane<std::uint8_t> whole_right = whole_windows(pair, pair.right, reach, context);
+  const DisparityRange range = disparity_range(pair);
+  const double bias = method_bias_px(pair, 2 * (2 * options_.radius + 1));
+  std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
+  context.progress.done.store(0.1F, std::memory_order_relaxed);
+  const auto inside = [](const Plane<std::uint8_t>& whole, float x, float y) {
+    const auto i = static_cast<int>(std::lround(x));
+    const auto j = static_cast<int>(std::lround(y));
+    return i >= 0 && j >= 0 && i < whole.width && j < whole.height && whole.row(j)[i] != 0;
+  };
+  context.pool.for_each_band(static_cast<int>(found.size()), kBands, [&](int begin, int end, int) {
+    Place place(left, right, options_.radius);
+    for (int k = begin; k < end && !context.stop(); ++k) {
+      const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
+      if (!inside(whole_left, at.x, at.y)) continue;
+      place.look_at(at);
+      const Fitted fitted = match_place(place, range, options_, bias);
+      if (fitted.sigma_px > 0 && fitted.sigma_px <= options_.sigma_limit_px && inside(whole_right, at.x - fitted.disparity_px, at.y))
+        found[static_cast<std::size_t>(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
+    }
+  });
+  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching wavelets"};
+  for (const Match& match : found)
+    if (match.sigma_px > 0) set.matches.push_back(match);
+  if (set.matches.empty())
+    return Error{Errc::TooFewMatches, "no place of the left view is found again in the right one: is the face in both, in focus and lit?"};
+  return set;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contract of every constraint in the table, and what the ones that look at order, at the way back and at
+// the others' disparities are for: errors put into a true set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "pipeline/algorithms.h"
+#include "tests/support/bump_scene.h"
+#include "tests/support/names_of.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::BumpScene;
+using test::StageBench;
+
+std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char* key = nullptr, const char* value = nullptr) {
+  AlgorithmSet set;
+  EXPECT_TRUE(set.set("constraints", name));
+  if (key != nullptr) {
+    EXPECT_TRUE(set.set(key, value));
+  }
+  auto made = make_constraints(set);
+  EXPECT_TRUE(made);
+  return std::move(made->front());
+}
+
+// True matches of the bump scene with a little noise; every `wrong_every`-th is moved by 6 to 14 pixels.
+struct Planted {
+  Planted(const BumpScene& from, int wrong_every, int step, std::uint32_t seed = 1)
+      : scene(from), bench(std::size_t{6} << 20, std::size_t{16} << 20), pair(scene.render(&bench.output)) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise(0, 0.1F);
+    std::uniform_real_distribution<float> off(6, 14);
+    int count = 0;
+    for (const Keypoint& k : test::lattice(pair, step, &bench.output).points) {
+      if (!scene.judged(k.at_px.x, k.at_px.y)) continue;
+      const bool spoil = wrong_every > 0 && ++count % wrong_every == 0;
+      const auto d = static_cast<float>(scene.disparity(k.at_px.x, k.at_px.y)) + noise(random);
+      matches.push_back({k.at_px, spoil ? d + (count % (2 * wrong_every) == 0 ? off(random) : -off(random)) : d, 0.1F, 0.1F, 0});
+      wrong.push_back(spoil);
+    }
+  }
+  // Shares of the wrong and of the right ones that were rejected.
+  std::pair<double, double> rejected() const {
+    double bad = 0, bad_out = 0, good = 0, good_out = 0;
+    for (std::size_t k = 0; k < matches.size(); ++k) {
+      (wrong[k] ? bad : good) += 1;
+      if (matches[k].rejected_by != 0) (wrong[k] ? bad_out : good_out) += 1;
+    }
+    return {bad_out / std::max(1.0, bad), good_out / std::max(1.0, good)};
+  }
+  BumpScene scene;
+  StageBench bench;
+  RectifiedPair pair;
+  std::vector<Match> matches;
+  std::vector<bool> wrong;
+};
+
+class MatchConstraints : public testing::TestWithParam<std::string> {};
+
+TEST_P(MatchConstraints, LeaveATrueSurfaceAlone) {
+  EXPECT_EQ(constraint(GetParam())->name(), GetParam());
+  Planted planted({.width_px = 200, .height_px = 140}, 0, 2);
+  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.bench.context);
+  EXPECT_LT(planted.rejected().second, 0.02);
+}
+
+TEST_P(MatchConstraints, SetOnlyTheirBitAndOnlyOnAcceptedMatches) {
+  Planted planted({.width_px = 200, .height_px = 140}, 7, 2);
+  for (std::size_t k = 0; k < planted.matches.size(); k += 5) planted.matches[k].rejected_by = 1;
+  const std::vector<Match> before = planted.matches;
+  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.bench.context);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const Match& m = planted.matches[k];
+    EXPECT_TRUE(before[k].rejected_by == 1 ? m.rejected_by == 1 : m.rejected_by == 0 || m.rejected_by == 4);
+    EXPECT_EQ(m.disparity_px, before[k].disparity_px);
+  }
+}
+
+TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
+  for (const int step : {2, 0}) {
+    std::vector<Match> first;
+    for (const int threads : {1, 2, 3}) {
+      Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
+      StageBench bench(1 << 20, std::size_t{32} << 20, threads);
+      constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, bench.context);
+      if (first.empty()) first = planted.matches;
+      for (std::size_t k = 0; k < first.size(); ++k) ASSERT_EQ(first[k].rejected_by, planted.matches[k].rejected_by);
+    }
+  }
+}
+
+TEST_P(MatchConstraints, BearNothingAndTooLittleMemory) {
+  Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
+  constraint(GetParam())->judge(planted.pair, {}, 2, 4, planted.bench.context);
+  for (std::size_t size = 1024; size < (std::size_t{32} << 20); size *= 4) {
+    StageBench bench(1024, size, 2);
+    const auto judged = run_stage(bench.context, [&](StageContext& c) -> Result<void> {
+      constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, c);
+      return {};
+    });
+    if (!judged) {
+      EXPECT_EQ(judged.error().code, Errc::OutOfMemory);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MatchConstraints, testing::ValuesIn(test::names_of("constraints")),
+                         [](const auto& chosen) { return test::test_name(chosen.param); });
+
+TEST(OrderingConstraint, TheLargestOrderedSetStays) {
+  StageBench bench(1024, 1 << 20, 1);
+  RectifiedPair pair(std::pmr::get_default_resource());
+  pair.width_px = 200;
+  pair.height_px = 40;
+  // On the right row: 10 20 55 30 40 5 50; 55 and 5 are out of order.
+  const float right[] = {10, 20, 55, 30, 40, 5, 50};
+  std::vector<Match> matches;
+  for (int k = 0; k < 7; ++k) matches.push_back({{static_cast<float>(60 + 10 * k), 4}, static_cast<float>(60 + 10 * k) - right[k], 0, 0.1F, 0});
+  matches.push_back({{65, 5}, 0, 0, 0.1F, 0});  // another row
+  constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
+  for (std::size_t k = 0; k < matches.size(); ++k) EXPECT_EQ(matches[k].rejected_by, k == 2 || k == 5 ? 2 : 0) << k;
+}
+
+// The slow twin: no set of a row in order is larger (all subsets tried).
+TEST(OrderingConstraint, NoLargerOrderedSetExists) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(0, 40);
+  RectifiedPair pair(std::pmr::get_default_resource());
+  for (int trial = 0; trial < 50; ++trial) {
+    StageBench bench(1024, 1 << 16, 1);
+    std::vector<Match> matches;
+    for (int k = 0; k < 12; ++k) matches.push_back({{static_cast<float>(50 + 3 * k), 4}, unit(random), 0, 0.1F, 0});
+    constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
+    int kept = 0;
+    float last = -1e9F;
+    for (const Match& m : matches) {
+      if (m.rejected_by != 0) continue;
+      ++kept;
+      EXPECT_GE(m.left_px.x - m.disparity_px, last);
+      last = m.left_px.x - m.disparity_px;
+    }
+    int most = 0;
+    for (int set = 0; set < 1 << 12; ++set) {
+      float before = -1e9F;
+      int size = 0;
+      for (int k = 0; k < 12 && size >= 0; ++k) {
+        if ((set >> k & 1) == 0) continue;
+        const float at = matches[static_cast<std::size_t>(k)].left_px.x - matches[static_cast<std::size_t>(k)].disparity_px;
+        size = at >= before ? size + 1 : -100;
+        before = at;
+      }
+      most = std::max(most, size);
+    }
+    EXPECT_EQ(kept, most);
+  }
+}
+
+TEST(LeftRightConstraint, TakesWhatIsNotFoundFromTheOtherSide) {
+  for (const int step : {2, 5}) {
+    Planted planted({.width_px = 240, .height_px = 160}, 9, step);
+    constraint("left-right")->judge(planted.pair, planted.matches, step, 4, planted.bench.context);
+    EXPECT_GT(planted.rejected().first, 0.95);
+    EXPECT_LT(planted.rejected().second, 0.01);
+  }
+}
+
+TEST(LeftRightConstraint, CatchesAPixelBetweenPixels) {
+  Planted planted({.width_px = 200, .height_px = 140}, 0, 3);
+  for (std::size_t k = 0; k < planted.matches.size(); k += 2) {
+    planted.matches[k].disparity_px += 1.6F;
+    planted.matches[k].left_px = {planted.matches[k].left_px.x + 0.25F, planted.matches[k].left_px.y + 0.5F};
+    planted.wrong[k] = true;
+  }
+  constraint("left-right")->judge(planted.pair, planted.matches, 0, 4, planted.bench.context);
+  EXPECT_GT(planted.rejected().first, 0.95);
+  EXPECT_LT(planted.rejected().second, 0.01);
+}
+
+TEST(StatisticalConstraint, TakesWhatStandsOutFromItsNeighboursAndFromAll) {
+  Planted near({.width_px = 240, .height_px = 160}, 9, 2);
+  constraint("statistical", "statistical.global_sigmas", "0")->judge(near.pair, near.matches, 2, 4, near.bench.context);
+  EXPECT_GT(near.rejected().first, 0.99);
+  EXPECT_LT(near.rejected().second, 0.005);
+  Planted all({.width_px = 240, .height_px = 160}, 9, 2);
+  for (std::size_t k = 0; k < all.matches.size(); ++k)
+    if (all.wrong[k]) all.matches[k].disparity_px += all.matches[k].disparity_px > 20 ? 60.0F : -60.0F;
+  constraint("statistical", "statistical.local_sigmas", "0")->judge(all.pair, all.matches, 2, 4, all.bench.context);
+  EXPECT_GT(all.rejected().first, 0.99);
+  EXPECT_LT(all.rejected().second, 0.005);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
