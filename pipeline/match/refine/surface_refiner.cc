@@ -7,12 +7,14 @@
 
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/refine/score_excess.h"
 #include "pipeline/match/refine/warp_terms.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 16;
+constexpr int kFarLevel = 2;
 
 // The node window that holds the domain with a margin, and the pixel window below it.
 struct Extent {
@@ -141,6 +143,8 @@ void judge(const WarpTerms& terms, const RefinerScene& scene, int step, double l
   Plane<float> mean(&scratch, nodes.width, nodes.height);
   Plane<float> mean_sure(&scratch, nodes.width, nodes.height);
   Plane<float> across(&scratch, nodes.width, nodes.height);
+  Plane<float> excess(&scratch, nodes.width, nodes.height);
+  measure_score_excess(work.system, work.pull, step, pool, scratch, excess);
   constexpr int kRadius = 4;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
   // Central differences of white noise have half its variance, the mean of two views half of that, and
@@ -155,7 +159,8 @@ void judge(const WarpTerms& terms, const RefinerScene& scene, int step, double l
       const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
       const double noise = kSlopeNoise * level_pixels * static_cast<double>(terms.noise_variance * mean_sure.row(y)[x]) / kCells;
       const float xx = work.system.bend_xx.row(y)[x];
-      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] = posterior_sigma(seeming, noise, xx > 0 ? static_cast<double>(xx) : lambda * 0.1);
+      field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
+          posterior_sigma(seeming, noise, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
@@ -180,7 +185,9 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   // Squared second differences over nodes `spacing` apart, one node a spacing^2 of full-size pixels.
   const double lambda = scene.lambda_px / (spacing * spacing);
   const double expected = options.crease / std::sqrt(lambda);
-  for (int k = 0; k < options.steps; ++k) {
+  // Steps are cheap at the smallest size, and what starts far off needs them.
+  const int steps = scene.level >= kFarLevel ? 2 * options.steps : options.steps;
+  for (int k = 0; k < steps; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
     Arena::Mark mark(context.scratch);
     Work work(&context.scratch, nodes.width, nodes.height);
@@ -201,7 +208,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)
           field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] += std::clamp(work.delta.row(y)[x], -limit, limit);
-    if (k == options.steps - 1) judge(terms, scene, step, lambda, nodes, work, context.scratch, context.pool, field);
+    if (k == steps - 1) judge(terms, scene, step, lambda, nodes, work, context.scratch, context.pool, field);
   }
   return {};
 }

@@ -13,7 +13,8 @@
 // surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
 // sharply (iteratively reweighted), so that eyelids and nostrils keep their creases.
 // sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed form of
-// the integral of 1 / (A + lambda k^4) over the plane.
+// the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds
+// (score_excess.h).
 // Memory: scratch only. Results do not depend on the number of threads.
 #pragma once
 
@@ -43,7 +44,7 @@ struct SurfaceRefinerOptions {
   float crease = 0.7F;              // second differences beyond this many expected ones count as creases
   int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
   int smallest_window_px = 9;       // and at least this many pixels of a smaller level
-  int steps = 6;                    // warps a level
+  int steps = 6;                    // warps a level; twice as many at a quarter of the size
   int solver_steps = 60;            // conjugate-gradient steps a warp
   Result<void> check() const;
 };

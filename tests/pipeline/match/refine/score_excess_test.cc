@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/refine/score_excess.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "pipeline/match/image/box_filter.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::StageBench;
+
+constexpr int kSide = 112;
+constexpr int kMargin = 16;
+
+// A fit of noise alone, white or summed over a box, and what it leaves of the noise.
+struct Fitted {
+  BendingSystem system;
+  Plane<float> pull;
+
+  Fitted(StageBench& bench, float data, float bend, int box)
+      : system(&bench.output, kSide, kSide), pull(&bench.output, kSide, kSide) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal(0, std::sqrt(data));
+    for (int y = 1; y < kSide - 1; ++y)
+      for (int x = 1; x < kSide - 1; ++x) {
+        system.data.row(y)[x] = data;
+        system.bend_xx.row(y)[x] = x > 1 && x < kSide - 2 ? bend : 0;
+        system.bend_yy.row(y)[x] = y > 1 && y < kSide - 2 ? bend : 0;
+        system.bend_xy.row(y)[x] = x < kSide - 2 && y < kSide - 2 ? 2 * bend : 0;
+        pull.row(y)[x] = normal(random);
+      }
+    Plane<float> across(&bench.output, kSide, kSide);
+    if (box > 0) {
+      box_sum(pull, box, bench.context.pool, across, pull);
+      const auto side = static_cast<float>(2 * box + 1);
+      for (float& v : pull.values) v /= side;  // as loud as before, a pixel
+    }
+    for (std::size_t k = 0; k < pull.values.size(); ++k) system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
+    Plane<float> fit(&bench.output, kSide, kSide);
+    solve(system, 400, bench.context.pool, bench.context.scratch, fit);
+    for (std::size_t k = 0; k < pull.values.size(); ++k) pull.values[k] += system.data.values[k] * fit.values[k];
+  }
+  double mean_excess(StageBench& bench) {
+    Plane<float> excess(&bench.output, kSide, kSide);
+    measure_score_excess(system, pull, 1, bench.context.pool, bench.context.scratch, excess);
+    EXPECT_GE(*std::min_element(excess.values.begin(), excess.values.end()), 1);
+    double sum = 0;
+    for (int y = kMargin; y < kSide - kMargin; ++y)
+      for (int x = kMargin; x < kSide - kMargin; ++x) sum += static_cast<double>(excess.row(y)[x]);
+    return sum / ((kSide - 2 * kMargin) * (kSide - 2 * kMargin));
+  }
+};
+
+// The factor may not fall below one, so that white noise's own scatter lifts its mean a little.
+TEST(ScoreExcess, WhiteNoiseHasNone) {
+  for (const float reach : {0.1F, 0.3F, 0.6F}) {
+    StageBench bench;
+    Fitted fitted(bench, 2, 2 / (reach * reach * reach * reach), 0);
+    const double excess = fitted.mean_excess(bench);
+    EXPECT_GE(excess, 1) << reach;
+    EXPECT_LT(excess, 1.25) << reach;
+  }
+}
+
+// Summed over a block, noise whose neighbours are the same counts as often as there are neighbours: nine
+// for 3 x 3, less what falls over the block's edge and what the fit follows.
+TEST(ScoreExcess, NoiseThatHangsTogetherHasAsMuchAsItHangsTogether) {
+  StageBench bench;
+  Fitted fitted(bench, 2, 2 / std::pow(0.2F, 4.0F), 1);
+  const double excess = fitted.mean_excess(bench);
+  EXPECT_GT(excess, 4.5);
+  EXPECT_LT(excess, 9);
+}
+
+TEST(ScoreExcess, WhereNothingWasMeasuredItIsOne) {
+  StageBench bench;
+  BendingSystem system(&bench.output, 32, 32);
+  const Plane<float> pull(&bench.output, 32, 32);
+  Plane<float> excess(&bench.output, 32, 32);
+  measure_score_excess(system, pull, 2, bench.context.pool, bench.context.scratch, excess);
+  for (const float e : excess.values) ASSERT_EQ(e, 1);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
