@@ -9,7 +9,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +59,7 @@ Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set)
 Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
 Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);
 Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set);
-Result<std::optional<OutlierFilterOptions>> make_outlier_options(const AlgorithmSet& set);  // none: keep all points
+Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& set);  // null: keep all points
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);

@@ -39,7 +39,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   for (auto& constraint : constraints) pipeline.constraints_.push_back(std::move(constraint));
   RELIEVO_TRY_ASSIGN(pipeline.triangulator_, make_triangulator(set));
   RELIEVO_TRY_ASSIGN(pipeline.crop_, make_face_crop(set));
-  RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_options(set));
+  RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_filter(set));
   RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
   RELIEVO_TRY(check_neighbours(*pipeline.selector_, *pipeline.mesher_));
   RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
@@ -85,7 +85,7 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
   return run_stage(context, [&](StageContext& c) -> Result<PointCloud> {
     RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_->triangulate(pair, matches, c));
     RELIEVO_TRY(crop_to_face(cloud, pair, crop_, c));
-    if (outliers_) RELIEVO_TRY(reject_outliers(cloud, *outliers_, c));
+    if (outliers_ != nullptr) RELIEVO_TRY(outliers_->reject(cloud, c));
     return cloud;
   });
 }

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "pipeline/algorithms.h"
@@ -62,7 +61,7 @@ class Pipeline {
   std::vector<std::shared_ptr<const MatchConstraint>> constraints_;
   std::shared_ptr<const Triangulator> triangulator_;
   FaceCropOptions crop_;
-  std::optional<OutlierFilterOptions> outliers_;  // none: every point is kept
+  std::shared_ptr<const OutlierFilter> outliers_;  // null: every point is kept
   std::shared_ptr<const Mesher> mesher_;
   std::shared_ptr<const Texturer> texturer_;
 };

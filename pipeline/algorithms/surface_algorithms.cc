@@ -7,7 +7,9 @@
 #include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
+#include "pipeline/reconstruct/local_outlier_filter.h"
 #include "pipeline/reconstruct/optimal_triangulator.h"
+#include "pipeline/reconstruct/statistical_outlier_filter.h"
 #include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/two_view_texturer.h"
 
@@ -18,6 +20,11 @@ constexpr std::array kTriangulators{
     without_options<Triangulator, InverseDisparityTriangulator>("inverse-disparity"),
     without_options<Triangulator, LinearTriangulator>("linear-least-squares"),
     without_options<Triangulator, OptimalTriangulator>("optimal"),
+};
+
+constexpr std::array kOutlierFilters{
+    with_options<OutlierFilter, LocalOutlierFilter, LocalOutlierFilterOptions>("local"),
+    with_options<OutlierFilter, StatisticalOutlierFilter, StatisticalOutlierFilterOptions>("statistical"),
 };
 
 constexpr std::array kMeshers{
@@ -33,19 +40,21 @@ constexpr std::array kTexturers{
 }  // namespace
 
 std::vector<Kind> surface_kinds() {
-  return {
+  std::vector<Kind> kinds{
       kind_of("triangulator", "inverse-disparity", "how matches become points", kTriangulators),
-      {"outliers", "local", "which points are taken for outliers in space", {"local", "none"}},
+      kind_of("outliers", "local", "which points are taken for outliers in space", kOutlierFilters),
       kind_of("mesher", "grid", "how points become a surface", kMeshers),
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
   };
+  kinds[1].names.emplace_back("none");
+  return kinds;
 }
 
 std::vector<OptionDescription> surface_options() {
   std::vector<OptionDescription> all;
   describe_table(kTriangulators, all);
   describe_options<FaceCropOptions>("face", all);
-  describe_options<OutlierFilterOptions>("local", all);
+  describe_table(kOutlierFilters, all);
   describe_table(kMeshers, all);
   describe_table(kTexturers, all);
   return all;
@@ -55,10 +64,10 @@ Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set)
   return make_named<Triangulator>(kTriangulators, set, set.get("triangulator"));
 }
 
-Result<std::optional<OutlierFilterOptions>> make_outlier_options(const AlgorithmSet& set) {
-  if (set.get("outliers") == "none") return std::optional<OutlierFilterOptions>{};
-  RELIEVO_TRY_ASSIGN(const OutlierFilterOptions options, OptionReader::read<OutlierFilterOptions>(set, "local"));
-  return std::optional<OutlierFilterOptions>(options);
+Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& set) {
+  const std::string name = set.get("outliers");
+  if (name == "none") return std::unique_ptr<OutlierFilter>();
+  return make_named<OutlierFilter>(kOutlierFilters, set, name);
 }
 
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set) {

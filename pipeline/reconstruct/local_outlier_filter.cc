@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/reconstruct/outlier_filter.h"
+#include "pipeline/reconstruct/local_outlier_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ struct Offset { float u, v, depth; };  // from the centre, in its Sight
 
 class Filter {
  public:
-  Filter(const PointCloud& cloud, const OutlierFilterOptions& options, Arena& scratch)
+  Filter(const PointCloud& cloud, const LocalOutlierFilterOptions& options, Arena& scratch)
       : points_(cloud.points), options_(options), near_(cloud, &scratch),
         max_slope_(static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
         verdict_(cloud.points.size(), Verdict::Unsupported, &scratch), island_(&scratch), stack_(&scratch) {}
@@ -153,7 +153,7 @@ class Filter {
   }
 
   std::span<const CloudPoint> points_;
-  const OutlierFilterOptions& options_;
+  const LocalOutlierFilterOptions& options_;
   Neighbourhood near_;
   float max_slope_;
   std::pmr::vector<Verdict> verdict_;
@@ -162,7 +162,7 @@ class Filter {
 
 }  // namespace
 
-Result<void> OutlierFilterOptions::check() const {
+Result<void> LocalOutlierFilterOptions::check() const {
   if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
     return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("outlier-filter");
   if (!(min_support >= 0 && min_support <= 1) || !(min_island >= 0 && min_island <= 1))
@@ -172,7 +172,7 @@ Result<void> OutlierFilterOptions::check() const {
   return {};
 }
 
-Result<OutlierCounts> reject_outliers(PointCloud& cloud, const OutlierFilterOptions& options, StageContext& context) {
+Result<OutlierCounts> reject_outliers(PointCloud& cloud, const LocalOutlierFilterOptions& options, StageContext& context) {
   RELIEVO_TRY(options.check());
   const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
   if (context.stop()) return stopped;

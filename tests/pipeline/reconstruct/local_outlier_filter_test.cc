@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipeline/reconstruct/outlier_filter.h"
+#include "pipeline/reconstruct/local_outlier_filter.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using test::StageRoom;
 
-Result<OutlierCounts> filter(PointCloud& cloud, StageRoom& room, const OutlierFilterOptions& options = {}) {
+Result<OutlierCounts> filter(PointCloud& cloud, StageRoom& room, const LocalOutlierFilterOptions& options = {}) {
   return room.run([&](StageContext& c) { return reject_outliers(cloud, options, c); });
 }
 
@@ -132,7 +132,7 @@ TEST(OutlierFilter, EmptyCancelledTinyArenaAndOptions) {
   const auto cancelled = filter(cloud, room);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().code, Errc::Cancelled);
-  OutlierFilterOptions options;
+  LocalOutlierFilterOptions options;
   options.min_support = 2;
   EXPECT_FALSE(options.check());
 }
