@@ -48,4 +48,16 @@ DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int heig
   return map;
 }
 
+DisparityMap thickened(const DisparityMap& map, int side_px) {
+  DisparityMap thick = map;
+  for (int y = 0; y < map.height_px; ++y)
+    for (int x = 0; x < map.width_px; ++x) {
+      if (!map.known(x, y)) continue;
+      for (int j = y - side_px / 2; j <= y + side_px / 2; ++j)
+        for (int i = x - side_px / 2; i <= x + side_px / 2; ++i)
+          if (thick.holds(i, j) && !map.known(i, j)) thick.values[thick.index(i, j)] = map.at(x, y);
+    }
+  return thick;
+}
+
 }  // namespace relievo::firmware::compare

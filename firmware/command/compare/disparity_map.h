@@ -38,4 +38,7 @@ struct DisparityMap {
 // around agree within a pixel a step, else as the nearest. Scattered ones give one pixel each.
 DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int height_px);
 
+// Scattered disparities as squares of this side, to be looked at; what is known stays.
+DisparityMap thickened(const DisparityMap& map, int side_px);
+
 }  // namespace relievo::firmware::compare

@@ -64,12 +64,14 @@ MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoint
 
 std::vector<std::uint8_t> rejected_map(const pipeline::MatchSet& matches, int width_px, int height_px) {
   std::vector<std::uint8_t> map(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), 0);
-  const int cell = std::max(1, matches.lattice_step_px);
+  constexpr int kScatteredPx = 9;
+  const int cell = matches.lattice_step_px > 0 ? matches.lattice_step_px : kScatteredPx;
+  const int before = matches.lattice_step_px > 0 ? 0 : kScatteredPx / 2;
   for (const pipeline::Match& match : matches.matches) {
     if (match.rejected_by == 0) continue;
     const auto rule = static_cast<std::uint8_t>(1 + std::countr_zero(match.rejected_by));
-    const int left = static_cast<int>(std::lround(match.left_px.x));
-    const int top = static_cast<int>(std::lround(match.left_px.y));
+    const int left = static_cast<int>(std::lround(match.left_px.x)) - before;
+    const int top = static_cast<int>(std::lround(match.left_px.y)) - before;
     for (int y = std::max(0, top); y < std::min(height_px, top + cell); ++y)
       for (int x = std::max(0, left); x < std::min(width_px, left + cell); ++x)
         map[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)] = rule;

@@ -51,9 +51,9 @@ struct Made {
   std::optional<pipeline::FaceMesh> mesh;
 };
 
-Result<void> rectify(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made) {
+Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench, Made& made) {
   RELIEVO_TRY_ASSIGN(made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
-    if (order.pair.calibration) return pipeline.rectify(order.pair.pictures.frame(), c);
+    if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
     RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair, pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
     if (order.whole_view) return pair;
     RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
@@ -112,8 +112,11 @@ void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, Pair
 }
 
 Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Made& made, Run& run) {
-  RELIEVO_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::make(order.set.set, order.pair.calibration.value_or(pipeline::StereoCalibration{}), {},
-                                            order.whole_view ? pipeline::Region::All : pipeline::Region::Face));
+  std::optional<pipeline::Pipeline> pipeline;  // without a rig there is nothing to build
+  if (order.pair.calibration) {
+    const auto region = order.whole_view ? pipeline::Region::All : pipeline::Region::Face;
+    RELIEVO_TRY_ASSIGN(pipeline, pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
+  }
   RELIEVO_TRY(rectify(order, pipeline, bench, made));
   note_facts(order, *made.pair, facts);
   const std::size_t before = run.stages.size();
@@ -123,8 +126,7 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.limit_px);
   run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
   if (facts.truth) run.score = score(run.map, *facts.truth, order.limit_px);
-  if (order.pair.calibration) RELIEVO_TRY(build_model(order, pipeline, bench, made, run));
-  return {};
+  return pipeline ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
 }
 
 // Of places that are no lattice, which is no choice.

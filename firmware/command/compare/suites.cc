@@ -57,8 +57,12 @@ Words constraints() {
 
 Words selectors() {
   Words words;
-  for (const std::string& name : names_of("selector"))
-    if (name != "file") words.push_back({name, {"selector=" + name}});
+  for (const std::string& name : names_of("selector")) {
+    if (name == "file") continue;  // chooses nothing without its file
+    words.push_back({name, {"selector=" + name}});
+    const bool lattice = name == "dense" || name == "grid";
+    if (!lattice) words.back().settings.emplace_back("mesher=delaunay");  // which joins scattered points
+  }
   return words;
 }
 

@@ -17,6 +17,7 @@ using pipeline::report::figure;
 using pipeline::report::figure_of;
 
 constexpr int kWidthPx = 480;
+constexpr int kDotPx = 9;  // of scattered matches, in pixels of the map
 
 std::string drawn(const PairFacts& pair, const Png& png, const std::string& says, const std::string& title, const std::string& caption) {
   const double height = static_cast<double>(kWidthPx) * pair.height_px / pair.width_px;
@@ -68,14 +69,17 @@ std::string rule_legend(const Run& run) {
 Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& reach) {
   const PairFacts& pair = c.pairs[run.pair];
   const std::string name = name_of(c, run);
-  RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(run.map, reach, kWidthPx));
+  const bool scattered = run.selector.has_value();
+  const DisparityMap shown = scattered ? thickened(run.map, kDotPx) : run.map;
+  RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(shown, reach, kWidthPx));
   RELIEVO_TRY_ASSIGN(const Png rejected, rejected_picture(pair, run, kWidthPx));
   std::string out = "<div class=\"set\">\n<h3>" + escaped(name) + "</h3>\n<div class=\"three\">\n";
   out += drawn(pair, disparities, name + ": disparities", "", figure(100.0 * static_cast<double>(std::count_if(run.map.values.begin(), run.map.values.end(), [](float d) { return !std::isnan(d); })) /
                                                               static_cast<double>(std::max<std::size_t>(1, run.map.values.size())), 1) + " % of the picture have one");
   if (run.score) {
-    RELIEVO_TRY_ASSIGN(const Png errors, error_picture(run.map, *pair.truth, c.limit_px, kWidthPx));
-    out += drawn(pair, errors, name + ": errors", "", figure(100 * run.score->bad_limit, 2) + " % bad, median error " + figure(run.score->median_px, 3) + " px");
+    RELIEVO_TRY_ASSIGN(const Png errors, error_picture(shown, *pair.truth, c.limit_px, kWidthPx));
+    out += drawn(pair, errors, name + ": errors", "", (scattered ? figure(100 * run.score->bad_given, 2) + " % of the matches are bad, median error "
+                                                              : figure(100 * run.score->bad_limit, 2) + " % bad, median error ") + figure(run.score->median_px, 3) + " px");
   }
   out += drawn(pair, rejected, name + ": rejected matches", "", rule_legend(run));
   return out + "</div>\n</div>\n";

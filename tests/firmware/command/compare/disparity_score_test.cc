@@ -130,6 +130,7 @@ TEST(DisparityMapOfMatches, DoesNotBridgeAStepNorUseARejectedMatch) {
 TEST(RuleFigures, EveryMatchIsCountedWithTheFirstRuleThatRejectedIt) {
   const DisparityTruth truth = flat(10);
   pipeline::MatchSet set(std::pmr::get_default_resource());
+  set.lattice_step_px = 1;
   const auto add = [&set](float x, float disparity, std::uint16_t rejected) {
     set.matches.push_back({.left_px = {x, 3}, .disparity_px = disparity, .rejected_by = rejected});
   };
