@@ -7,6 +7,7 @@
 #include "firmware/command/compare/compare_json.h"
 #include "firmware/command/compare/page/compare_page.h"
 #include "firmware/command/compare/set_choice.h"
+#include "firmware/command/interrupt.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/command/watched_job.h"
@@ -40,6 +41,7 @@ std::string line_of(const Comparison& c, const Run& run) {
 }  // namespace
 
 Result<void> run_compare(const CompareArgs& args, Services& services) {
+  interrupted();  // from here on Ctrl-C is heard: the output's folder must not be left behind
   RELIEVO_TRY_ASSIGN(auto sets, compare::choose_sets(args));
   RELIEVO_TRY_ASSIGN(auto pairs, compare::read_pairs(args));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));

@@ -34,11 +34,11 @@ std::string all_rules() {
   return all.empty() ? "none" : all;
 }
 
-// Every matcher, as it is by default; `file` matches nothing without its file.
+// Every matcher, as it is by default; those of a file match nothing without it.
 Words matchers() {
   Words words;
   for (const std::string& name : names_of("matcher"))
-    if (name != "file") words.push_back({name, {"matcher=" + name}});
+    if (!name.starts_with("file")) words.push_back({name, {"matcher=" + name}});
   return words;
 }
 
@@ -58,7 +58,7 @@ Words constraints() {
 Words selectors() {
   Words words;
   for (const std::string& name : names_of("selector")) {
-    if (name == "file") continue;  // chooses nothing without its file
+    if (name.starts_with("file")) continue;  // chooses nothing without its file
     words.push_back({name, {"selector=" + name}});
     const bool lattice = name == "dense" || name == "grid";
     if (!lattice) words.back().settings.emplace_back("mesher=delaunay");  // which joins scattered points
