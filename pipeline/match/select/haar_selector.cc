@@ -117,7 +117,7 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
   if (const float strongest = greatest(found); strongest > 0) {
     for (float& r : found.values) r /= strongest;
-    Candidates peaks = peaks_of(found, static_cast<float>(options_.quality), 0, context, &context.scratch);
+    Candidates peaks = peaks_of(found, static_cast<float>(options_.quality * options_.quality), 0, context, &context.scratch);
     choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
   }
   if (context.stop()) return stopped;

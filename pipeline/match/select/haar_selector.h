@@ -5,7 +5,8 @@
 // H. Bay, A. Ess, T. Tuytelaars, L. Van Gool, Speeded-Up Robust Features (SURF), CVIU 110, 2008:
 // det = Dxx Dyy - (0.9 Dxy)^2 of box filters 9, 15, 21, 27 pixels wide (first octave; twice the growth
 // and half the sampling in each further one), peaks among their 26 neighbours in place and size,
-// placed by a quadratic (Brown and Lowe 2002), then rounded to whole pixels.
+// placed by a quadratic (Brown and Lowe 2002), then rounded to whole pixels. A peak needs quality^2 of
+// the strongest response: it grows with the square of the contrast.
 // Keypoints are in rows from the top; strength is the share of the strongest response.
 // Errors: InvalidInput (no pixels, options), NoFace (an empty region), TooFewMatches (no blob),
 // OutOfMemory, Cancelled. Memory: ten planes of the picture's size in `scratch`.
@@ -18,7 +19,7 @@ namespace relievo::pipeline {
 
 struct HaarSelectorOptions {
   int octaves = 2;
-  double quality = 0.0001;
+  double quality = 0.005;
   int min_distance_px = 3;
   int max_points = 20'000;
   Result<void> check() const;
@@ -27,7 +28,7 @@ struct HaarSelectorOptions {
 template <typename Field>
 void describe(HaarSelectorOptions& o, Field&& field) {
   field("octaves", o.octaves, OptionRange{1, 4}, "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
-  field("quality", o.quality, OptionRange{1e-6, 1}, "least response, share of the strongest; it grows with the square of the contrast");
+  field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest blob's");
   field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "blobs keep this distance, pixels");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/select/harris_selector.h"
 
+#include <cmath>
+
 #include "pipeline/match/select/response/corner_response.h"
 
 namespace relievo::pipeline {
@@ -28,7 +30,7 @@ Result<Keypoints> HarrisSelector::select(const RectifiedPair& pair, StageContext
     return stopped;
   if (const float strongest = greatest(response); strongest > 0) {
     for (float& r : response.values) r /= strongest;
-    Candidates peaks = peaks_of(response, static_cast<float>(options_.quality), 1, context, &context.scratch);
+    Candidates peaks = peaks_of(response, static_cast<float>(std::pow(options_.quality, 4)), 1, context, &context.scratch);
     if (context.stop()) return stopped;
     choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
   }

@@ -3,9 +3,9 @@
 //
 // HarrisSelector ("harris"): C. Harris and M. Stephens, A Combined Corner and Edge Detector, 1988:
 // det - sensitivity * trace^2 of the structure tensor under a smooth window (three running means, close
-// to the paper's Gaussian); what no neighbour within the distance exceeds (non-maximum suppression)
-// and is at least `quality` of the strongest. Keypoints are whole pixels, in rows from the top;
-// strength is the share of the strongest response.
+// to the paper's Gaussian); peaks among their neighbours (non-maximum suppression) that have at least
+// quality^4 of the strongest response: it grows with the fourth power of the contrast.
+// Keypoints are whole pixels, in rows from the top; strength is the share of the strongest response.
 // Errors: InvalidInput (no pixels, options), NoFace (an empty region), TooFewMatches (no corner),
 // OutOfMemory, Cancelled. Memory: seven planes of the picture's size in `scratch`.
 #pragma once
@@ -17,7 +17,7 @@ namespace relievo::pipeline {
 
 struct HarrisSelectorOptions {
   double sensitivity = 0.05;
-  double quality = 0.00001;
+  double quality = 0.02;
   int window_px = 3;
   int min_distance_px = 4;
   int max_points = 20'000;
@@ -27,7 +27,7 @@ struct HarrisSelectorOptions {
 template <typename Field>
 void describe(HarrisSelectorOptions& o, Field&& field) {
   field("sensitivity", o.sensitivity, OptionRange{0.01, 0.24}, "how much an edge counts against a corner");
-  field("quality", o.quality, OptionRange{1e-6, 1}, "least response, share of the strongest; it grows with the fourth power of the contrast");
+  field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest corner's");
   field("window_px", o.window_px, OptionRange{3, 15}, "side of each of the three running means, pixels; odd");
   field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "corners keep this distance, pixels");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");

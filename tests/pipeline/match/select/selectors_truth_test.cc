@@ -49,7 +49,7 @@ TEST_P(Corners, OfSquaresAreFoundAndTheirEdgesAreNot) {
   SelectionBench bench;
   RectifiedPair pair = bench.plain();
   const auto corners = paint_squares(pair);
-  const auto found = bench.select(*make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.3"}}), pair);
+  const auto found = bench.select(*make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), corners.size());
   for (const Vec2f& corner : corners) EXPECT_LT(nearest(corner, *found), 4.3F) << corner.x << " " << corner.y;
@@ -149,7 +149,7 @@ TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
     for (int x = 0; x < pair.width_px; ++x)
       for (const Blob& b : blobs)
         pixel(pair, x, y) += static_cast<float>(b.height * std::exp(-(std::pow(x - b.x, 2) + std::pow(y - b.y, 2)) / (2 * b.sigma * b.sigma)));
-  const auto found = bench.select(*make_selector("haar", {{"haar.quality", "0.2"}, {"haar.min_distance_px", "10"}}), pair);
+  const auto found = bench.select(*make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), std::size(blobs));
   for (const Blob& b : blobs) EXPECT_LT(nearest({static_cast<float>(b.x), static_cast<float>(b.y)}, *found), 1.1F);
