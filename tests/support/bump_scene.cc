@@ -68,6 +68,7 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
   pair.far_mm = 620;
   pair.right_from_left.translation_mm = {-kBaseline, 0, 0};
   const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  if (face) pair.region.assign(pixels, 1);
   const Texture texture(seed, contrast);
   std::mt19937 random(seed + 1000);
   std::normal_distribution<double> normal(0, noise);

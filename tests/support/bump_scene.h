@@ -25,6 +25,7 @@ struct BumpScene {
   double right_gain = 1.0;    // the right camera sees gain * grey + offset
   double right_offset = 0.0;
   std::uint32_t seed = 1;
+  bool face = true;           // a region is marked, the whole picture: one surface is wanted
   double rows_px = 0;         // what belongs on row y of the right view stands on y + rows_px + rows_tilt * (x - middle)
   double rows_tilt = 0;
   double moved_px = 0;        // and a Gaussian hill of this height, in the middle of the lower half, moved down besides

@@ -5,17 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/coarse/two_way.h"
+#include "pipeline/match/coarse/size_ladder.h"
 
 namespace relievo::pipeline {
 namespace {
 
-// Labels surfaces whose neighbouring disparities differ by less than `step`; returns the largest.
-struct Largest { int label = 0; int size = 0; };
+constexpr int kBorder = 4;         // pixels: the census knows nothing there
+constexpr int kLeastFace = 400;    // pixels
+// A scene that is not one face: many surfaces, thin ones too, and depths that jump by more than a band.
+constexpr int kSceneLevel = 2;
+constexpr int kSceneBand = 24;
+constexpr int kLeastPatch = 60;    // pixels of half the size
 
-Largest label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step, Plane<int>& label,
-                       std::pmr::memory_resource& scratch) {
-  Largest best;
+// Labels surfaces whose neighbouring disparities differ by less than `step`, and how large each is.
+struct Surfaces {
+  explicit Surfaces(std::pmr::memory_resource* memory) : sizes(memory) {}
+  std::pmr::vector<int> sizes;  // [label - 1]
+  int largest = 0;              // its label; 0: there is none
+  int size_of(int label) const { return label > 0 ? sizes[static_cast<std::size_t>(label - 1)] : 0; }
+};
+
+Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step, Plane<int>& label,
+                        std::pmr::memory_resource& scratch) {
+  Surfaces found(&scratch);
   int next = 0;
   std::pmr::vector<int> open(&scratch);
   open.reserve(d.values.size());
@@ -43,9 +55,10 @@ Largest label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed
         open.push_back(n);
       }
     }
-    if (size > best.size) best = {next, size};
+    found.sizes.push_back(size);
+    if (size > found.size_of(found.largest)) found.largest = next;
   }
-  return best;
+  return found;
 }
 
 // Holes that the surface encloses are bridged smoothly, so that refinement can look there: highlights
@@ -98,57 +111,40 @@ void bridge_holes(SurfaceField& field, const Plane<std::uint8_t>& usable, int la
   for (std::uint8_t& inside : field.domain.values) inside = inside != 0 ? 1 : 0;
 }
 
+SizeLadder ladder_for(const CoarseSurfaceOptions& options, bool scene, int finest) {
+  if (!scene) return {kCoarseLevel, finest, options.band, options.cross_check_px};
+  return {kSceneLevel, finest, kSceneBand, options.cross_check_px};
+}
+
 }  // namespace
 
 Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
                                  const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field) {
-  const PyramidLevel& left3 = pyramids.left[kCoarseLevel];
-  const PyramidLevel& right3 = pyramids.right[kCoarseLevel];
-  const double nearest = pair.disparity_px(pair.near_mm);
-  const double farthest = pair.disparity_px(pair.far_mm);
-  const int first3 = static_cast<int>(std::floor(farthest / 8)) - 1;
-  const int count3 = static_cast<int>(std::ceil(nearest / 8)) + 1 - first3;
-  TwoWay coarse(&context.scratch, left3.grey.width, left3.grey.height);
-  std::fill(coarse.first_left.values.begin(), coarse.first_left.values.end(), static_cast<std::int16_t>(first3));
-  std::fill(coarse.first_right.values.begin(), coarse.first_right.values.end(), static_cast<std::int16_t>(first3));
-  {
-    Arena::Mark mark(context.scratch);
-    RELIEVO_TRY(match_both(left3, right3, count3, options.costs, context, coarse));
-    cross_check(coarse.left, coarse.right, 1.5F);
-    median3(coarse.left, context.scratch);
-    median3(coarse.right, context.scratch);
-  }
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching coarsely"};
-  const PyramidLevel& left2 = pyramids.left[kFineLevel];
-  const PyramidLevel& right2 = pyramids.right[kFineLevel];
-  const int w = left2.grey.width;
-  const int h = left2.grey.height;
-  TwoWay fine(&context.scratch, w, h);
-  predict(coarse.left, options.band, 2 * first3, 2 * (first3 + count3), fine.first_left);
-  predict(coarse.right, options.band, 2 * first3, 2 * (first3 + count3), fine.first_right);
-  {
-    Arena::Mark mark(context.scratch);
-    RELIEVO_TRY(match_both(left2, right2, options.band, options.costs, context, fine));
-  }
-  cross_check(fine.left, fine.right, options.cross_check_px);
-  median3(fine.left, context.scratch);
+  const bool scene = is_scene(pair);
+  const int step = field.step_px;
+  const int finest = step == 2 ? 1 : kFineLevel;
+  const int w = field.domain.width;
+  const int h = field.domain.height;
+  Plane<float> disparity(&context.scratch, w, h);
+  RELIEVO_TRY(match_down(pair, pyramids, ladder_for(options, scene, finest), options.costs, context, 0.3F, disparity));
 
-  Plane<std::uint8_t> allowed(&context.scratch, w, h, 1);
-  if (!pair.region.empty())
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x)
-        allowed.row(y)[x] = pair.region[static_cast<std::size_t>(std::min(4 * y, pair.height_px - 1)) * static_cast<std::size_t>(pair.width_px) +
-                                        static_cast<std::size_t>(std::min(4 * x, pair.width_px - 1))];
+  Plane<std::uint8_t> allowed(&context.scratch, w, h);
+  for (int y = kBorder; y < h - kBorder; ++y)
+    for (int x = kBorder; x < w - kBorder; ++x)
+      allowed.row(y)[x] = scene ? std::uint8_t{1} : pair.region[static_cast<std::size_t>(std::min(step * y, pair.height_px - 1)) * static_cast<std::size_t>(pair.width_px) +
+                                              static_cast<std::size_t>(std::min(step * x, pair.width_px - 1))];
   Plane<int> label(&context.scratch, w, h);
-  const Largest face = label_surfaces(fine.left, allowed, options.step_limit_px, label, context.scratch);
-  if (face.size < 400)
+  const Surfaces surfaces = label_surfaces(disparity, allowed, options.step_limit_px, label, context.scratch);
+  if (surfaces.size_of(surfaces.largest) < kLeastFace)
     return Error{Errc::TooFewMatches, "no surface of a face's size between the near and far limits: is the face in both views and the calibration this rig's?"};
   for (std::size_t k = 0; k < label.values.size(); ++k) {
-    field.domain.values[k] = label.values[k] == face.label ? 1 : 0;
-    field.disparity_px.values[k] = field.domain.values[k] != 0 ? 4 * fine.left.values[k] : 0.0F;
+    const bool kept = scene ? surfaces.size_of(label.values[k]) >= kLeastPatch : label.values[k] == surfaces.largest;
+    field.domain.values[k] = kept ? 1 : 0;
+    field.disparity_px.values[k] = kept ? static_cast<float>(step) * disparity.values[k] : 0.0F;
   }
-  for (std::size_t k = 0; k < allowed.values.size(); ++k) allowed.values[k] &= left2.valid.values[k];
-  bridge_holes(field, allowed, options.largest_hole, context.scratch);
+  const PyramidLevel& left = pyramids.left[static_cast<std::size_t>(finest)];
+  for (std::size_t k = 0; k < allowed.values.size(); ++k) allowed.values[k] &= left.valid.values[k];
+  if (!scene) bridge_holes(field, allowed, options.largest_hole, context.scratch);
   return {};
 }
 

@@ -24,7 +24,11 @@ struct CoarseSurfaceOptions {
 inline constexpr int kCoarseLevel = 3;
 inline constexpr int kFineLevel = 2;
 
-// `field` is a lattice over level 2's pixels (step 4); its domain is empty where nothing was found.
+// No face was looked for: every surface is wanted, not one.
+inline bool is_scene(const RectifiedPair& pair) { return pair.region.empty(); }
+
+// `field` is a lattice over the pixels of level 2 (step 4), or of level 1 (step 2; a scene needs it for its thin
+// parts); its domain is what was found: the largest surface of the region, or of a scene all that are no specks.
 // Errors: TooFewMatches, Cancelled.
 Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
                                  const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field);

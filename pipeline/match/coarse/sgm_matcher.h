@@ -22,6 +22,7 @@ namespace relievo::pipeline {
 struct SgmMatcherOptions {
   SemiGlobalCosts costs;
   int finest = 1;                 // the pictures are halved so often at the end: 0 is full size
+  int coarsest = 3;               // and at first: every disparity is tried there
   int band = 12;                  // candidates around the prediction
   float cross_check_px = 1;       // in pixels of each size
   Result<void> check() const;
@@ -30,6 +31,7 @@ struct SgmMatcherOptions {
 template <typename Field>
 void describe(SgmMatcherOptions& o, Field&& field) {
   field("finest", o.finest, OptionRange{0, 2}, "how often the pictures are halved at the end: 0 full size, 1 half, 2 a quarter");
+  field("coarsest", o.coarsest, OptionRange{0, 4}, "how often the pictures are halved at first, where every disparity is tried");
   field("band", o.band, OptionRange{4, 64}, "disparities tried around what the coarser size found");
   field("step_penalty", o.costs.step_penalty, OptionRange{0, 24}, "census bits for one disparity between neighbours");
   field("jump_penalty", o.costs.jump_penalty, OptionRange{24, 1000}, "census bits for a jump between neighbours");

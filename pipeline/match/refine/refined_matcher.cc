@@ -92,7 +92,10 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
   RowAligner rows(pair, pyramids, {static_cast<double>(options_.align_beyond_px), options_.follow_motion != 0}, context);
   for (int pass = 0; pass < kPasses; ++pass) {
-    {
+    if (is_scene(pair)) {
+      Arena::Mark mark(context.scratch);
+      RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field2));
+    } else {
       Arena::Mark mark(context.scratch);
       SurfaceField field4(&context.scratch, fine.width, fine.height, 1 << kFineLevel);
       RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));

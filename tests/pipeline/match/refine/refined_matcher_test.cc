@@ -227,5 +227,37 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   }
 }
 
+// Where no face was looked for every surface is wanted: a strip in front of a wall, and the wall on both sides.
+TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
+  StageBench bench;
+  BumpScene wall{.base_px = 12, .tilt = 0, .bump_px = 0, .seed = 41, .face = false};
+  BumpScene strip = wall;
+  strip.base_px = 30;
+  strip.seed = 42;
+  RectifiedPair pair = wall.render(&bench.output);
+  const RectifiedPair front = strip.render(&bench.output);
+  constexpr int kLeft = 140, kRight = 190;  // of the strip, in the left view
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = kLeft; x < kRight; ++x) {
+      const auto row = static_cast<std::size_t>(y * pair.width_px);
+      pair.left.grey[row + static_cast<std::size_t>(x)] = front.left.grey[row + static_cast<std::size_t>(x)];
+      pair.right.grey[row + static_cast<std::size_t>(x - 30)] = front.right.grey[row + static_cast<std::size_t>(x - 30)];
+    }
+  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  ASSERT_TRUE(matches);
+  int seen[3] = {}, right[3] = {};
+  for (const Match& m : matches->matches) {
+    const int part = m.left_px.x < kLeft - 30 ? 0 : m.left_px.x >= kRight + 8 ? 2 : m.left_px.x >= kLeft + 4 && m.left_px.x < kRight - 4 ? 1 : -1;
+    if (part < 0 || m.left_px.x < 40 || m.left_px.y < 8 || m.left_px.y > static_cast<float>(pair.height_px - 8)) continue;
+    ++seen[part];
+    right[part] += std::abs(m.disparity_px - (part == 1 ? 30.0F : 12.0F)) < 0.5F ? 1 : 0;
+  }
+  for (const int part : {0, 1, 2}) {
+    EXPECT_GT(seen[part], 1500) << part;
+    EXPECT_GT(right[part], 0.97 * seen[part]) << part;
+  }
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
