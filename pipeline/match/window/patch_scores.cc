@@ -6,7 +6,44 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/base/simd.h"
+
 namespace relievo::pipeline {
+namespace {
+
+// One sum for every column first: independent lanes, added in a fixed order.
+RELIEVO_SIMD void sum_moments(const float* left, const float* right, int side, int stride, double* all) {
+  double sum[64] = {};
+  double squares[64] = {};
+  double cross[64] = {};
+  for (int j = 0; j < side; ++j, left += side, right += stride)
+    for (int i = 0; i < side; ++i) {
+      const auto r = static_cast<double>(right[i]);
+      sum[i] += r;
+      squares[i] += r * r;
+      cross[i] += r * static_cast<double>(left[i]);
+    }
+  all[0] = all[1] = all[2] = 0;
+  for (int i = 0; i < side; ++i) {
+    all[0] += sum[i];
+    all[1] += squares[i];
+    all[2] += cross[i];
+  }
+}
+
+RELIEVO_SIMD double sum_differences(const float* left, const float* right, int side, int stride) {
+  double sum[64] = {};
+  for (int j = 0; j < side; ++j, left += side, right += stride)
+    for (int i = 0; i < side; ++i) {
+      const double difference = static_cast<double>(left[i]) - static_cast<double>(right[i]);
+      sum[i] += difference * difference;
+    }
+  double all = 0;
+  for (int i = 0; i < side; ++i) all += sum[i];
+  return all;
+}
+
+}  // namespace
 
 PatchScores::PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates, std::pmr::memory_resource* memory)
     : planes_(planes), score_(score), side_(2 * planes.radius + 1),
@@ -22,20 +59,24 @@ bool PatchScores::whole(const Plane<std::uint8_t>& mask, int x) const {
 
 // Rows of the window from column x0 on, at the keypoint's fraction of a pixel. Columns outside the
 // picture are repeated; no whole window touches them.
-void PatchScores::sample(const Plane<float>& from, int x0, int width, float mean, float* to) const {
+void PatchScores::sample(const Plane<float>& from, int x0, int width, float* to) const {
   for (int j = 0; j < side_; ++j, to += width) {
     const float* upper = from.row(y_ - planes_.radius + j);
     const float* lower = ty_ > 0 ? from.row(y_ - planes_.radius + j + 1) : upper;
+    if (tx_ == 0 && ty_ == 0 && x0 >= 0 && x0 + width <= from.width) {
+      std::copy(upper + x0, upper + x0 + width, to);
+      continue;
+    }
     for (int i = 0; i < width; ++i) {
       const int x = std::clamp(x0 + i, 0, from.width - 1);
       if (tx_ == 0 && ty_ == 0) {
-        to[i] = upper[x] - mean;
+        to[i] = upper[x];
         continue;
       }
       const int next = std::min(x + 1, from.width - 1);
       const float top = upper[x] + tx_ * (upper[next] - upper[x]);
       const float low = lower[x] + tx_ * (lower[next] - lower[x]);
-      to[i] = top + ty_ * (low - top) - mean;
+      to[i] = top + ty_ * (low - top);
     }
   }
 }
@@ -52,54 +93,27 @@ bool PatchScores::load(Vec2f at, int first, int count) {
   const std::size_t cells = static_cast<std::size_t>(side_ * side_);
   for (std::size_t c = 0; c < planes_.left.size(); ++c) {
     float* patch = left_.data() + c * cells;
-    sample(planes_.left[c], x_ - planes_.radius, side_, 0, patch);
+    sample(planes_.left[c], x_ - planes_.radius, side_, patch);
     double mean = 0;
     for (std::size_t k = 0; k < cells; ++k) mean += static_cast<double>(patch[k]);
     mean /= static_cast<double>(cells);
     for (std::size_t k = 0; k < cells; ++k) left_variation_ += (static_cast<double>(patch[k]) - mean) * (static_cast<double>(patch[k]) - mean);
     if (score_ == WindowScore::ZeroMeanCorrelation)
       for (std::size_t k = 0; k < cells; ++k) patch[k] -= static_cast<float>(mean);
-    sample(planes_.right[c], x_ - (first + count - 1) - planes_.radius, strip_width_, 0,
+    sample(planes_.right[c], x_ - (first + count - 1) - planes_.radius, strip_width_,
            strip_.data() + c * static_cast<std::size_t>(side_ * strip_width_));
   }
   return true;
 }
 
-// One sum for every column first: independent lanes, added in a fixed order.
 PatchScores::RightMoments PatchScores::moments(std::size_t channel, int candidate) const {
-  double sum[64] = {};
-  double squares[64] = {};
-  double cross[64] = {};
-  const float* left = left_.data() + channel * static_cast<std::size_t>(side_ * side_);
-  const float* right = strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
-  for (int j = 0; j < side_; ++j, left += side_, right += strip_width_)
-    for (int i = 0; i < side_; ++i) {
-      const auto r = static_cast<double>(right[i]);
-      sum[i] += r;
-      squares[i] += r * r;
-      cross[i] += r * static_cast<double>(left[i]);
-    }
-  RightMoments all{0, 0, 0};
-  for (int i = 0; i < side_; ++i) {
-    all.sum += sum[i];
-    all.squares += squares[i];
-    all.cross += cross[i];
-  }
-  return all;
+  double all[3];
+  sum_moments(left_.data() + channel * static_cast<std::size_t>(side_ * side_), right_window(channel, candidate), side_, strip_width_, all);
+  return {all[0], all[1], all[2]};
 }
 
 double PatchScores::squared_differences(std::size_t channel, int candidate) const {
-  double sum[64] = {};
-  const float* left = left_.data() + channel * static_cast<std::size_t>(side_ * side_);
-  const float* right = strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
-  for (int j = 0; j < side_; ++j, left += side_, right += strip_width_)
-    for (int i = 0; i < side_; ++i) {
-      const double difference = static_cast<double>(left[i]) - static_cast<double>(right[i]);
-      sum[i] += difference * difference;
-    }
-  double all = 0;
-  for (int i = 0; i < side_; ++i) all += sum[i];
-  return all;
+  return sum_differences(left_.data() + channel * static_cast<std::size_t>(side_ * side_), right_window(channel, candidate), side_, strip_width_);
 }
 
 PatchScores::Score PatchScores::score(int candidate) const {

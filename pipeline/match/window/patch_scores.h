@@ -38,9 +38,12 @@ class PatchScores {
  private:
   struct RightMoments { double sum, squares, cross; };
   RightMoments moments(std::size_t channel, int candidate) const;
+  const float* right_window(std::size_t channel, int candidate) const {
+    return strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
+  }
   double squared_differences(std::size_t channel, int candidate) const;
   bool whole(const Plane<std::uint8_t>& mask, int x) const;
-  void sample(const Plane<float>& from, int x0, int width, float mean, float* to) const;
+  void sample(const Plane<float>& from, int x0, int width, float* to) const;
 
   const ChannelPlanes& planes_;
   WindowScore score_;
