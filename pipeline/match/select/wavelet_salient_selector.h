@@ -19,7 +19,7 @@ namespace relievo::pipeline {
 
 struct WaveletSalientSelectorOptions {
   int scales = 4;
-  double quality = 0.02;
+  double quality = 0.01;
   int min_distance_px = 4;
   int max_points = 20'000;
   Result<void> check() const;
