@@ -92,6 +92,15 @@ TEST_F(Compare, AMatrixOfSetsAsPageAndFigures) {
   for (const char* never : {"nan", "inf "}) EXPECT_EQ(page.text().find(never), std::string::npos) << never;
 }
 
+TEST_F(Compare, AKeptMapIsATruthToItself) {
+  done(words({"--keep-maps", "--set-of", "the one: constraints=none", "-o", "first"}));
+  ASSERT_EQ(listing(here / "first"), "1-1_" + here.path().filename().string() + "_the_one.pfm\ncompare.json\nindex.html\n");
+  done(words({"--set-of", "again: constraints=none", "--truth", "first/1-1_" + here.path().filename().string() + "_the_one.pfm", "-o", "second"}));
+  const Json same = figures("second")["runs"][0]["disparity"];
+  EXPECT_EQ(same["bad"], 0);
+  EXPECT_EQ(same["rms_px"], 0) << "the same twice, to the last bit";
+}
+
 TEST_F(Compare, ManyPairsEachWithItsTruth) {
   write_truth("off.pfm", 3);
   done({"compare", "left.png", "right.png", "left.png", "right.png", "--rectified", "--region", "all", "--disparities", "5:45", "--truth", "truth.pfm",

@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "firmware/command/commands.h"
 #include "firmware/command/compare/compare_job.h"
 #include "firmware/command/compare/compare_json.h"
 #include "firmware/command/compare/page/compare_page.h"
+#include "firmware/command/compare/pfm.h"
 #include "firmware/command/compare/set_choice.h"
 #include "firmware/command/interrupt.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/command/watched_job.h"
 #include "firmware/version.h"
+#include "hal/whole_file.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -38,6 +42,22 @@ std::string line_of(const Comparison& c, const Run& run) {
   return name + figures + (run.failure.empty() ? "" : "; failed: " + run.failure);
 }
 
+// "2-1_d2_refined.pfm": numbers of pair and set, and their names as far as files may be called so.
+std::string map_name(const Comparison& c, const Run& run) {
+  std::string name = std::to_string(run.pair + 1) + "-" + std::to_string(run.set + 1) + "_" + c.pairs[run.pair].name + "_" + c.sets[run.set].name;
+  std::replace_if(name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) == 0 && ch != '-' && ch != '_'; }, '_');
+  return name.substr(0, 100) + ".pfm";
+}
+
+Result<void> write_maps(const Comparison& c, const OutputFolder& folder, const Path& place) {
+  for (const Run& run : c.runs) {
+    if (run.map.values.empty()) continue;
+    const auto written = hal::write_whole_file(folder.path() / map_name(c, run), compare::pfm_of(run.map));
+    if (!written) return written.error().at(place.string());
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> run_compare(const CompareArgs& args, Services& services) {
@@ -62,6 +82,7 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const std::string page, compare::comparison_html(comparison, "Relievo " + std::string(kVersion), made_at));
   RELIEVO_TRY(write_text(folder.path() / "index.html", page, args.output));
   RELIEVO_TRY(write_text(folder.path() / "compare.json", compare::comparison_json(comparison, made_at), args.output));
+  if (args.keep_maps) RELIEVO_TRY(write_maps(comparison, folder, args.output));
   RELIEVO_TRY(folder.commit());
   for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));
   services.console.say("page and figures: " + args.output.string());

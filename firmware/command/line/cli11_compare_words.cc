@@ -52,6 +52,7 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   command->add_option("--set-of", args.set_words, "one set: \"NAME: KEY=VALUE KEY=VALUE\"")->type_name("SET")->take_all()->allow_extra_args(false);
   command->add_option("--suite", args.suites, "sets that belong together: dissertation, dissertation-face, peers, matchers, constraints, selectors, preprocessors")
       ->type_name("NAME")->take_all()->allow_extra_args(false);
+  command->add_flag("--keep-maps", args.keep_maps, "every set's disparities as PFM beside the page");
   command->add_option("-o,--output", args.output, "folder for the page and the figures")->required()->type_name("DIR");
   command->callback([&args, &chosen] {
     check_counts(args);

@@ -93,6 +93,7 @@ struct CompareArgs {
   std::vector<Path> set_files;    // TOML, a table a set
   std::vector<std::string> set_words;  // "name: matcher=zmncc zmncc.window_px=21"
   std::vector<std::string> suites;
+  bool keep_maps = false;         // every set's disparities as a file too
   Path output;
   AlgorithmArgs algorithms;       // what all sets start from
 };
