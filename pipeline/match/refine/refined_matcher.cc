@@ -79,7 +79,6 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
     return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
-  set.matches.reserve(keypoints.points.size());
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
   const double lambda = bending_weight(pair, options_.refiner.bending);
   const auto refine = [&](int level, SurfaceField& field) {
@@ -111,9 +110,18 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   RELIEVO_TRY(refine(0, field2));
   set.epipolar_shift = rows.measure_linear(field2);
   set.motion_px = rows.motion().rms_px;
+  const auto read = [&](const Keypoint& keypoint, Match& match) {
+    match.left_px = keypoint.at_px;
+    return read_field(field2, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px;
+  };
+  // Counted first: hardly half the keypoints of a region lie on the face.
+  set.matches.reserve(static_cast<std::size_t>(std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
+    Match match;
+    return read(keypoint, match);
+  })));
   for (const Keypoint& keypoint : keypoints.points) {
-    Match match{.left_px = keypoint.at_px};
-    if (!read_field(field2, keypoint.at_px, match) || !(match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px)) continue;
+    Match match;
+    if (!read(keypoint, match)) continue;
     // What moved across the rows moved along them as well, for all we know.
     const double moved = rows.motion().at(static_cast<double>(match.left_px.x - match.disparity_px), static_cast<double>(match.left_px.y));
     match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));

@@ -41,10 +41,10 @@ float node_disparity(const FieldRow& rows, int i, float tx) {
   return rows.upper[i];  // at the edge of the domain the nearest node to the upper left stands for the cell
 }
 
+// The right view as it is seen along the field, and where both views show the surface.
 struct Warped {
-  Plane<float>& left;
+  Plane<float>& left;         // the left view itself, 0 off the mask
   Plane<float>& right;
-  Plane<float>& left_slope;
   Plane<float>& right_slope;
   Plane<float>& mask;
 };
@@ -65,7 +65,7 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
     const int px = window.x0 + x;
     const int i = px / nodes_per_pixel_shift;
     out.mask.row(y)[x] = 0;
-    out.left.row(y)[x] = out.right.row(y)[x] = out.left_slope.row(y)[x] = out.right_slope.row(y)[x] = 0;
+    out.left.row(y)[x] = out.right.row(y)[x] = out.right_slope.row(y)[x] = 0;
     if (rows.upper_in[i] == 0 || px < 1 || px + 2 > scene.left.width) continue;
     const float tx = static_cast<float>(px % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift);
     const float d = node_disparity(rows, std::min(i, field.domain.width - 2), tx) * to_level;
@@ -77,7 +77,6 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
     if (left[px] > kSaturated || sample.value > kSaturated) continue;
     out.mask.row(y)[x] = 1;
     out.left.row(y)[x] = left[px];
-    out.left_slope.row(y)[x] = 0.5F * (left[px + 1] - left[px - 1]);
     out.right.row(y)[x] = sample.value;
     out.right_slope.row(y)[x] = sample.slope;
   }
@@ -91,20 +90,21 @@ struct Moments {
   const float *count, *left, *right, *left_left, *right_right, *left_right;
 };
 
+// May be the very rows that are read: `right` becomes the residual, its slope the gradient, a moment the cost.
 struct RowTerms {
   float *residual, *gradient, *cost;
 };
 
+struct RowViews {
+  const float *mask, *left, *right, *right_slope;  // left: with a pixel beside it on either side
+};
+
 // Offset and gain taken out symmetrically: each view is divided by the root of the local gain. The
 // gain is drawn towards the whole face's where there is little texture to tell it from.
-RELIEVO_SIMD void residual_row(const Moments& m, const Warped& s, int y, int w, float level_scale, float gain,
+RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, int end, float level_scale, float gain,
                                float floor_variance, const RowTerms& out) {
-  const float* mask = s.mask.row(y);
-  const float* left = s.left.row(y);
-  const float* right = s.right.row(y);
-  const float* left_slope = s.left_slope.row(y);
-  const float* right_slope = s.right_slope.row(y);
-  for (int x = 0; x < w; ++x) {
+#pragma GCC ivdep
+  for (int x = begin; x < end; ++x) {
     const float n = 1.0F / std::max(m.count[x], 1.0F);
     const float mean_left = m.left[x] * n;
     const float mean_right = m.right[x] * n;
@@ -114,9 +114,10 @@ RELIEVO_SIMD void residual_row(const Moments& m, const Warped& s, int y, int w, 
     const float local = gain * std::sqrt((var_right / (gain * gain) + floor_variance) / (var_left + floor_variance));
     const float root = std::sqrt(local);
     const float inverse = 1.0F / root;
-    out.residual[x] = mask[x] * ((right[x] - mean_right) * inverse - (left[x] - mean_left) * root);
-    out.gradient[x] = mask[x] * -0.5F * level_scale * (right_slope[x] * inverse + left_slope[x] * root);
-    out.cost[x] = 1.0F - mask[x] * covariance / std::sqrt(var_left * var_right + 1e-3F);
+    const float left_slope = 0.5F * (s.left[x + 1] - s.left[x - 1]);
+    out.residual[x] = s.mask[x] * ((s.right[x] - mean_right) * inverse - (s.left[x] - mean_left) * root);
+    out.gradient[x] = s.mask[x] * -0.5F * level_scale * (s.right_slope[x] * inverse + left_slope * root);
+    out.cost[x] = 1.0F - s.mask[x] * covariance / std::sqrt(var_left * var_right + 1e-3F);
   }
 }
 
@@ -148,21 +149,25 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   const int h = window.height;
   ThreadPool& pool = context.pool;
   std::pmr::memory_resource* memory = &context.scratch;
-  Plane<float> left(memory, w, h), right(memory, w, h), left_slope(memory, w, h), right_slope(memory, w, h);
   Plane<float> count(memory, w, h), sum_left(memory, w, h), sum_right(memory, w, h), sum_ll(memory, w, h);
-  Plane<float> sum_rr(memory, w, h), sum_lr(memory, w, h), across(memory, w, h);
-  Warped warped{left, right, left_slope, right_slope, terms.mask};
+  Plane<float> across(memory, w, h);
+  // The results' own planes hold what leads to them: at full size every plane counts.
+  Plane<float>& right = terms.residual;
+  Plane<float>& right_slope = terms.gradient;
+  Plane<float>& sum_lr = terms.cost;
+  Plane<float>& sum_rr = terms.weight;
+  Warped warped{sum_left, right, right_slope, terms.mask};
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       warp_row(scene, field, window, y, warped);
-      multiply_row(left.row(y), left.row(y), w, sum_ll.row(y));
+      multiply_row(sum_left.row(y), sum_left.row(y), w, sum_ll.row(y));
       multiply_row(right.row(y), right.row(y), w, sum_rr.row(y));
-      multiply_row(left.row(y), right.row(y), w, sum_lr.row(y));
+      multiply_row(sum_left.row(y), right.row(y), w, sum_lr.row(y));
     }
   });
   const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
   box_sum(terms.mask, radius, pool, across, count);
-  box_sum(left, radius, pool, across, sum_left);
+  box_sum(sum_left, radius, pool, across, sum_left);
   box_sum(right, radius, pool, across, sum_right);
   box_sum(sum_ll, radius, pool, across, sum_ll);
   box_sum(sum_rr, radius, pool, across, sum_rr);
@@ -184,8 +189,14 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       const Moments m{count.row(y), sum_left.row(y), sum_right.row(y), sum_ll.row(y), sum_rr.row(y), sum_lr.row(y)};
-      residual_row(m, warped, y, w, level_scale, gain, 16.0F,
-                   {terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y)});
+      const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y)};
+      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, right.row(y), right_slope.row(y)};
+      // A pixel on the picture's own edge has no slope, and the mask is 0 there.
+      const int begin_x = window.x0 == 0 ? 1 : 0;
+      const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
+      residual_row(m, views, begin_x, end_x, level_scale, gain, 16.0F, out);
+      for (const int x : {0, w - 1})
+        if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = 0, out.cost[x] = 1;
     }
   });
   // The offset soaks up what a slope of shading says: so must the gradient's own mean.
