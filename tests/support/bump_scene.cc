@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace relievo::test {
@@ -38,8 +39,10 @@ double BumpScene::disparity(double x, double y) const {
   const double dx = x - width_px / 2.0;
   const double dy = y - height_px / 2.0;
   const double r2 = (dx * dx + dy * dy) / (bump_radius_px * bump_radius_px);
-  return base_px + tilt * dx + bump_px * std::exp(-r2);
+  return base_px + tilt * dx + bump_px * std::exp(-r2) + ripple_px * ripple(x);
 }
+
+double BumpScene::ripple(double x) const { return std::sin(2 * std::numbers::pi * x / ripple_period_px); }
 
 bool BumpScene::judged(double x, double y) const {
   constexpr double kMargin = 24;

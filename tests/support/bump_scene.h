@@ -20,6 +20,8 @@ struct BumpScene {
   double tilt = 0.02;         // disparity per pixel of x
   double bump_px = 8;
   double bump_radius_px = 60;
+  double ripple_px = 0;       // waves along x besides, amplitude
+  double ripple_period_px = 31;
   double contrast = 20;       // grey levels, standard deviation
   double noise = 1.0;         // grey levels, standard deviation, each view its own
   double right_gain = 1.0;    // the right camera sees gain * grey + offset
@@ -32,6 +34,7 @@ struct BumpScene {
   double moved_radius_px = 40;
 
   double disparity(double x, double y) const;
+  double ripple(double x) const;           // its wave, amplitude 1
   double moved(double x, double y) const;  // of the right view, beside rows_px and rows_tilt
   pipeline::RectifiedPair render(std::pmr::memory_resource* memory) const;
   // Inside the picture, away from its edges and from what the other view does not see.

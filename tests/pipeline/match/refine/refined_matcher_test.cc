@@ -259,5 +259,32 @@ TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
   }
 }
 
+// Blur must not buy accuracy. On the rig of the rendered faces (2900 px focal length, 140 mm, 560 mm: 5.2 px and
+// 1.3 px of disparity a millimetre) waves of 0.3 mm come back, 6 mm long with 80 % of their height, 4 mm with 50 %.
+TEST(RefinedMatcher, KeepsTheReliefOfSkin) {
+  struct Row {
+    double period_px, share;
+  };
+  for (const Row& row : {Row{31, 0.8}, Row{21, 0.5}}) {
+    const BumpScene scene{.ripple_px = 0.39, .ripple_period_px = row.period_px, .contrast = 8, .noise = 1.5, .seed = 51};
+    StageBench bench;
+    const RectifiedPair pair = scene.render(&bench.output);
+    const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    ASSERT_TRUE(matches);
+    double seen = 0;
+    double all = 0;
+    for (const Match& m : matches->matches) {
+      if (!scene.judged(m.left_px.x, m.left_px.y)) continue;
+      const double wave = scene.ripple(m.left_px.x);
+      const double smooth = scene.disparity(m.left_px.x, m.left_px.y) - scene.ripple_px * wave;
+      seen += (m.disparity_px - smooth) * wave;
+      all += wave * wave;
+    }
+    EXPECT_GT(seen / all / scene.ripple_px, row.share) << row.period_px << " px";
+    RecordProperty("share_" + std::to_string(static_cast<int>(row.period_px)), std::to_string(seen / all / scene.ripple_px));
+  }
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
