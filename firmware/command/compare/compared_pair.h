@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/command/compare/disparity_truth.h"
+#include "firmware/command/compare/measure/disparity_truth.h"
 #include "firmware/command/line/command_line.h"
 #include "firmware/command/reconstruct/picture_pair.h"
 #include "firmware/measure/triangle_grid.h"

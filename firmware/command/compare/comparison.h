@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/command/compare/disparity_score.h"
+#include "firmware/command/compare/measure/disparity_score.h"
 #include "firmware/measure/measurement.h"
 #include "pipeline/algorithms.h"
 

@@ -6,9 +6,9 @@
 #include <chrono>
 
 #include "firmware/boot_memory.h"
-#include "firmware/command/compare/peak_memory.h"
-#include "firmware/command/compare/rule_figures.h"
-#include "firmware/command/compare/selector_figures.h"
+#include "firmware/command/compare/measure/peak_memory.h"
+#include "firmware/command/compare/measure/rule_figures.h"
+#include "firmware/command/compare/measure/selector_figures.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {

@@ -37,11 +37,18 @@ struct Reach {
 // Where nearly all known disparities lie.
 Reach reach_of(const DisparityMap& map);
 
-// All are as wide as `width_px`, or as the map where that is narrower.
-Result<Png> grey_picture(const PairFacts& pair, int width_px);
-Result<Png> disparity_picture(const DisparityMap& map, const Reach& reach, int width_px);
-Result<Png> error_picture(const DisparityMap& map, const DisparityTruth& truth, double limit_px, int width_px);
-Result<Png> rejected_picture(const PairFacts& pair, const Run& run, int width_px);
-Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selector, int width_px);
+// The part of a view that a picture shows.
+struct Window {
+  int left = 0, top = 0, width_px = 0, height_px = 0;
+};
+// All of it, or, where what is known lies in less than half of it (a face), that with a margin.
+Window window_of(const PairFacts& pair, const std::vector<const Run*>& runs);
+
+// All are as wide as `width_px`, or as the window where that is narrower.
+Result<Png> grey_picture(const PairFacts& pair, const Window& window, int width_px);
+Result<Png> disparity_picture(const DisparityMap& map, const Reach& reach, const Window& window, int width_px);
+Result<Png> error_picture(const DisparityMap& map, const DisparityTruth& truth, double limit_px, const Window& window, int width_px);
+Result<Png> rejected_picture(const PairFacts& pair, const Run& run, const Window& window, int width_px);
+Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selector, const Window& window, int width_px);
 
 }  // namespace relievo::firmware::compare

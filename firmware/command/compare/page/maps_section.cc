@@ -19,8 +19,8 @@ using pipeline::report::figure_of;
 constexpr int kWidthPx = 480;
 constexpr int kDotPx = 9;  // of scattered matches, in pixels of the map
 
-std::string drawn(const PairFacts& pair, const Png& png, const std::string& says, const std::string& title, const std::string& caption) {
-  const double height = static_cast<double>(kWidthPx) * pair.height_px / pair.width_px;
+std::string drawn(const Window& window, const Png& png, const std::string& says, const std::string& title, const std::string& caption) {
+  const double height = static_cast<double>(kWidthPx) * window.height_px / std::max(1, window.width_px);
   Drawing d({kWidthPx, height}, says);
   d.picture({{0, 0}, {kWidthPx, height}}, png);
   return figure_of(d.svg(), title, caption);
@@ -66,22 +66,22 @@ std::string rule_legend(const Run& run) {
   return out.empty() ? "Nothing was rejected." : "<span>Rejected matches, by rule</span><ul class=\"swatches\">" + out + "</ul>";
 }
 
-Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& reach) {
+Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& reach, const Window& window) {
   const PairFacts& pair = c.pairs[run.pair];
   const std::string name = name_of(c, run);
   const bool scattered = run.selector.has_value();
   const DisparityMap shown = scattered ? thickened(run.map, kDotPx) : run.map;
-  RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(shown, reach, kWidthPx));
-  RELIEVO_TRY_ASSIGN(const Png rejected, rejected_picture(pair, run, kWidthPx));
+  RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(shown, reach, window, kWidthPx));
+  RELIEVO_TRY_ASSIGN(const Png rejected, rejected_picture(pair, run, window, kWidthPx));
   std::string out = "<div class=\"set\">\n<h3>" + escaped(name) + "</h3>\n<div class=\"three\">\n";
-  out += drawn(pair, disparities, name + ": disparities", "", figure(100.0 * static_cast<double>(std::count_if(run.map.values.begin(), run.map.values.end(), [](float d) { return !std::isnan(d); })) /
+  out += drawn(window, disparities, name + ": disparities", "", figure(100.0 * static_cast<double>(std::count_if(run.map.values.begin(), run.map.values.end(), [](float d) { return !std::isnan(d); })) /
                                                               static_cast<double>(std::max<std::size_t>(1, run.map.values.size())), 1) + " % of the picture have one");
   if (run.score) {
-    RELIEVO_TRY_ASSIGN(const Png errors, error_picture(shown, *pair.truth, c.limit_px, kWidthPx));
-    out += drawn(pair, errors, name + ": errors", "", (scattered ? figure(100 * run.score->bad_given, 2) + " % of the matches are bad, median error "
+    RELIEVO_TRY_ASSIGN(const Png errors, error_picture(shown, *pair.truth, c.limit_px, window, kWidthPx));
+    out += drawn(window, errors, name + ": errors", "", (scattered ? figure(100 * run.score->bad_given, 2) + " % of the matches are bad, median error "
                                                               : figure(100 * run.score->bad_limit, 2) + " % bad, median error ") + figure(run.score->median_px, 3) + " px");
   }
-  out += drawn(pair, rejected, name + ": rejected matches", "", rule_legend(run));
+  out += drawn(window, rejected, name + ": rejected matches", "", rule_legend(run));
   return out + "</div>\n</div>\n";
 }
 
@@ -90,6 +90,7 @@ Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& rea
 Result<std::string> maps(const Comparison& c, std::size_t index) {
   const PairFacts& pair = c.pairs[index];
   if (pair.width_px == 0) return std::string();
+  const Window window = window_of(pair, runs_of(c, index));
   Reach reach{pair.least_px, pair.most_px};
   if (pair.truth) reach = reach_of(pair.truth->map);
   else
@@ -99,16 +100,16 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
         break;
       }
   std::string out = "<h3 class=\"topic\">Maps</h3>\n" + legend(c, pair, reach) + "<div class=\"pair\">\n";
-  RELIEVO_TRY_ASSIGN(const Png grey, grey_picture(pair, kWidthPx));
-  out += drawn(pair, grey, "the left view", "Left view", "as the matchers are given it, before any preprocessing");
+  RELIEVO_TRY_ASSIGN(const Png grey, grey_picture(pair, window, kWidthPx));
+  out += drawn(window, grey, "the left view", "Left view", "as the matchers are given it, before any preprocessing");
   if (pair.truth) {
-    RELIEVO_TRY_ASSIGN(const Png truth, disparity_picture(pair.truth->map, reach, kWidthPx));
-    out += drawn(pair, truth, "the true disparities", "Truth", "what every set is judged by");
+    RELIEVO_TRY_ASSIGN(const Png truth, disparity_picture(pair.truth->map, reach, window, kWidthPx));
+    out += drawn(window, truth, "the true disparities", "Truth", "what every set is judged by");
   }
   out += "</div>\n";
   for (const Run* run : runs_of(c, index)) {
     if (run->map.values.empty()) continue;
-    RELIEVO_TRY_ASSIGN(const std::string row, row_of(c, *run, reach));
+    RELIEVO_TRY_ASSIGN(const std::string row, row_of(c, *run, reach, window));
     out += row;
   }
   return out;

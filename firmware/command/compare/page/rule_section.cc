@@ -51,6 +51,7 @@ std::string rules(const Comparison& c, std::size_t pair) {
 }
 
 Result<std::string> selectors(const Comparison& c, std::size_t pair) {
+  const Window window = window_of(c.pairs[pair], runs_of(c, pair));
   std::string rows;
   std::string pictures;
   for (const Run* run : runs_of(c, pair)) {
@@ -59,8 +60,8 @@ Result<std::string> selectors(const Comparison& c, std::size_t pair) {
     rows += "<tr>" + row_head(name_of(c, *run)) + cell(std::to_string(s.left)) + cell(std::to_string(s.right)) +
             cell(figure(s.repeatability ? 100 * *s.repeatability : std::numeric_limits<double>::quiet_NaN(), 1)) + cell(figure(100 * s.match_rate, 1)) +
             cell(percent(run->matches.accepted_bad, run->matches.accepted_judged)) + cell(figure(100 * s.spread, 1)) + "</tr>\n";
-    RELIEVO_TRY_ASSIGN(const Png png, places_picture(c.pairs[pair], s, 480));
-    const double height = 480.0 * c.pairs[pair].height_px / c.pairs[pair].width_px;
+    RELIEVO_TRY_ASSIGN(const Png png, places_picture(c.pairs[pair], s, window, 480));
+    const double height = 480.0 * window.height_px / std::max(1, window.width_px);
     pipeline::report::Drawing d({480, height}, name_of(c, *run) + ": chosen places");
     d.picture({{0, 0}, {480, height}}, png);
     pictures += pipeline::report::figure_of(d.svg(), escaped(name_of(c, *run)), std::to_string(s.left) + " places");

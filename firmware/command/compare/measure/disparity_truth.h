@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "firmware/command/compare/disparity_map.h"
+#include "firmware/command/compare/measure/disparity_map.h"
 #include "firmware/measure/truth_view.h"
 #include "hal/base/result.h"
 #include "pipeline/model/rectified_pair.h"

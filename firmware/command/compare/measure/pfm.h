@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "firmware/command/compare/disparity_map.h"
+#include "firmware/command/compare/measure/disparity_map.h"
 #include "hal/base/result.h"
 
 namespace relievo::firmware::compare {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "firmware/command/compare/disparity_truth.h"
+#include "firmware/command/compare/measure/disparity_truth.h"
 
 namespace relievo::firmware::compare {
 

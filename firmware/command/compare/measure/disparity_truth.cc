@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/compare/disparity_truth.h"
+#include "firmware/command/compare/measure/disparity_truth.h"
 
 #include <algorithm>
 
-#include "firmware/command/compare/pfm.h"
+#include "firmware/command/compare/measure/pfm.h"
 #include "hal/picture_file.h"
 
 namespace relievo::firmware::compare {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/compare/disparity_score.h"
+#include "firmware/command/compare/measure/disparity_score.h"
 
 #include <algorithm>
 
