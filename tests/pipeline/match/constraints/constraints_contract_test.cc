@@ -84,10 +84,12 @@ TEST_P(MatchConstraints, SetOnlyTheirBitAndOnlyOnAcceptedMatches) {
 }
 
 TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
+  Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
+  const std::vector<Match> before = planted.matches;
   for (const int step : {2, 0}) {
     std::vector<Match> first;
     for (const int threads : {1, 2, 3}) {
-      Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
+      planted.matches = before;
       StageBench bench(1 << 20, std::size_t{32} << 20, threads);
       constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, bench.context);
       if (first.empty()) first = planted.matches;

@@ -76,16 +76,16 @@ TEST(WaveletMatcher, IsBlindToExposure) {
 }
 
 TEST(WaveletMatcher, FollowingSeveralCandidatesFindsMoreThanOne) {
-  const BumpScene noisy{.contrast = 6, .noise = 3, .seed = 12};
+  const BumpScene noisy{.width_px = 240, .height_px = 180, .contrast = 6, .noise = 3, .seed = 12};
   const MatchErrors one = measure(WaveletMatcher({.candidates = 1, .min_score = 0}), {.scene = noisy});
   const MatchErrors several = measure(WaveletMatcher({.candidates = 4, .min_score = 0}), {.scene = noisy});
   EXPECT_LT(several.wrong, one.wrong);
 }
 
 TEST(WaveletMatcher, SigmaSaysWhatTheErrorIs) {
-  for (const BumpScene& scene : {BumpScene{.bump_px = 0, .contrast = 8, .noise = 1, .seed = 4},
-                                 BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 20, .noise = 2, .seed = 6},
-                                 BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 6, .noise = 1.5, .seed = 9}}) {
+  for (const BumpScene& scene : {BumpScene{.width_px = 220, .height_px = 160, .bump_px = 0, .contrast = 8, .noise = 1, .seed = 4},
+                                 BumpScene{.width_px = 220, .height_px = 160, .bump_px = 4, .bump_radius_px = 90, .contrast = 20, .noise = 2, .seed = 6},
+                                 BumpScene{.width_px = 220, .height_px = 160, .bump_px = 4, .bump_radius_px = 90, .contrast = 6, .noise = 1.5, .seed = 9}}) {
     const MatchErrors errors = measure(WaveletMatcher({}), {.scene = scene});
     EXPECT_GT(errors.within_sigma, 0.6);
     EXPECT_GT(errors.within_two_sigma, 0.9);
