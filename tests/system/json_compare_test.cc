@@ -89,6 +89,7 @@ TEST_F(Compare, AMatrixOfSetsAsPageAndFigures) {
   EXPECT_EQ(page.error(), "");
   for (const char* outside : {"http", "url(", "@import", "<script", "<b>no rule"}) EXPECT_EQ(html.find(outside), std::string::npos) << outside;
   EXPECT_NE(page.text().find(odd), std::string::npos) << "a name is text";
+  EXPECT_NE(page.text().find("match: "), std::string::npos) << "the page says why a set failed";
   for (const char* never : {"nan", "inf "}) EXPECT_EQ(page.text().find(never), std::string::npos) << never;
 }
 

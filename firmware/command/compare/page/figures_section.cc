@@ -70,7 +70,8 @@ double best_of(const std::vector<const Run*>& runs, const Column& column) {
   return best;
 }
 
-std::string table(const Comparison& c, const std::vector<const Run*>& runs, const std::vector<Column>& columns) {
+// A set of which the columns know nothing says why instead; one that failed later does so below its row.
+std::string table(const Comparison& c, const std::vector<const Run*>& runs, const std::vector<Column>& columns, bool say_failures) {
   std::vector<std::string> titles{"Set"};
   std::vector<double> best;
   for (const Column& column : columns) {
@@ -89,6 +90,7 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs, cons
       out += best_cell(figure(value, columns[i].decimals), value == best[i]);
     }
     out += "</tr>\n";
+    if (say_failures && !nothing && !run->failure.empty()) out += "<tr><th scope=\"row\"></th>" + width + escaped(run->failure) + "</td></tr>\n";
   }
   return out + "</tbody>\n</table>\n</div>\n";
 }
@@ -99,12 +101,13 @@ std::string figures(const Comparison& c, std::size_t pair) {
   const std::vector<const Run*> runs = runs_of(c, pair);
   const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
   std::string out;
-  if (any([](const Run* r) { return r->model.has_value(); }))
-    out += "<h3>The model, against the true surface</h3>\n" + table(c, runs, model_columns()) + "<h3 class=\"topic\">The disparities</h3>\n";
+  const bool models = any([](const Run* r) { return r->model.has_value(); });
+  if (models)
+    out += "<h3>The model, against the true surface</h3>\n" + table(c, runs, model_columns(), false) + "<h3 class=\"topic\">The disparities</h3>\n";
   std::vector<Column> columns;
   if (any([](const Run* r) { return r->score.has_value(); })) columns = disparity_columns(pipeline::report::number(c.limit_px, 2));
   for (Column& column : common_columns()) columns.push_back(std::move(column));
-  return out + table(c, runs, columns);
+  return out + table(c, runs, columns, !models);
 }
 
 }  // namespace relievo::firmware::compare::sections
