@@ -160,7 +160,7 @@ void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& lin
       system.data.row(node.y)[node.x] += static_cast<float>(weight);
       system.rhs.row(node.y)[node.x] += static_cast<float>(weight * beyond.shift[k]);
     }
-    solve(system, kSolverSteps, context.pool, context.scratch, field);
+    solve(system, kSolverSteps, kToTheEnd, context.pool, context.scratch, field);
   }
   motion.seen = true;
   double sum = 0;

@@ -110,7 +110,7 @@ void apply_system(const BendingSystem& s, const Plane<float>& x, bool with_data,
   }
 }
 
-void solve(const BendingSystem& s, int steps, ThreadPool& pool, std::pmr::memory_resource& scratch,
+void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool, std::pmr::memory_resource& scratch,
            Plane<float>& x) {
   const int w = s.width();
   const int h = s.height();
@@ -142,7 +142,7 @@ void solve(const BendingSystem& s, int steps, ThreadPool& pool, std::pmr::memory
   });
   const double start = rz;
   double beta = 0;
-  for (int k = 0; k < steps && rz > 1e-7 * start; ++k) {
+  for (int k = 0; k < steps && rz > tolerance * start; ++k) {
     each([&](int begin, int end) {
       for (int y = begin; y < end; ++y) follow_row(z.row(y), static_cast<float>(beta), p.row(y), w);
       return 0.0;

@@ -33,8 +33,11 @@ constexpr int rolling_floats(int width) { return 10 * width; }
 void apply_system(const BendingSystem& system, const Plane<float>& x, bool with_data, Plane<float>& out,
                   int begin, int end, float* rolling);
 
-// Starts from x = 0 and leaves the solution there.
-void solve(const BendingSystem& system, int steps, ThreadPool& pool, std::pmr::memory_resource& scratch,
-           Plane<float>& x);
+// Starts from x = 0 and leaves the solution there, after so many steps, or as soon as the residual's squared norm
+// (by the preconditioner) has fallen to `tolerance` of what it was.
+void solve(const BendingSystem& system, int steps, double tolerance, ThreadPool& pool,
+           std::pmr::memory_resource& scratch, Plane<float>& x);
+
+inline constexpr double kToTheEnd = 1e-7;  // what single precision gives
 
 }  // namespace relievo::pipeline

@@ -79,7 +79,7 @@ TEST(BendingSystem, SolvesLikeItsDenseTwin) {
   BendingSystem s(&bench.scratch, 13, 11);
   fill(s, 3);
   Plane<float> x(&bench.scratch, 13, 11);
-  solve(s, 400, bench.pool, bench.scratch, x);
+  solve(s, 400, kToTheEnd, bench.pool, bench.scratch, x);
   Eigen::MatrixXd m = dense(s);
   Eigen::VectorXd b(13 * 11);
   for (std::size_t k = 0; k < s.rhs.values.size(); ++k) {

@@ -44,7 +44,7 @@ struct Fitted {
     }
     for (std::size_t k = 0; k < pull.values.size(); ++k) system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
     Plane<float> fit(&bench.output, kSide, kSide);
-    solve(system, 120, bench.context.pool, bench.context.scratch, fit);
+    solve(system, 120, kToTheEnd, bench.context.pool, bench.context.scratch, fit);
     for (std::size_t k = 0; k < pull.values.size(); ++k) pull.values[k] += system.data.values[k] * fit.values[k];
   }
   double mean_excess(StageBench& bench) {
