@@ -136,6 +136,7 @@ constexpr std::array kSuites{
 
 std::vector<std::string_view> suite_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kSuites));
   for (const Suite& suite : kSuites) names.push_back(suite.name);
   return names;
 }

@@ -85,6 +85,7 @@ Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string
     }
     std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<NamedSettings> in_order;
+    in_order.reserve(sets.size());
     for (auto& set : sets) in_order.push_back(std::move(set.second));
     return in_order;
   } catch (const toml::parse_error& error) {

@@ -16,7 +16,8 @@ constexpr Box kPlot{{58, 56}, {408, 334}};
 void axes(Drawing& d, const Axis& x, const Axis& y) {
   const double step = tick_step(y.high, 5);
   const int decimals = tick_decimals(step);
-  for (double value = 0; value <= y.high + 0.01 * step; value += step) {
+  for (int k = 0; k * step <= y.high + 0.01 * step; ++k) {
+    const double value = k * step;
     d.line(value == 0 ? "axis" : "grid", {kPlot.corner.x, y(value)}, {kPlot.right(), y(value)});
     d.text("tick end", {kPlot.corner.x - 8, y(value) + 4.5}, figure(value, decimals));
   }

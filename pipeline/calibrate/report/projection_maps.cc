@@ -56,7 +56,11 @@ void legend(Drawing& d, const Scale& scale, double top) {
     d.filled({{i * kBar.size.width / kSlices, top}, {kBar.size.width / kSlices + 0.5, kBar.size.height}},
              colour((i + 0.5) / kSlices));
   std::vector<double> ticks;
-  for (double px = scale.low; px < scale.high * 1.01; px = rounded_up(px * 1.5)) ticks.push_back(px);
+  double px = scale.low;
+  while (px < scale.high * 1.01) {
+    ticks.push_back(px);
+    px = rounded_up(px * 1.5);
+  }
   // Where 1, 2, 5 would crowd, the powers of ten and the ends are enough.
   const bool all = ticks.size() <= 8;
   for (std::size_t i = 0; i < ticks.size(); ++i) {

@@ -10,8 +10,8 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/pipeline.h"
 
-using namespace relievo;
-using namespace relievo::pipeline;
+using namespace relievo;            // NOLINT(google-build-using-namespace): an example, not a header
+using namespace relievo::pipeline;  // NOLINT(google-build-using-namespace)
 
 Result<FaceMesh> measure(const cv::Mat& left, const cv::Mat& right, const char* rig, StageContext& context) {
   RELIEVO_TRY_ASSIGN(const StereoCalibration calibration, read_calibration(rig));

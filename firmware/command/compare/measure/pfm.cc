@@ -26,7 +26,7 @@ std::string word(std::string_view& text) {
   while (begin < text.size() && std::isspace(static_cast<unsigned char>(text[begin])) != 0) ++begin;
   std::size_t end = begin;
   while (end < text.size() && end - begin < 32 && std::isspace(static_cast<unsigned char>(text[end])) == 0) ++end;
-  const std::string found(text.substr(begin, end - begin));
+  std::string found(text.substr(begin, end - begin));
   text.remove_prefix(std::min(text.size(), end + 1));
   return found;
 }
@@ -46,16 +46,17 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMostBytes));
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string magic = word(rest);
-  const int width = std::atoi(word(rest).c_str());
-  const int height = std::atoi(word(rest).c_str());
+  // What is no number reads as 0, which is no width.
+  const long width = std::strtol(word(rest).c_str(), nullptr, 10);
+  const long height = std::strtol(word(rest).c_str(), nullptr, 10);
   const double scale = std::strtod(word(rest).c_str(), nullptr);
   const bool sane = magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
   if (!sane || rest.size() != 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
     return Error{Errc::InvalidInput, "is no whole PFM of one channel"}.at(file.string());
-  DisparityMap map(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float d = float_of(rest.data() + 4 * map.index(x, height - 1 - y), scale < 0);
+  DisparityMap map(static_cast<int>(width), static_cast<int>(height));
+  for (int y = 0; y < map.height_px; ++y)
+    for (int x = 0; x < map.width_px; ++x) {
+      const float d = float_of(rest.data() + 4 * map.index(x, map.height_px - 1 - y), scale < 0);
       if (std::isfinite(d)) map.values[map.index(x, y)] = d;
     }
   return map;
