@@ -17,22 +17,27 @@ using pipeline::Vec2f;
 using pipeline::Vec3f;
 
 constexpr std::string_view kMagic{"RFACE\0", 6};
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = 6 + 2 + 5 * 4;
-constexpr std::size_t kNumbersBytes = (12 + 7) * 8;
 constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::measured_area_mm2,
                                               &ModelQuality::coverage,
                                               &ModelQuality::width_mm,
                                               &ModelQuality::height_mm,
                                               &ModelQuality::nose_relief_mm,
-                                              &ModelQuality::epipolar_residual_px};
+                                              &ModelQuality::epipolar_residual_px,
+                                              &ModelQuality::texture_sharpness};
+
+// Each version added figures at the end.
+std::size_t quality_figures(std::uint16_t version) { return version < 2 ? 7 : std::size(kQuality); }
 
 // What the header says; everything else follows from it.
 struct Shape {
   std::uint32_t vertices = 0, triangles = 0, width_px = 0, height_px = 0, flags = 0;
+  std::uint16_t version = kVersion;
 
-  enum Flag : std::uint32_t { Normals = 1, Sigma = 2, Measured = 4, Uv = 8, VertexRgb = 16, All = 31 };
+  enum Flag : std::uint32_t { Normals = 1, Sigma = 2, Measured = 4, Uv = 8, VertexRgb = 16, Origin = 32 };
+  std::uint32_t known_flags() const { return version < 2 ? 31 : 63; }
 
   bool has(Flag flag) const { return (flags & flag) != 0; }
   std::size_t count(Flag flag, std::size_t of) const { return has(flag) ? of : 0; }
@@ -40,13 +45,14 @@ struct Shape {
   bool within_limits() const {
     return vertices <= kMaxModelVertices && triangles <= kMaxModelTriangles &&
            width_px <= kMaxTextureSidePx && height_px <= kMaxTextureSidePx &&
-           (flags & ~std::uint32_t{All}) == 0 && (width_px == 0) == (height_px == 0);
+           (flags & ~known_flags()) == 0 && (width_px == 0) == (height_px == 0);
   }
   // Cannot overflow within the limits: at most 0.9 GB.
   std::size_t total_bytes() const {
     const std::size_t v = vertices;
-    return kHeaderBytes + kNumbersBytes + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
-           count(Measured, v) + std::size_t{triangles} * 12 + std::size_t{width_px} * height_px * 3 +
+    const std::size_t texels = std::size_t{width_px} * height_px;
+    return kHeaderBytes + (12 + quality_figures(version)) * 8 + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
+           count(Measured, v) + std::size_t{triangles} * 12 + texels * 3 + count(Origin, texels) +
            count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + sizeof(Sha256);
   }
 };
@@ -78,7 +84,8 @@ Result<Shape> shape_of(const FaceModel& model) {
                            absent_or(mesh.sigma_mm, v, Shape::Sigma, shape) &&
                            absent_or(mesh.measured, v, Shape::Measured, shape) &&
                            absent_or(texture.uv, mesh.triangles.size() * 3, Shape::Uv, shape) &&
-                           absent_or(texture.vertex_rgb, v * 3, Shape::VertexRgb, shape);
+                           absent_or(texture.vertex_rgb, v * 3, Shape::VertexRgb, shape) &&
+                           absent_or(texture.origin, std::size_t{shape.width_px} * shape.height_px, Shape::Origin, shape);
   if (!shape.within_limits()) return Error{Errc::InvalidInput, "the texture is larger than the store takes"};
   if (!lengths_fit || texture.rgb.size() != std::size_t{shape.width_px} * shape.height_px * 3) {
     return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
@@ -96,12 +103,12 @@ void put_numbers(ByteWriter& to, const FaceModel& model) {
   for (const auto member : kQuality) to.put(model.quality.*member);
 }
 
-void get_numbers(ByteReader& from, FaceModel& model) {
+void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
   for (double& value : model.head_from_camera.rotation.m) value = from.get<double>();
   model.head_from_camera.translation_mm.x = from.get<double>();
   model.head_from_camera.translation_mm.y = from.get<double>();
   model.head_from_camera.translation_mm.z = from.get<double>();
-  for (const auto member : kQuality) model.quality.*member = from.get<double>();
+  for (const auto member : std::span(kQuality).first(quality_figures(version))) model.quality.*member = from.get<double>();
 }
 
 template <typename Element, typename Item>
@@ -121,10 +128,11 @@ Result<Shape> read_header(std::span<const std::byte> bytes) {
     return Error{Errc::StoreCorrupt, kNoModel};
   }
   ByteReader from(bytes.subspan(kMagic.size()));
-  if (from.get<std::uint16_t>() != kVersion) {
+  Shape shape;
+  shape.version = from.get<std::uint16_t>();
+  if (shape.version < 1 || shape.version > kVersion) {
     return Error{Errc::StoreNewer, "this face model was stored by a newer version: update Relievo"};
   }
-  Shape shape;
   for (auto* field : {&shape.vertices, &shape.triangles, &shape.width_px, &shape.height_px, &shape.flags}) {
     *field = from.get<std::uint32_t>();
   }
@@ -153,6 +161,7 @@ Result<std::vector<std::byte>> encode_model(const FaceModel& model) {
   put_all<std::uint8_t>(to, model.texture.rgb);
   put_all<float>(to, model.texture.uv);
   put_all<std::uint8_t>(to, model.texture.vertex_rgb);
+  put_all<std::uint8_t>(to, model.texture.origin);
   const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
@@ -166,7 +175,7 @@ Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memor
   }
   ByteReader from(body.subspan(kHeaderBytes));
   FaceModel model(memory);
-  get_numbers(from, model);
+  get_numbers(from, model, shape.version);
   const std::size_t v = shape.vertices;
   const std::size_t corners = std::size_t{shape.triangles} * 3;
   get_all<float>(from, model.mesh.vertices_mm, v);
@@ -177,6 +186,7 @@ Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memor
   get_all<std::uint8_t>(from, model.texture.rgb, std::size_t{shape.width_px} * shape.height_px * 3);
   get_all<float>(from, model.texture.uv, shape.count(Shape::Uv, corners));
   get_all<std::uint8_t>(from, model.texture.vertex_rgb, shape.count(Shape::VertexRgb, v * 3));
+  get_all<std::uint8_t>(from, model.texture.origin, shape.count(Shape::Origin, std::size_t{shape.width_px} * shape.height_px));
   model.texture.width_px = static_cast<int>(shape.width_px);
   model.texture.height_px = static_cast<int>(shape.height_px);
   if (!from.ok() || from.left() != 0 || !indices_fit(model.mesh)) {

@@ -19,6 +19,7 @@ struct ModelQuality {
   double height_mm = 0;
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
   double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
+  double texture_sharpness = 0;     // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
 };
 
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the

@@ -107,7 +107,7 @@ TEST(ModelBlob, RefusesHostileSizesBeforeAllocating) {
 TEST(ModelBlob, RefusesIndicesOutOfRangeUnderARightChecksum) {
   const auto model = sample_model(4);
   auto bytes = encoded(model);
-  const std::size_t triangles_at = 28 + 19 * 8 + 16 * (12 + 12 + 4 + 1);
+  const std::size_t triangles_at = 28 + 20 * 8 + 16 * (12 + 12 + 4 + 1);
   const std::uint32_t index = 16;
   std::memcpy(bytes.data() + triangles_at, &index, 4);
   seal(bytes);
@@ -118,10 +118,25 @@ TEST(ModelBlob, RefusesIndicesOutOfRangeUnderARightChecksum) {
 
 TEST(ModelBlob, SaysThatALaterFormIsNewer) {
   auto bytes = encoded(sample_model(4));
-  bytes[6] = std::byte{2};
+  bytes[6] = std::byte{3};
   const auto back = decode_model(bytes, std::pmr::new_delete_resource());
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, Errc::StoreNewer);
+}
+
+// The first form: seven figures of quality, no word about where a texel's colour comes from.
+TEST(ModelBlob, ReadsTheFirstForm) {
+  auto model = sample_model();
+  model.texture.origin.clear();
+  model.quality.texture_sharpness = 0;
+  auto bytes = encoded(model);
+  bytes[6] = std::byte{1};
+  const auto eighth = bytes.begin() + 28 + 19 * 8;
+  bytes.erase(eighth, eighth + 8);
+  seal(bytes);
+  const auto back = decode_model(bytes, std::pmr::new_delete_resource());
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(identical(model, *back));
 }
 
 TEST(ModelBlob, TakesNoModelThatDoesNotHangTogether) {

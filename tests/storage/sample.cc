@@ -40,6 +40,7 @@ FaceModel sample_model(int side, unsigned seed) {
   model.texture.width_px = 32;
   model.texture.height_px = 16;
   for (int i = 0; i < 32 * 16 * 3; ++i) model.texture.rgb.push_back(static_cast<std::uint8_t>(random()));
+  for (int i = 0; i < 32 * 16; ++i) model.texture.origin.push_back(static_cast<std::uint8_t>(random()));
   const auto corner = [&](int x, int y, bool right_chart) {
     const float s = static_cast<float>(side - 1);
     model.texture.uv.push_back(
@@ -58,7 +59,7 @@ FaceModel sample_model(int side, unsigned seed) {
     }
   }
   model.head_from_camera = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0.1 + seed, 1.0 / 3.0, 600.5}};
-  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05};
+  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7};
   return model;
 }
 
@@ -105,6 +106,7 @@ bool identical(const FaceModel& a, const FaceModel& b) {
          same(a.mesh.sigma_mm, b.mesh.sigma_mm) && same(a.mesh.measured, b.mesh.measured) &&
          same(a.mesh.triangles, b.mesh.triangles) && same(a.texture.rgb, b.texture.rgb) &&
          same(a.texture.uv, b.texture.uv) && same(a.texture.vertex_rgb, b.texture.vertex_rgb) &&
+         same(a.texture.origin, b.texture.origin) &&
          a.texture.width_px == b.texture.width_px && a.texture.height_px == b.texture.height_px &&
          std::memcmp(&a.head_from_camera, &b.head_from_camera, sizeof a.head_from_camera) == 0 &&
          std::memcmp(&a.quality, &b.quality, sizeof a.quality) == 0;

@@ -48,7 +48,8 @@ std::string report_json(const Report& report) {
                     {"width_mm", q.width_mm},
                     {"height_mm", q.height_mm},
                     {"nose_relief_mm", q.nose_relief_mm},
-                    {"epipolar_residual_px", q.epipolar_residual_px}}},
+                    {"epipolar_residual_px", q.epipolar_residual_px},
+                    {"texture_sharpness", q.texture_sharpness}}},
                   {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
                   {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
