@@ -7,6 +7,7 @@
 
 #include "pipeline/mesh/head_frame.h"
 #include "pipeline/mesh/model_quality.h"
+#include "pipeline/texture/texture_sharpness.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -103,6 +104,7 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c, across));
     model.head_from_camera = frame.head_from_camera;
     model.quality = measure_quality(mesh, frame, c);
+    model.quality.texture_sharpness = texture_sharpness(model.texture, c);
     model.mesh = std::move(mesh);
     return model;
   });

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/texture/single_view_texturer.h"
 
-#include "pipeline/texture/chart.h"
-#include "pipeline/texture/photo_sampler.h"
+#include "pipeline/texture/photograph_layer.h"
 
 namespace relievo::pipeline {
 
@@ -18,30 +17,10 @@ Result<void> SingleViewTexturerOptions::check() const {
 Result<TextureAtlas> SingleViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                                  StageContext& context) const {
   RELIEVO_TRY(options_.check());
-  RELIEVO_TRY(check_texture_input(mesh, pair));
-  const Error stopped{Errc::Cancelled, "texturing was stopped"};
-  if (context.stop()) return stopped;
-  const Chart chart = lay_out(mesh, pair, options_.max_atlas_px, options_.margin_px, &context.scratch);
-  const std::pmr::vector<float> front = front_disparity(mesh, chart, &context.scratch);
-  if (context.stop()) return stopped;
-
-  TextureAtlas atlas(&context.output);
-  atlas.width_px = chart.width_px;
-  atlas.height_px = chart.height_px;
-  atlas.rgb.assign(3 * chart.size(), 0);
-  const PhotoSampler left(pair.left, pair.width_px, pair.height_px);
-  for (std::size_t k = 0; k < chart.size(); ++k) {
-    if (front[k] <= kNoSurface) continue;
-    const std::size_t w = static_cast<std::size_t>(chart.width_px);
-    float rgb[3];
-    left.read(chart.left_x(static_cast<float>(k % w)), chart.left_y(static_cast<float>(k / w)), rgb);
-    for (std::size_t i = 0; i < 3; ++i) atlas.rgb[3 * k + i] = to_byte(rgb[i]);
-  }
-  if (context.stop()) return stopped;
-  continue_outwards(chart, front, atlas.rgb);
-  write_uv(mesh, chart, atlas);
-  colour_vertices(chart, atlas);
-  return atlas;
+  LayerOptions layer;
+  layer.chart = {options_.max_atlas_px, options_.margin_px};
+  layer.shot.left_only = true;
+  return lay_photographs(mesh, pair, layer, context);
 }
 
 }  // namespace relievo::pipeline

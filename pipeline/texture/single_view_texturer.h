@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does.
+// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does;
+// what it does not see is filled.
 // Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
 // Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
 // Thread: any; keeps no state.

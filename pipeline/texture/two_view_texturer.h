@@ -3,8 +3,9 @@
 //
 // TwoViewTexturer (`two-view`, the default): both photographs, each where it sees the surface and the
 // more the straighter it looks at it. The right one is first brought to the left one's exposure and
-// white balance (a gain per channel, measured on skin that both see); where one of them is much
-// brighter it holds a highlight and the darker one counts.
+// white balance (exposure_match.h), both to one level where they still differ slowly (level_field.h);
+// where one is brighter in every channel it holds a highlight and the darker one counts (view_blend.h).
+// Surface nobody photographed is filled smoothly and flagged (colour_fill.h).
 // Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
 // Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
 // Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
@@ -20,8 +21,8 @@ struct TwoViewTexturerOptions {
   int margin_px = 8;                 // texels left free around the face
   double angle_power = 4;            // weight of a view: cosine of its angle of incidence to this power
   double occlusion_px = 1.5;         // disparity by which something in front hides a point from the right view
-  int feather_passes = 6;            // how far, in mesh edges, one view fades into the other; 0 to 32
-  double highlight_level = 24;       // grey levels by which the brighter view loses its say; 0 keeps both
+  double feather_px = 6;             // pixels over which a view fades towards an occlusion
+  double highlight_level = 12;       // grey levels by which the brighter view loses its say; 0 keeps both
 
   Result<void> check() const;
 };
@@ -32,7 +33,7 @@ void describe(TwoViewTexturerOptions& o, Field&& field) {
   field("margin_px", o.margin_px, OptionRange{0, 256}, "texels left free around the face");
   field("angle_power", o.angle_power, OptionRange{0, 64}, "weight of a view: cosine of its angle of incidence to this power");
   field("occlusion_px", o.occlusion_px, OptionRange{0, 64}, "disparity by which something in front hides a point from the right view");
-  field("feather_passes", o.feather_passes, OptionRange{0, 32}, "how far, in mesh edges, one view fades into the other");
+  field("feather_px", o.feather_px, OptionRange{0, 32}, "pixels over which a view fades towards an occlusion");
   field("highlight_level", o.highlight_level, OptionRange{0, 255}, "grey levels by which the brighter view loses its say");
 }
 

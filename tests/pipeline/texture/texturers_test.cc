@@ -4,6 +4,7 @@
 // A painted surface photographed by both views, so that the right colour of every vertex is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -85,10 +86,19 @@ std::unique_ptr<Texturer> make(const std::string& name) {
 
 // What a renderer would show at a corner.
 Vec3d look_up(const TextureAtlas& atlas, const Vec2f& uv) {
-  const int x = static_cast<int>(std::floor(uv.x * static_cast<float>(atlas.width_px)));
-  const int y = static_cast<int>(std::floor(uv.y * static_cast<float>(atlas.height_px)));
-  const std::size_t k = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas.width_px) + static_cast<std::size_t>(x));
-  return {double(atlas.rgb[k]), double(atlas.rgb[k + 1]), double(atlas.rgb[k + 2])};
+  const double x = double(uv.x) * atlas.width_px - 0.5;
+  const double y = double(uv.y) * atlas.height_px - 0.5;
+  const int u = static_cast<int>(std::floor(x));
+  const int v = static_cast<int>(std::floor(y));
+  double sum[3] = {0, 0, 0};
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const double w = (dx == 0 ? 1 - (x - u) : x - u) * (dy == 0 ? 1 - (y - v) : y - v);
+      const auto column = static_cast<std::size_t>(std::clamp(u + dx, 0, atlas.width_px - 1));
+      const auto row = static_cast<std::size_t>(std::clamp(v + dy, 0, atlas.height_px - 1));
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += w * atlas.rgb[3 * (row * static_cast<std::size_t>(atlas.width_px) + column) + c];
+    }
+  return {sum[0], sum[1], sum[2]};
 }
 
 class TexturerContract : public testing::TestWithParam<std::string> {
@@ -114,9 +124,11 @@ TEST_P(TexturerContract, EveryCornerShowsThePaint) {
       const Vec3f& p = mesh.vertices_mm[mesh.triangles[t][k]];
       const Vec3d truth = paint(double(p.x), double(p.y));
       const Vec3d seen = look_up(*atlas, uv);
-      EXPECT_NEAR(seen.x, truth.x, 3);
-      EXPECT_NEAR(seen.y, truth.y, 3);
-      EXPECT_NEAR(seen.z, truth.z, 3);
+      // At the outline the filter mixes in texels beyond, whose colours come from two texels inside.
+      const double allowed = std::abs(p.x) > 132 || std::abs(p.y) > 90 ? 8 : 3;
+      EXPECT_NEAR(seen.x, truth.x, allowed) << p.x << " " << p.y;
+      EXPECT_NEAR(seen.y, truth.y, allowed);
+      EXPECT_NEAR(seen.z, truth.z, allowed);
     }
   for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
     EXPECT_NEAR(double(atlas->vertex_rgb[3 * v]), paint(double(mesh.vertices_mm[v].x), 0).x, 3);
@@ -178,9 +190,9 @@ TEST_P(TexturerContract, TinyArenaIsAnError) {
   const RectifiedPair pair = photographed_plane();
   StageRoom roomy;
   ASSERT_TRUE(texture(mesh, pair, roomy));
-  for (std::size_t step = 0; step < 24; ++step) {
-    StageRoom small_output(roomy.output.high_water() * step / 24, roomy.scratch.high_water());
-    StageRoom small_scratch(roomy.output.high_water(), roomy.scratch.high_water() * step / 24);
+  for (std::size_t step = 0; step < 12; ++step) {
+    StageRoom small_output(roomy.output.high_water() * step / 12, roomy.scratch.high_water());
+    StageRoom small_scratch(roomy.output.high_water(), roomy.scratch.high_water() * step / 12);
     for (StageRoom* room : {&small_output, &small_scratch}) {
       const auto result = texture(mesh, pair, *room);
       ASSERT_FALSE(result);
@@ -189,22 +201,160 @@ TEST_P(TexturerContract, TinyArenaIsAnError) {
   }
 }
 
-TEST_P(TexturerContract, CancelledAndSameTwice) {
-  const FaceMesh mesh = plane_mesh();
-  const RectifiedPair pair = photographed_plane();
-  StageRoom first, second;
-  const auto a = texture(mesh, pair, first);
-  const auto b = texture(mesh, pair, second);
-  ASSERT_TRUE(a && b);
-  EXPECT_TRUE(a->rgb == b->rgb);
-  first.cancelled = true;
-  const auto cancelled = texture(mesh, pair, first);
+TEST_P(TexturerContract, Cancelled) {
+  StageRoom room;
+  room.cancelled = true;
+  const auto cancelled = texture(plane_mesh(), photographed_plane(), room);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().code, Errc::Cancelled);
 }
 
+TEST_P(TexturerContract, TheSameTwiceAndForAnyNumberOfThreads) {
+  const FaceMesh mesh = plane_mesh();
+  const RectifiedPair pair = photographed_plane(0.8);
+  StageRoom first;
+  const auto a = texture(mesh, pair, first);
+  ASSERT_TRUE(a);
+  for (const int threads : {1, 2, 3}) {
+    StageRoom room;
+    ThreadPool pool(threads);
+    StageContext context{room.output, room.scratch, pool, room.progress, room.cancelled};
+    const auto b = run_stage(context, [&](StageContext& c) { return make(GetParam())->texture(mesh, pair, c); });
+    ASSERT_TRUE(b);
+    EXPECT_TRUE(a->rgb == b->rgb && a->origin == b->origin && a->vertex_rgb == b->vertex_rgb) << threads;
+  }
+}
+
+// A cross is painted on what the mesh says was not measured: it must not be shown.
+TEST_P(TexturerContract, NothingInventedIsShownAsPhotograph) {
+  FaceMesh mesh = plane_mesh();
+  RectifiedPair pair = photographed([](double, double) { return kDepth; });
+  const auto inside = [](double x, double y) { return std::abs(x) < 25 && std::abs(y) < 25; };
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
+    if (inside(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y))) mesh.measured[v] = 0;
+  const auto smear = [&](RectifiedView& view, const Vec2d& centre, double camera_x) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
+        const double at_y = (y - centre.y) / kFocal * kDepth;
+        if (std::abs(at_x) > 20 || std::abs(at_y) > 20) continue;
+        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)];
+        p[0] = 255, p[1] = 0, p[2] = 0;
+      }
+  };
+  smear(pair.left, pair.left_centre_px, 0);
+  smear(pair.right, pair.right_centre_px, kBaseline);
+  StageRoom room;
+  const auto atlas = texture(mesh, pair, room);
+  ASSERT_TRUE(atlas);
+  ASSERT_EQ(atlas->origin.size() * 3, atlas->rgb.size());
+  std::size_t filled = 0;
+  for (std::size_t k = 0; k < atlas->origin.size(); ++k) {
+    EXPECT_GT(atlas->rgb[3 * k + 1], 50) << "the cross is nowhere in the atlas";
+    filled += atlas->origin[k] == kFilledTexel ? 1 : 0;
+  }
+  EXPECT_GT(filled, 3000u);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec2f* uv = &atlas->uv[3 * t];
+    const int x = static_cast<int>((uv[0].x + uv[1].x + uv[2].x) / 3 * static_cast<float>(atlas->width_px));
+    const int y = static_cast<int>((uv[0].y + uv[1].y + uv[2].y) / 3 * static_cast<float>(atlas->height_px));
+    const std::uint8_t origin = atlas->origin[static_cast<std::size_t>(y * atlas->width_px + x)];
+    const auto& v = mesh.triangles[t];
+    if (mesh.measured[v[0]] == 0 || mesh.measured[v[1]] == 0 || mesh.measured[v[2]] == 0) EXPECT_EQ(origin, kFilledTexel);
+    else EXPECT_GE(origin, kLeftPhotographTexel);
+  }
+  // Smooth: no neighbour inside differs by more than the paint's own slope at the border allows.
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = t[i], b = t[(i + 1) % 3];
+      if (mesh.measured[a] != 0 || mesh.measured[b] != 0) continue;
+      EXPECT_LT(std::abs(int{atlas->vertex_rgb[3 * a + 1]} - int{atlas->vertex_rgb[3 * b + 1]}), 30);
+    }
+}
+
+// A second plane 40 mm behind, seen from its back: no camera measured it, and no texel is shared with the front.
+TEST_P(TexturerContract, WhatTurnsAwayHasTexelsOfItsOwn) {
+  FaceMesh mesh = plane_mesh();
+  const auto n = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+  const std::size_t front_triangles = mesh.triangles.size();
+  for (std::uint32_t v = 0; v < n; ++v) {
+    Vec3f at = mesh.vertices_mm[v];
+    at.z += 40;
+    mesh.vertices_mm.push_back(at);
+    mesh.normals.push_back({0, 0, 1});
+    mesh.sigma_mm.push_back(1);
+    mesh.measured.push_back(0);
+  }
+  for (std::size_t t = 0; t < front_triangles; ++t) {
+    const auto front = mesh.triangles[t];
+    mesh.triangles.push_back({front[0] + n, front[2] + n, front[1] + n});
+  }
+  StageRoom room;
+  const auto atlas = texture(mesh, photographed_plane(), room);
+  ASSERT_TRUE(atlas);
+  EXPECT_LE(std::max(atlas->width_px, atlas->height_px), 2048);
+  float front_right = 0;
+  for (std::size_t c = 0; c < 3 * front_triangles; ++c) front_right = std::max(front_right, atlas->uv[c].x);
+  for (std::size_t c = 3 * front_triangles; c < atlas->uv.size(); ++c) {
+    const Vec2f uv = atlas->uv[c];
+    ASSERT_TRUE(uv.x > front_right && uv.x < 1 && uv.y > 0 && uv.y < 1);
+    const int x = static_cast<int>(uv.x * static_cast<float>(atlas->width_px));
+    const int y = static_cast<int>(uv.y * static_cast<float>(atlas->height_px));
+    EXPECT_LE(atlas->origin[static_cast<std::size_t>(y * atlas->width_px + x)], kFilledTexel);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, TexturerContract, testing::Values("single-view", "two-view"),
                          [](const auto& test_case) { return test_case.param == "two-view" ? "two" : "single"; });
+
+// An offset and a gain of its own in each channel of the right view.
+TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
+  StageRoom room;
+  const FaceMesh mesh = plane_mesh();
+  RectifiedPair pair = photographed_plane();
+  constexpr double kGain[3] = {0.8, 0.9, 0.7}, kOffset[3] = {12, -8, 20};
+  for (std::size_t k = 0; k < pair.right.rgb.size(); ++k)
+    pair.right.rgb[k] = static_cast<std::uint8_t>(std::lround(kGain[k % 3] * pair.right.rgb[k] + kOffset[k % 3]));
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3d truth = paint(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y));
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v]), truth.x, 4);
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v + 1]), truth.y, 4);
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v + 2]), truth.z, 4);
+  }
+}
+
+// White light added to one view alone is no skin; added to both it may be.
+TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
+  const FaceMesh mesh = plane_mesh();
+  const auto shine = [](RectifiedView& view, const Vec2d& centre, double camera_x, double at_x) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double dx = camera_x + (x - centre.x) / kFocal * kDepth - at_x;
+        const double dy = (y - centre.y) / kFocal * kDepth;
+        const double light = 70 * std::exp(-(dx * dx + dy * dy) / (2 * 5.0 * 5.0));
+        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)];
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::min(255.0, p[c] + light));
+      }
+  };
+  RectifiedPair pair = photographed_plane();
+  shine(pair.left, pair.left_centre_px, 0, -20);   // in the left view alone
+  shine(pair.left, pair.left_centre_px, 0, 20);
+  shine(pair.right, pair.right_centre_px, kBaseline, 20);
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  double worst_alone = 0, kept = 0;
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& p = mesh.vertices_mm[v];
+    const double excess = double(atlas->vertex_rgb[3 * v + 1]) - paint(double(p.x), double(p.y)).y;
+    if (std::hypot(p.x + 20, p.y) < 15) worst_alone = std::max(worst_alone, excess);
+    if (std::hypot(p.x - 20, p.y) < 1.7F) kept = std::max(kept, excess);
+  }
+  EXPECT_LT(worst_alone, 12) << "half of what the level lets pass";
+  EXPECT_GT(kept, 55);
+}
 
 TEST(TwoViewTexturer, AnUnderexposedRightViewLeavesNoTrace) {
   StageRoom room;

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/texture/blend/level_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+
+LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                       std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory)
+    : columns_((chart.width_px + kLevelCell - 1) / kLevelCell), rows_((chart.height_px + kLevelCell - 1) / kLevelCell),
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Cell{}, memory) {
+  constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
+  for (int y = 0; y < chart.height_px; ++y)
+    for (int x = 0; x < chart.width_px; ++x) {
+      const std::size_t k = chart.index(x, y);
+      if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
+      Level d;
+      for (std::size_t c = 0; c < 3; ++c) d[c] = exposure.matched(c, planes.right[3 * k + c]) - static_cast<float>(planes.left[3 * k + c]);
+      if (std::abs(d[1]) > kFarthest) continue;
+      Cell& to = cells_[static_cast<std::size_t>(y / kLevelCell) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x / kLevelCell)];
+      for (std::size_t c = 0; c < 3; ++c) to.sum[c] += d[c];
+      to.weight += 1;
+    }
+  smooth(memory);
+  extend(memory);
+}
+
+// Weighted means with the neighbours (binomial, twice): normalised convolution.
+void LevelField::smooth(std::pmr::memory_resource* memory) {
+  std::pmr::vector<Cell> next(cells_.size(), Cell{}, memory);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int y = 0; y < rows_; ++y)
+      for (int x = 0; x < columns_; ++x) {
+        Cell sum;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            if (x + dx < 0 || y + dy < 0 || x + dx >= columns_ || y + dy >= rows_) continue;
+            const float w = (dx == 0 ? 2.0F : 1.0F) * (dy == 0 ? 2.0F : 1.0F) / 16;
+            const Cell& from = cell(x + dx, y + dy);
+            for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += w * from.sum[c];
+            sum.weight += w * from.weight;
+          }
+        next[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)] = sum;
+      }
+    std::swap(cells_, next);
+  }
+}
+
+// Cells nobody knows take the mean of what is known in ever larger squares around them; a few grey
+// levels of evidence count as known, so that a cell at the border is not its one texel's slave.
+void LevelField::extend(std::pmr::memory_resource* memory) {
+  constexpr float kEnough = 32;  // texels
+  const auto mean_of = [](const Cell& c) {
+    return Cell{{c.sum[0] / c.weight, c.sum[1] / c.weight, c.sum[2] / c.weight}, 1};
+  };
+  const std::pmr::vector<Cell> known(cells_, memory);
+  const int largest = std::max(columns_, rows_);
+  for (int y = 0; y < rows_; ++y)
+    for (int x = 0; x < columns_; ++x) {
+      Cell& here = cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
+      Cell sum = here;
+      for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
+        sum = {};
+        for (int v = std::max(0, y - radius); v <= std::min(rows_ - 1, y + radius); ++v)
+          for (int u = std::max(0, x - radius); u <= std::min(columns_ - 1, x + radius); ++u) {
+            const Cell& from = known[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(u)];
+            for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += from.sum[c];
+            sum.weight += from.weight;
+          }
+      }
+      here = sum.weight > 0 ? mean_of(sum) : Cell{};
+    }
+}
+
+LevelField::Level LevelField::at(float texel_x, float texel_y) const {
+  const float x = std::clamp((texel_x + 0.5F) / kLevelCell - 0.5F, 0.0F, static_cast<float>(columns_ - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kLevelCell - 0.5F, 0.0F, static_cast<float>(rows_ - 1));
+  const int u = std::min(static_cast<int>(x), std::max(0, columns_ - 2));
+  const int v = std::min(static_cast<int>(y), std::max(0, rows_ - 2));
+  const int u1 = std::min(u + 1, columns_ - 1);
+  const int v1 = std::min(v + 1, rows_ - 1);
+  const float fx = x - static_cast<float>(u);
+  const float fy = y - static_cast<float>(v);
+  Level level;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float upper = cell(u, v).sum[c] + fx * (cell(u1, v).sum[c] - cell(u, v).sum[c]);
+    const float lower = cell(u, v1).sum[c] + fx * (cell(u1, v1).sum[c] - cell(u, v1).sum[c]);
+    level[c] = upper + fy * (lower - upper);
+  }
+  return level;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// LevelField: by how much the (exposure-matched) right photograph is brighter than the left one, channel
+// by channel, slowly varying over the face. Known where both see the surface, continued smoothly to
+// where one alone does. Half added here and half taken off there makes both photographs agree in their
+// low band, so that no seam is left wherever one gives way to the other: the low band of Burt and
+// Adelson (A multiresolution spline with application to image mosaics, ACM TOG 1983), continued as
+// Lempitsky and Ivanov continue their seam levelling (Seamless mosaicing of image-based texture maps,
+// CVPR 2007).
+#pragma once
+
+#include <array>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "pipeline/texture/blend/exposure_match.h"
+
+namespace relievo::pipeline {
+
+inline constexpr int kLevelCell = 16;  // texels a cell and side
+
+class LevelField {
+ public:
+  using Level = std::array<float, 3>;
+  // `shines`: one a texel, 1 where a highlight makes the views incomparable.
+  LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure, std::span<const std::uint8_t> shines,
+             std::pmr::memory_resource* memory);
+  Level at(float texel_x, float texel_y) const;
+
+ private:
+  struct Cell { Level sum{0, 0, 0}; float weight = 0; };
+  const Cell& cell(int x, int y) const { return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]; }
+  void smooth(std::pmr::memory_resource* memory);
+  void extend(std::pmr::memory_resource* memory);
+  int columns_, rows_;
+  std::pmr::vector<Cell> cells_;
+};
+
+}  // namespace relievo::pipeline

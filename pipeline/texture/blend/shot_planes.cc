@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/texture/blend/shot_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/texture/chart/box_window.h"
+#include "pipeline/texture/blend/photo_sampler.h"
+
+namespace relievo::pipeline {
+namespace {
+
+float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) {
+  const Vec3f d{camera.x - at.x, camera.y - at.y, camera.z - at.z};
+  const float length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  return length > 0 ? std::max(0.0F, (d.x * normal.x + d.y * normal.y + d.z * normal.z) / length) : 0;
+}
+
+bool covered(const RectifiedView& view, const RectifiedPair& pair, float x, float y) {
+  const int column = static_cast<int>(std::lround(x));
+  const int row = static_cast<int>(std::lround(y));
+  if (column < 0 || row < 0 || column >= pair.width_px || row >= pair.height_px) return false;
+  return view.valid.empty() || view.valid[static_cast<std::size_t>(row) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(column)] != 0;
+}
+
+// Everything a band of rows needs; one reference fits into the pool's callable without an allocation.
+struct Shooting {
+  const FaceMesh& mesh;
+  const RectifiedPair& pair;
+  const Chart& chart;
+  const RowBands& bands;
+  std::span<const FrontMap> maps;  // middle, left, right
+  const VertexViews& views;
+  std::span<const std::uint8_t> kept;
+  const ShotOptions& options;
+  ShotPlanes& planes;
+  std::span<float> rows;           // two picture rows a band
+  std::span<BoxSum> columns;       // one chart row a band
+  StageContext& context;
+
+  PhotoRow row_of(const RectifiedView& view, int band, int which) const {
+    const FrontMap& map = maps[which == 0 ? 1 : 2];
+    const float first = chart.view_x(map.shift, 0, 0);  // its columns are shifted by the disparity already
+    const int from = static_cast<int>(first) - 4;
+    const int to = static_cast<int>(first + static_cast<float>(map.width_px) / map.scale) + 4;
+    const std::size_t size = 3 * static_cast<std::size_t>(pair.width_px);
+    return {view, pair.width_px, pair.height_px, from, to, rows.subspan((2 * static_cast<std::size_t>(band) + static_cast<std::size_t>(which)) * size, size)};
+  }
+
+  void shoot_band(int band) const {
+    PhotoRow left = row_of(pair.left, band, 0);
+    PhotoRow right = row_of(pair.right, band, 1);
+    const RowRange range = bands.rows(band);
+    for (int y = range.begin; y < range.end && !context.stop(); ++y) {
+      left.move_to(chart.view_y(static_cast<float>(y)));
+      if (!options.left_only) right.move_to(chart.view_y(static_cast<float>(y)));
+      for (int x = 0; x < chart.width_px; ++x) {
+        const std::size_t k = chart.index(x, y);
+        const std::uint32_t owner = maps[0].owner[k];
+        if (owner != kNoTriangle && kept[owner] != 0) shoot_texel(k, x, y, mesh.triangles[owner], left, right);
+      }
+    }
+  }
+
+  void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left, const PhotoRow& right) const {
+    const Vec2f at{static_cast<float>(x), static_cast<float>(y)};
+    const float disparity = maps[0].nearest[k];
+    std::uint8_t seen = kSurface;
+    float rgb[3];
+    const float row = chart.view_y(at.y);
+    const float left_x = chart.view_x(at.x, disparity, kLeftSide);
+    left.read(left_x, rgb);
+    for (std::size_t i = 0; i < 3; ++i) planes.left[3 * k + i] = to_byte(rgb[i]);
+    if (covered(pair.left, pair, left_x, row) && maps[1].sees(at, disparity, options.occlusion_px)) seen |= kSeenLeft;
+    if (!options.left_only) {
+      const float right_x = chart.view_x(at.x, disparity, kRightSide);
+      right.read(right_x, rgb);
+      for (std::size_t i = 0; i < 3; ++i) planes.right[3 * k + i] = to_byte(rgb[i]);
+      if (covered(pair.right, pair, right_x, row) && maps[2].sees(at, disparity, options.occlusion_px)) seen |= kSeenRight;
+    }
+    planes.seen[k] = seen;
+    planes.share[k] = to_byte(255 * share_at(at, t));
+  }
+
+  float share_at(const Vec2f& at, const std::array<std::uint32_t, 3>& t) const {
+    const Vec2f& a = chart.texel[t[0]];
+    const Vec2f& b = chart.texel[t[1]];
+    const Vec2f& c = chart.texel[t[2]];
+    const float to_unit = 1 / signed_area(chart, t);
+    const float wb = ((at.x - a.x) * (c.y - a.y) - (at.y - a.y) * (c.x - a.x)) * to_unit;
+    const float wc = ((b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x)) * to_unit;
+    return (1 - wb - wc) * views.share[t[0]] + wb * views.share[t[1]] + wc * views.share[t[2]];
+  }
+
+  // A view has its full say where all of the window around is seen by it, and none where more than a
+  // tenth is not: a photograph mixes front and back on the last pixels before an occlusion.
+  void feather_band(int band) const {
+    const int radius = std::max(1, static_cast<int>(std::lround(options.feather_px * static_cast<float>(chart.texels_per_px))));
+    const auto blind = [&](int x, int y) {
+      const std::uint8_t seen = planes.seen[chart.index(x, y)];
+      if ((seen & kSurface) == 0) return BoxSum{};
+      return BoxSum{(seen & kSeenLeft) == 0 ? 1 : 0, (seen & kSeenRight) == 0 ? 1 : 0};
+    };
+    const float area = static_cast<float>((2 * radius + 1) * (2 * radius + 1));
+    const auto say = [area](int blind_texels) { return to_byte(255 * (1 - 2.5F * static_cast<float>(blind_texels) / area)); };
+    const std::size_t width = static_cast<std::size_t>(chart.width_px);
+    slide_box(chart.width_px, chart.height_px, radius, bands.rows(band), columns.subspan(static_cast<std::size_t>(band) * width, width), blind,
+              [&](int x, int y, const BoxSum& sum) {
+                const std::size_t k = chart.index(x, y);
+                planes.say_left[k] = (planes.seen[k] & kSeenLeft) != 0 ? say(sum.first) : std::uint8_t{0};
+                planes.say_right[k] = (planes.seen[k] & kSeenRight) != 0 ? say(sum.second) : std::uint8_t{0};
+              });
+  }
+};
+
+}  // namespace
+
+VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const FrontMap& left,
+                             const FrontMap& right, const ShotOptions& options, std::pmr::memory_resource* memory) {
+  const std::size_t n = mesh.vertices_mm.size();
+  const Vec3d c = inverse(pair.right_from_left).translation_mm;
+  const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+  VertexViews views(memory);
+  views.share.resize(n);
+  views.seen.resize(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (chart.placed[v] != 0) {
+      if (left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenLeft;
+      if (!options.left_only && right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenRight;
+    }
+    if (options.left_only) continue;
+    const float l = std::pow(cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]), options.angle_power);
+    const float r = std::pow(cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]), options.angle_power);
+    views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
+  }
+  return views;
+}
+
+ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const RowBands& bands,
+                 std::span<const FrontMap> maps, const VertexViews& views, std::span<const std::uint8_t> kept,
+                 const ShotOptions& options, StageContext& context) {
+  ShotPlanes planes(chart.size(), &context.scratch);
+  const std::size_t band_count = static_cast<std::size_t>(bands.count());
+  std::pmr::vector<float> rows(band_count * 6 * static_cast<std::size_t>(pair.width_px), 0.0F, &context.scratch);
+  std::pmr::vector<BoxSum> columns(band_count * static_cast<std::size_t>(chart.width_px), BoxSum{}, &context.scratch);
+  Shooting shooting{mesh, pair, chart, bands, maps, views, kept, options, planes, rows, columns, context};
+  context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
+    for (int band = begin; band < end; ++band) shooting.shoot_band(band);
+  });
+  context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
+    for (int band = begin; band < end && !shooting.context.stop(); ++band) shooting.feather_band(band);
+  });
+  return planes;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What each photograph shows in every texel of the chart, and how well it looks at it.
+// Cosine weights after Debevec, Taylor, Malik: "Modeling and rendering architecture from photographs",
+// SIGGRAPH 1996; a view's say fades before an occlusion begins (feathering).
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/stage.h"
+#include "pipeline/texture/chart/raster.h"
+
+namespace relievo::pipeline {
+
+struct ShotOptions {
+  float angle_power = 4;      // weight of a view: cosine of its angle of incidence to this power
+  float occlusion_px = 1.5F;  // disparity by which something in front hides a point
+  float feather_px = 6;       // pixels over which a view's say fades towards an occlusion
+  bool left_only = false;     // the right photograph has no say at all
+};
+
+inline constexpr std::uint8_t kSeenLeft = 1, kSeenRight = 2, kSurface = 4;
+
+// What is known of the vertices before any texel is looked at.
+struct VertexViews {
+  explicit VertexViews(std::pmr::memory_resource* memory) : share(memory), seen(memory) {}
+  std::pmr::vector<float> share;        // of the right view by the angles alone, 0 to 1
+  std::pmr::vector<std::uint8_t> seen;  // kSeenLeft | kSeenRight
+};
+VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const FrontMap& left,
+                             const FrontMap& right, const ShotOptions& options, std::pmr::memory_resource* memory);
+
+struct ShotPlanes {
+  ShotPlanes(std::size_t texels, std::pmr::memory_resource* memory)
+      : left(3 * texels, 0, memory), right(3 * texels, 0, memory), seen(texels, 0, memory), share(texels, 0, memory),
+        say_left(texels, 0, memory), say_right(texels, 0, memory) {}
+  std::pmr::vector<std::uint8_t> left, right;          // 3 a texel
+  std::pmr::vector<std::uint8_t> seen;                 // kSeenLeft | kSeenRight | kSurface
+  std::pmr::vector<std::uint8_t> share;                // of the right view by the angles alone, 0 to 255
+  std::pmr::vector<std::uint8_t> say_left, say_right;  // 255 where the view sees it, 0 near what hides it
+};
+
+// `kept`: one a triangle, 1 where the chart is its place. maps: middle, left, right.
+ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const RowBands& bands,
+                 std::span<const FrontMap> maps, const VertexViews& views, std::span<const std::uint8_t> kept,
+                 const ShotOptions& options, StageContext& context);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel, after the exposures
+// are matched, it shows light mirrored towards that camera (Shafer's dichromatic model, 1985: a
+// mirrored light adds the lamp's colour), and the darker one is the skin.
+// Thread: prepared by one, then mix() by any number.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pipeline/texture/blend/exposure_match.h"
+#include "pipeline/texture/blend/level_field.h"
+#include "pipeline/texture/blend/shot_planes.h"
+
+namespace relievo::pipeline {
+
+class ViewBlend {
+ public:
+  // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both.
+  ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, StageContext& context);
+
+  struct Colour { float rgb[3]; float share; };  // share of the right photograph in it
+  // Where a photograph shows the surface: say_* 0 to 255, `excess` how much brighter the left one is.
+  struct Views { const std::uint8_t* left; const std::uint8_t* right; float share; std::uint8_t say_left, say_right, seen; float excess; };
+  Colour mix(const Views& views, float texel_x, float texel_y) const;
+  Colour mix(std::size_t k, int x, int y) const;  // of a texel of the chart
+
+  const ExposureMatch& exposure() const { return exposure_; }
+  // How much the left colour exceeds the matched right one in the channel where it does least; signed.
+  float excess_of(const std::uint8_t* left, const std::uint8_t* right) const;
+
+ private:
+  void find_highlights(const RowBands& bands, StageContext& context);
+  const Chart& chart_;
+  const ShotPlanes& planes_;
+  ExposureMatch exposure_;
+  float level_ = 0;                      // 0: highlights are kept
+  std::pmr::vector<std::int16_t> excess_; // sixteenths of a grey level, smoothed
+  std::pmr::vector<std::uint8_t> shines_;
+  std::optional<LevelField> field_;
+};
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Chart: the face laid flat, as a view half way between the cameras would see it. What both cameras
+// saw is one piece there and turns away from neither. Rows are the rectified rows; a point stands at
+// the mean of its two columns, so each photograph is half a disparity away, and on a plane triangle
+// disparity is affine: no perspective is needed.
+//
+// Texels: (0, 0) is the centre of the upper left texel. Thread: any. Throw std::bad_alloc.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::pipeline {
+
+struct ChartOptions {
+  int max_px = 2048;   // widest and highest
+  int margin_px = 8;   // texels left free around the face
+};
+
+struct Chart {
+  explicit Chart(std::pmr::memory_resource* memory) : texel(memory), disparity_px(memory), placed(memory) {}
+  int width_px = 0;
+  int height_px = 0;
+  double texels_per_px = 1;              // of the photographs
+  Vec2d origin_px;                       // where texel (0, 0) lies in the middle view
+  std::pmr::vector<Vec2f> texel;         // one a vertex
+  std::pmr::vector<float> disparity_px;  // one a vertex
+  std::pmr::vector<std::uint8_t> placed; // one a vertex: 1 where it lies within the chart
+
+  std::size_t size() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
+  }
+  bool placed_all(const std::array<std::uint32_t, 3>& t) const {
+    return placed[t[0]] != 0 && placed[t[1]] != 0 && placed[t[2]] != 0;
+  }
+  // Of a photograph, where the surface has this disparity. side: kLeftSide or kRightSide.
+  float view_x(float texel_x, float disparity, float side) const {
+    return static_cast<float>(origin_px.x) + texel_x / static_cast<float>(texels_per_px) + side * disparity;
+  }
+  float view_y(float texel_y) const {
+    return static_cast<float>(origin_px.y) + texel_y / static_cast<float>(texels_per_px);
+  }
+};
+
+inline constexpr float kLeftSide = 0.5F;    // of a disparity, from the middle view's column
+inline constexpr float kRightSide = -0.5F;
+
+// What no texturer can work with: InvalidInput.
+Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
+
+// As fine as the better photograph on 95 % of the measured surface, and never finer; coarser where
+// `max_px` asks for it. Its frame is that of the measured vertices both windows can see.
+Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
+              std::pmr::memory_resource* memory);
+
+// Negative where the triangle faces the cameras, in square texels (twice the area).
+inline float signed_area(const Chart& chart, const std::array<std::uint32_t, 3>& t) {
+  const Vec2f& a = chart.texel[t[0]];
+  const Vec2f& b = chart.texel[t[1]];
+  const Vec2f& c = chart.texel[t[2]];
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+}  // namespace relievo::pipeline

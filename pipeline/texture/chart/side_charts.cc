@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/texture/chart/side_charts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kSameWay = 0.5F;          // cosine: a chart's triangles face within 60 degrees of its first
+constexpr float kPaddingPx = 2;
+constexpr double kFilledPxPerMm = 1;
+
+struct Piece { std::uint32_t first, count; float width, height, x, y; };  // of a chart; x and y: its place
+
+Vec3f normal_of(const FaceMesh& mesh, std::uint32_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  const Vec3f& a = mesh.vertices_mm[t[0]];
+  return mesh::unit(mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], a), mesh::minus(mesh.vertices_mm[t[2]], a)));
+}
+
+class Builder {
+ public:
+  Builder(const FaceMesh& mesh, std::span<const std::uint8_t> kept, std::span<const std::uint8_t> photographed, std::pmr::memory_resource* memory)
+      : mesh_(mesh), kept_(kept), photographed_(photographed), first_(mesh.vertices_mm.size() + 1, 0, memory), around_(memory),
+        taken_(kept.begin(), kept.end(), memory), pieces_(memory) {
+    const auto for_each_side = [&](auto&& visit) {
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (kept[t] == 0) visit(t);
+    };
+    for_each_side([&](std::uint32_t t) { for (const std::uint32_t v : mesh.triangles[t]) ++first_[v + 1]; });
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    around_.resize(first_.back());
+    std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, memory);
+    for_each_side([&](std::uint32_t t) { for (const std::uint32_t v : mesh.triangles[t]) around_[next[v]++] = t; });
+  }
+
+  void grow_all(SideCharts& sides) {
+    sides.triangles.reserve(around_.size() / 3);
+    sides.corner.reserve(around_.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (taken_[t] == 0) grow(t, sides);
+  }
+
+  std::pmr::vector<Piece>& pieces() { return pieces_; }
+  bool seen(std::uint32_t triangle) const {
+    const auto& t = mesh_.triangles[triangle];
+    return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
+  }
+
+ private:
+  // A chart around one triangle, laid flat in millimetres with its upper left corner at zero.
+  void grow(std::uint32_t seed, SideCharts& sides) {
+    const Vec3f axis = normal_of(mesh_, seed);
+    const bool photograph = seen(seed);
+    const std::size_t from = sides.triangles.size();
+    taken_[seed] = 1;
+    sides.triangles.push_back(seed);
+    for (std::size_t next = from; next < sides.triangles.size(); ++next) {
+      const auto& t = mesh_.triangles[sides.triangles[next]];
+      for (const std::uint32_t v : t)
+        for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+          const std::uint32_t other = around_[i];
+          if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other])) continue;
+          if (mesh::dot(normal_of(mesh_, other), axis) < kSameWay) continue;
+          taken_[other] = 1;
+          sides.triangles.push_back(other);
+        }
+    }
+    lay_flat(axis, from, sides);
+  }
+
+  static bool share_an_edge(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+    int shared = 0;
+    for (const std::uint32_t v : a) shared += std::count(b.begin(), b.end(), v) > 0 ? 1 : 0;
+    return shared >= 2;
+  }
+
+  void lay_flat(const Vec3f& axis, std::size_t from, SideCharts& sides) {
+    // Down the picture stays down, so that charts are as high as they are wide or higher.
+    Vec3f across = mesh::cross(Vec3f{0, 1, 0}, axis);
+    across = mesh::dot(across, across) > 1e-6F ? mesh::unit(across) : Vec3f{1, 0, 0};
+    const Vec3f down = mesh::cross(axis, across);
+    Vec2f low{1e30F, 1e30F};
+    Vec2f high{-1e30F, -1e30F};
+    for (std::size_t k = from; k < sides.triangles.size(); ++k)
+      for (const std::uint32_t v : mesh_.triangles[sides.triangles[k]]) {
+        const Vec2f at{mesh::dot(mesh_.vertices_mm[v], across), mesh::dot(mesh_.vertices_mm[v], down)};
+        sides.corner.push_back(at);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+      }
+    for (std::size_t k = 3 * from; k < sides.corner.size(); ++k) sides.corner[k] = {sides.corner[k].x - low.x, sides.corner[k].y - low.y};
+    pieces_.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(sides.triangles.size() - from), high.x - low.x, high.y - low.y, 0, 0});
+  }
+
+  const FaceMesh& mesh_;
+  std::span<const std::uint8_t> kept_, photographed_;
+  std::pmr::vector<std::uint32_t> first_, around_;  // side triangles around each vertex
+  std::pmr::vector<std::uint8_t> taken_;
+  std::pmr::vector<Piece> pieces_;
+};
+
+struct Scale { float seen, filled; };  // texels a millimetre
+
+// Columns of charts, the widest first; returns the width they take. A chart larger than the room is pressed into it.
+float pack(std::span<Piece> pieces, const Builder& builder, const SideCharts& sides, Scale scale, float height_px) {
+  float column_x = 0;
+  float column_width = 0;
+  float y = 0;
+  for (Piece& p : pieces) {
+    const float s = builder.seen(sides.triangles[p.first]) ? scale.seen : scale.filled;
+    const float width = p.width * s + 1 + 2 * kPaddingPx;
+    const float height = std::min(p.height * s + 1 + 2 * kPaddingPx, height_px);
+    if (y + height > height_px) {
+      column_x += std::ceil(column_width);
+      column_width = y = 0;
+    }
+    p.x = column_x + kPaddingPx;
+    p.y = y + kPaddingPx;
+    y += std::ceil(height);
+    column_width = std::max(column_width, width);
+  }
+  return column_x + std::ceil(column_width);
+}
+
+}  // namespace
+
+SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<const std::uint8_t> kept,
+                         std::span<const std::uint8_t> photographed, double photograph_px_per_mm, int max_px,
+                         std::pmr::memory_resource* memory) {
+  SideCharts sides(memory);
+  if (std::all_of(kept.begin(), kept.end(), [](std::uint8_t k) { return k != 0; })) return sides;
+  Builder builder(mesh, kept, photographed, memory);
+  builder.grow_all(sides);
+  auto& pieces = builder.pieces();
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.width != b.width ? a.width > b.width : a.first < b.first; });
+
+  // Halved until all of it finds room; a chart's extent has a limit, however far away a vertex is.
+  const float room = static_cast<float>(max_px - main.width_px);
+  const float high = static_cast<float>(main.height_px);
+  Scale scale{static_cast<float>(photograph_px_per_mm), static_cast<float>(kFilledPxPerMm)};
+  float width = pack(pieces, builder, sides, scale, high);
+  for (int round = 0; width > room && round < 24; ++round) {
+    scale = {scale.seen / 2, scale.filled / 2};
+    width = pack(pieces, builder, sides, scale, high);
+  }
+  const float squeeze = width > room ? room / width : 1;  // thousands of crumbs: they share texels
+  for (const Piece& p : pieces) {
+    const float s = builder.seen(sides.triangles[p.first]) ? scale.seen : scale.filled;
+    const float tall = std::min(s, (high - 1 - 2 * kPaddingPx) / std::max(p.height, 1e-3F));
+    for (std::size_t k = 3 * std::size_t{p.first}; k < 3 * (std::size_t{p.first} + p.count); ++k) {
+      Vec2f& at = sides.corner[k];
+      at = {static_cast<float>(main.width_px) + (p.x + at.x * s) * squeeze, p.y + at.y * tall};
+    }
+  }
+  sides.width_px = static_cast<int>(std::ceil(std::min(width, room)));
+  return sides;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/texture/colour_fill.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kSweeps = 40;
+constexpr float kOverRelaxation = 1.6F;  // Young's successive over-relaxation; below 2 it converges
+
+// Neighbours of the unknown vertices, each as often as triangles say so: twice inside, once at an edge.
+struct Neighbours {
+  Neighbours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::pmr::memory_resource* memory)
+      : first(mesh.vertices_mm.size() + 1, 0, memory), all(memory) {
+    const auto for_each = [&](auto&& visit) {
+      for (const auto& t : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+          if (known[t[i]] == 0) visit(t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
+    };
+    for_each([&](std::uint32_t v, std::uint32_t, std::uint32_t) { first[v + 1] += 2; });
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    all.resize(first.back());
+    std::pmr::vector<std::uint32_t> next(first.begin(), first.end() - 1, memory);
+    for_each([&](std::uint32_t v, std::uint32_t a, std::uint32_t b) {
+      all[next[v]++] = a;
+      all[next[v]++] = b;
+    });
+  }
+  std::span<const std::uint32_t> of(std::size_t v) const { return std::span(all).subspan(first[v], first[v + 1] - first[v]); }
+  std::pmr::vector<std::uint32_t> first, all;
+};
+
+// Unknown vertices in the order in which the known ones reach them, coloured by those that came before.
+std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std::uint8_t> known, const Neighbours& neighbours,
+                                      std::span<VertexColour> colours, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint8_t> done(known.begin(), known.end(), memory);
+  std::pmr::vector<std::uint32_t> order(memory);
+  order.reserve(static_cast<std::size_t>(std::count(known.begin(), known.end(), std::uint8_t{0})));
+  for (std::size_t ring_begin = 0;;) {
+    const std::size_t ring_end = order.size();
+    const auto take = [&](std::uint32_t v) {
+      VertexColour sum{0, 0, 0};
+      float count = 0;
+      for (const std::uint32_t n : neighbours.of(v)) {
+        if (done[n] != 1) continue;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += colours[n][c];
+        count += 1;
+      }
+      if (count == 0) return;
+      colours[v] = {sum[0] / count, sum[1] / count, sum[2] / count};
+      done[v] = 2;  // not yet a neighbour for its own ring
+      order.push_back(v);
+    };
+    if (ring_begin == 0 && ring_end == 0) {
+      for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v)
+        if (done[v] == 0) take(v);
+    } else {
+      for (std::size_t i = ring_begin; i < ring_end; ++i)
+        for (const std::uint32_t n : neighbours.of(order[i]))
+          if (done[n] == 0) take(n);
+    }
+    for (std::size_t i = ring_end; i < order.size(); ++i) done[order[i]] = 1;
+    if (order.size() == ring_end) return order;
+    ring_begin = ring_end;
+  }
+}
+
+VertexColour mean_of_known(std::span<const std::uint8_t> known, std::span<const VertexColour> colours) {
+  std::array<double, 3> sum{0, 0, 0};
+  double count = 0;
+  for (std::size_t v = 0; v < known.size(); ++v) {
+    if (known[v] == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(colours[v][c]);
+    count += 1;
+  }
+  if (count == 0) return {128, 128, 128};
+  return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count), static_cast<float>(sum[2] / count)};
+}
+
+std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
+  std::array<double, 3> sum{0, 0, 0};
+  double count = 0;
+  for (std::size_t k = 0; k < atlas.origin.size(); ++k) {
+    if (atlas.origin[k] == kNoSurfaceTexel) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += atlas.rgb[3 * k + c];
+    count += 1;
+  }
+  std::array<std::uint8_t, 3> mean{128, 128, 128};
+  for (std::size_t c = 0; c < 3 && count > 0; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / count);
+  return mean;
+}
+
+}  // namespace
+
+void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours, StageContext& context) {
+  const VertexColour mean = mean_of_known(known, colours);
+  for (std::size_t v = 0; v < known.size(); ++v)
+    if (known[v] == 0) colours[v] = mean;
+  if (std::find(known.begin(), known.end(), std::uint8_t{1}) == known.end()) return;
+  const Neighbours neighbours(mesh, known, &context.scratch);
+  const std::pmr::vector<std::uint32_t> order = reach(mesh, known, neighbours, colours, &context.scratch);
+  const auto relax = [&](std::uint32_t v) {
+    const auto around = neighbours.of(v);
+    const float share = 1 / static_cast<float>(around.size());
+    for (std::size_t c = 0; c < 3; ++c) {
+      float sum = 0;
+      for (const std::uint32_t n : around) sum += colours[n][c];
+      colours[v][c] += kOverRelaxation * (sum * share - colours[v][c]);
+    }
+  };
+  // There and back: what is known travels all the way in from either side.
+  for (int sweep = 0; sweep < kSweeps && !context.stop(); ++sweep) {
+    for (const std::uint32_t v : order) relax(v);
+    for (std::size_t i = order.size(); i > 0; --i) relax(order[i - 1]);
+  }
+}
+
+void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory) {
+  constexpr int kInside = 2;  // texels
+  const std::size_t w = static_cast<std::size_t>(atlas.width_px);
+  const std::size_t size = atlas.origin.size();
+  const auto for_each_beside = [&](std::size_t k, auto&& visit) {
+    const std::size_t x = k % w;
+    if (x > 0) visit(k - 1);
+    if (x + 1 < w) visit(k + 1);
+    if (k >= w) visit(k - w);
+    if (k + w < size) visit(k + w);
+  };
+  enum : std::uint8_t { kOutside, kInner, kRim, kReached };
+  std::pmr::vector<std::uint8_t> state(size, kOutside, memory);
+  for (std::size_t k = 0; k < size; ++k) state[k] = atlas.origin[k] != kNoSurfaceTexel ? kInner : kOutside;
+  struct Step { std::uint32_t at, from; };
+  std::pmr::vector<Step> steps(memory);
+  steps.reserve(2 * size);  // a texel is visited inwards once and outwards once; what is never visited costs nothing
+  const auto put = [&](std::size_t at, std::size_t from) { steps.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(from)}); };
+  for (std::size_t k = 0; k < size; ++k) {
+    bool open = false;
+    if (state[k] == kInner) for_each_beside(k, [&](std::size_t n) { open = open || state[n] == kOutside; });
+    if (open) put(k, k);
+  }
+  std::size_t begin = 0;
+  const auto next_ring = [&](auto&& visit) {
+    const std::size_t end = steps.size();
+    for (; begin < end; ++begin) for_each_beside(steps[begin].at, [&, from = steps[begin].from](std::size_t n) { visit(n, from); });
+  };
+  for (const Step& s : steps) state[s.at] = kRim;
+  for (int step = 0; step < kInside; ++step)  // inwards, the last ring being the first of clean colours
+    next_ring([&](std::size_t n, std::size_t) {
+      if (state[n] != kInner) return;
+      state[n] = step + 1 < kInside ? kRim : kReached;
+      put(n, n);
+    });
+  for (int step = 0; step < kInside + margin_px; ++step)
+    next_ring([&](std::size_t n, std::size_t from) {
+      if (state[n] != kRim && state[n] != kOutside) return;
+      state[n] = kReached;
+      put(n, from);
+    });
+  const auto mean = mean_of_surface(atlas);
+  for (std::size_t k = 0; k < size; ++k)
+    if (atlas.origin[k] == kNoSurfaceTexel) std::copy(mean.begin(), mean.end(), &atlas.rgb[3 * k]);
+  for (const Step& s : steps)
+    if (atlas.origin[s.at] == kNoSurfaceTexel) std::copy_n(&atlas.rgb[3 * std::size_t{s.from}], 3, &atlas.rgb[3 * std::size_t{s.at}]);
+}
+
+}  // namespace relievo::pipeline
