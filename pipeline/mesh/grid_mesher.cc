@@ -9,26 +9,14 @@
 #include "pipeline/mesh/lattice/gap_closer.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
+#include "pipeline/mesh/sliver_mender.h"
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-
-struct Stride { int x = 1, y = 1; };
-
-// A lattice of n nodes carries at most 2 n triangles. Columns are thinned first: the rays of a pair
-// side by side measure one row at a time, and rows carry the detail of eyes and lips.
-Stride stride_for(std::size_t points, int max_triangles) {
-  Stride stride;
-  const auto too_many = [&] {
-    return 2 * points > static_cast<std::size_t>(max_triangles) * static_cast<std::size_t>(stride.x) *
-                            static_cast<std::size_t>(stride.y);
-  };
-  while (too_many()) ++(stride.x > stride.y ? stride.y : stride.x);
-  return stride;
-}
+constexpr double kTrianglesPerPoint = 1.98;  // of a face's cloud, the outline's loss and the gaps' gain together
 
 FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& context) {
   std::pmr::vector<std::uint32_t> place(surface.at_mm.size(), kUnused, &context.scratch);
@@ -56,28 +44,24 @@ FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& 
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
 
-std::size_t count_triangles(const LatticeSurface& surface) {
-  std::size_t count = 0;
-  for (const std::uint8_t cell : surface.cells) count += static_cast<std::size_t>(triangle_count(cell));
-  return count;
-}
-
 CutSurface make_surface(PointLattice& lattice, const GridMesherOptions& o, Arena& scratch) {
   const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
                              static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
-  const std::size_t most = static_cast<std::size_t>(o.max_triangles);
-  const std::size_t present = count_triangles(surface);
-  if (present < most)
-    close_gaps(lattice, surface, {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
-               most - present, shaper, &scratch);
+  close_gaps(lattice, surface, {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
+             shaper, &scratch);
   // After the gaps: a crack must not make a narrow place of a wide one.
-  const CellMask inside = trim_outline(lattice, surface, {tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm)}, shaper, &scratch);
+  const OutlineLimits outline{limits.max_slope, tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm),
+                              static_cast<float>(o.outline_wave_mm)};
+  const CellMask inside = trim_outline(lattice, surface, outline, shaper, &scratch);
   const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm), static_cast<float>(o.rim_smoothing_mm)};
   CutSurface cut = cut_outline(lattice, surface, inside, smoothing, limits.max_slope, &scratch);
-  return cut.triangles.size() <= most ? std::move(cut) : cut_outline(lattice, surface, inside, {}, limits.max_slope, &scratch);
+  keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
+  if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, limits.max_slope}, &scratch) > 0)
+    keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  return cut;
 }
 
 }  // namespace
@@ -117,23 +101,28 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported, "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
 
-  const Stride stride = stride_for(cloud.points.size(), options_.max_triangles);
-  PointLattice lattice = make_lattice(cloud, stride.x, stride.y, &context.scratch);
-  context.progress.done.store(0.2F, std::memory_order_relaxed);
-  if (context.stop()) return stopped;
-  CutSurface surface = make_surface(lattice, options_, context.scratch);
-  context.progress.done.store(0.6F, std::memory_order_relaxed);
-  if (context.stop()) return stopped;
-  keep_one_surface(surface.at_mm, surface.triangles, {}, &context.scratch);
-  context.progress.done.store(0.8F, std::memory_order_relaxed);
-  if (context.stop()) return stopped;
-  if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;
-
-  FaceMesh mesh = pack(surface, static_cast<float>(options_.measured_sigma_mm), context);
-  compute_normals(mesh, options_.normal_passes, &context.scratch);
-  turn_sigma_perpendicular(mesh);
-  context.progress.done.store(1, std::memory_order_relaxed);
-  return mesh;
+  // What the outline takes and closed gaps add is known once it is done; in the rare case that it does not
+  // fit, a thinner lattice does. A lattice is thinned as far as need be, not by whole strides.
+  const double most = static_cast<double>(options_.max_triangles);
+  for (double share = std::min(1.0, most / (kTrianglesPerPoint * static_cast<double>(cloud.points.size())));;) {
+    const Arena::Mark attempt(context.scratch);
+    if (context.stop()) return stopped;
+    PointLattice lattice = make_lattice(cloud, thin_lattice(share), &context.scratch);
+    context.progress.done.store(0.2F, std::memory_order_relaxed);
+    const CutSurface surface = make_surface(lattice, options_, context.scratch);
+    context.progress.done.store(0.8F, std::memory_order_relaxed);
+    if (context.stop()) return stopped;
+    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;
+    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) {
+      share *= 0.98 * most / static_cast<double>(surface.triangles.size());
+      continue;
+    }
+    FaceMesh mesh = pack(surface, static_cast<float>(options_.measured_sigma_mm), context);
+    compute_normals(mesh, options_.normal_passes, &context.scratch);
+    turn_sigma_perpendicular(mesh);
+    context.progress.done.store(1, std::memory_order_relaxed);
+    return mesh;
+  }
 }
 
 }  // namespace relievo::pipeline

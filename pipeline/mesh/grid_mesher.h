@@ -6,7 +6,8 @@
 //
 // Promises: one connected component (the largest), every edge in at most two triangles, one fan a
 // vertex, counter-clockwise seen from the cameras, no triangle steeper than max_incidence_deg to the
-// line of sight of the left camera, a boundary without fringe. Small holes are closed with
+// line of sight of the left camera, a straightened boundary without fringe, no angle below
+// kSmallestAngleDeg where noise allows it, never more than max_triangles. Small holes are closed with
 // measured = 0 and a thin-plate surface, larger ones stay open; so is marked what is less certain than
 // measured_sigma_mm (a chin that moved between the exposures). sigma_mm is perpendicular to the
 // surface: the line of sight's sigma times the cosine of the angle of incidence.
@@ -21,15 +22,16 @@
 namespace relievo::pipeline {
 
 struct GridMesherOptions {
-  int max_triangles = 320'000;        // the lattice is thinned until twice its points fit
+  int max_triangles = 320'000;        // a lattice that makes more is thinned until it does not
   double max_incidence_deg = 77;      // steepest triangle, between its normal and the line of sight
   double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
   double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front
-  double max_hole_mm = 6;             // holes and cracks up to this wide are closed; 0 leaves all open
+  double max_hole_mm = 12;            // holes and cracks up to this wide are closed; 0 leaves all open
   double gap_bend_deg = 20;           // a closed gap's slope may leave that of both its sides so far
   double max_rim_deg = 70;            // steepest surface that leads to the outside; 90 keeps all
   double min_width_mm = 9;            // narrower strips along the outline are cut off; 0 keeps them
+  double outline_wave_mm = 8;         // sigma of its straightening, by give and take; 0 leaves its waves
   double outline_smoothing_mm = 3;    // sigma of the outline's smoothing; 0 leaves it on the lattice
   double rim_smoothing_mm = 1.5;      // the same, of the rims of open holes
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
@@ -50,6 +52,7 @@ void describe(GridMesherOptions& o, Field&& field) {
   field("gap_bend_deg", o.gap_bend_deg, OptionRange{0, 80}, "how far a closed gap's slope may leave that of both its sides, degrees");
   field("max_rim_deg", o.max_rim_deg, OptionRange{30, 90}, "steepest surface that leads to the outside, between its normal and the line of sight, degrees");
   field("min_width_mm", o.min_width_mm, OptionRange{0, 50}, "narrower strips along the outline are cut off, mm");
+  field("outline_wave_mm", o.outline_wave_mm, OptionRange{0, 30}, "how far waves of the outline are straightened, sigma in mm");
   field("outline_smoothing_mm", o.outline_smoothing_mm, OptionRange{0, 10}, "how far the outline is smoothed, sigma in mm");
   field("rim_smoothing_mm", o.rim_smoothing_mm, OptionRange{0, 10}, "how far the rims of open holes are smoothed, sigma in mm");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");

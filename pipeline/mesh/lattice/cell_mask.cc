@@ -9,6 +9,24 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr float kFar = 1e9F;
+constexpr std::uint32_t kWhole = 1U << 20;  // the share 1, in whole numbers: sums that run along stay exact
+
+// Three boxes of 2 reach + 1 cells have the variance of this Gaussian.
+std::size_t box_reach(float sigma_cells) {
+  return static_cast<std::size_t>(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2));
+}
+
+// Means over windows of 2 reach + 1 along a line of `count` values, `stride` apart; `line` is room for it.
+void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, std::size_t reach, std::uint32_t* line) {
+  for (std::size_t i = 0; i < count; ++i) line[i] = values[i * stride];
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < std::min(reach, count); ++i) sum += line[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + reach < count) sum += line[i + reach];
+    values[i * stride] = sum / static_cast<std::uint32_t>(2 * reach + 1);
+    if (i >= reach) sum -= line[i - reach];
+  }
+}
 
 }  // namespace
 
@@ -39,6 +57,22 @@ void MaskShaper::close(CellMask& mask, float radius_mm, float back_mm) {
 void MaskShaper::open(CellMask& mask, float radius_mm) {
   erode(mask, radius_mm);
   dilate(mask, radius_mm);
+}
+
+void MaskShaper::straighten(CellMask& mask, float sigma_mm, float least) {
+  const std::size_t w = static_cast<std::size_t>(columns_);
+  const std::size_t h = static_cast<std::size_t>(rows_);
+  const std::size_t along = box_reach(sigma_mm / cell_width_mm_);
+  const std::size_t down = box_reach(sigma_mm / cell_height_mm_);
+  std::pmr::vector<std::uint32_t> share(mask.size(), 0U, piece_.get_allocator());
+  piece_.assign(std::max(w, h), 0U);
+  for (std::size_t k = 0; k < mask.size(); ++k) share[k] = mask[k] * kWhole;
+  const std::uint32_t level = static_cast<std::uint32_t>(least * static_cast<float>(kWhole));
+  for (int pass = 0; pass < 3; ++pass) {
+    for (std::size_t r = 0; r < h; ++r) average_line(&share[r * w], w, 1, along, piece_.data());
+    for (std::size_t c = 0; c < w; ++c) average_line(&share[c], h, w, down, piece_.data());
+  }
+  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = share[k] >= level;
 }
 
 void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border) {

@@ -25,6 +25,9 @@ class MaskShaper {
   // Puts in what lies between: dilates, then erodes by `back_mm`; what was in stays in.
   void close(CellMask& mask, float radius_mm, float back_mm);
   void open(CellMask& mask, float radius_mm);
+  // Keeps, or puts in, where at least this share of what lies around (a Gaussian) is in: waves of the
+  // border shorter than about four sigmas go. At a half as much is given as taken.
+  void straighten(CellMask& mask, float sigma_mm, float share);
 
   // Puts in whatever is out and cannot be reached from the border, corners included.
   void fill_holes(CellMask& mask);

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
-#include "pipeline/mesh/lattice/thin_plate.h"
+#include "pipeline/mesh/lattice/cell_filler.h"
 #include "pipeline/mesh/sight_edge.h"
 #include "pipeline/mesh/vector_math.h"
 
@@ -18,6 +19,8 @@ using mesh::edge_between, mesh::minus, mesh::plus, mesh::SightEdge, mesh::times;
 
 struct Cell { int c, r; };
 
+constexpr float kSpeckMm2 = 4;
+constexpr float kPinholeRimMm = 1.2F;
 constexpr std::uint8_t kOpen = 0, kBridged = 1, kUndecided = 2;
 
 class GapCloser {
@@ -25,24 +28,19 @@ class GapCloser {
   GapCloser(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
             std::pmr::memory_resource* memory)
       : lattice_(lattice), surface_(surface), limits_(limits), shaper_(shaper), whole_(lattice.size(), 0, memory),
-        gap_(lattice.size(), 0, memory), carrying_(lattice.size(), 0, memory), free_(memory), memory_(memory) {
+        gap_(lattice.size(), 0, memory), was_gap_(lattice.size(), 0, memory), large_(lattice.size(), 0, memory), memory_(memory) {
     cell_mm_ = std::min(lattice.cell_width_mm, lattice.cell_height_mm);
   }
 
-  void close(std::size_t max_added) {
+  void close() {
     drop_specks();
     find_gaps();
     for (int r = 0; r + 1 < lattice_.rows; ++r)
       for (int c = 0; c + 1 < lattice_.columns; ++c)
         if (std::uint8_t& gap = gap_[lattice_.index(c, r)]) gap = bridge({c, r});
     settle_crossings();
-    const std::size_t cells = static_cast<std::size_t>(std::count(gap_.begin(), gap_.end(), kBridged));
-    if (cells == 0 || 2 * cells > max_added) return;
-    free_nodes();
-    relax_thin_plate(lattice_, free_, carrying_, memory_);
-    for (std::size_t k = 0; k < gap_.size(); ++k)
-      if (gap_[k])
-        if (const std::uint8_t cut = best_cut(lattice_, k, limits_.max_slope)) surface_.cells[k] = cut;
+    fill_cells(lattice_, surface_, gap_, limits_.max_slope, memory_);
+    mend_pinholes();
   }
 
  private:
@@ -58,13 +56,29 @@ class GapCloser {
       if (!gap_[k]) surface_.cells[k] = 0;
   }
 
+  // What a bridge leaves open where noise makes it too steep: what lies around is laid anew.
+  void mend_pinholes() {
+    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
+    gap_ = whole_;
+    shaper_.fill_holes(gap_);
+    for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = large_[k] = gap_[k] && !whole_[k];
+    shaper_.drop_pieces_below(large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = gap_[k] && !large_[k];
+    shaper_.dilate(gap_, kPinholeRimMm);
+    for (std::size_t k = 0; k < whole_.size(); ++k) {
+      gap_[k] = gap_[k] && !large_[k] && inner(k);
+      if (gap_[k]) surface_.cells[k] = 0;
+    }
+    fill_cells(lattice_, surface_, gap_, limits_.max_slope, memory_);
+  }
+
   // Where a disc of the widest gap's size does not fit. The way back is a little longer than the way
   // out: the steps of a lattice along a slanted outline are no gaps.
   void find_gaps() {
     const float radius = (limits_.max_width_mm + cell_mm_) / 2;
     gap_ = whole_;
     shaper_.close(gap_, radius, radius + 0.75F * cell_mm_);
-    for (std::size_t k = 0; k < gap_.size(); ++k) gap_[k] = gap_[k] && !whole_[k] ? kUndecided : kOpen;
+    for (std::size_t k = 0; k < gap_.size(); ++k) gap_[k] = was_gap_[k] = gap_[k] && !whole_[k] ? kUndecided : kOpen;
   }
 
   // Whether the shortest way across the gap continues the surface on its two sides. Undecided where no
@@ -106,7 +120,22 @@ class GapCloser {
           opened.push_back(static_cast<std::uint32_t>(k));
         }
     }
+    bridge_specks(opened);
     for (std::uint8_t& gap : gap_) gap = gap != kOpen;
+  }
+
+  // A few open cells amid a bridge are noise of the verdicts: no occlusion is so small.
+  void bridge_specks(std::span<const std::uint32_t> opened) {
+    std::fill(large_.begin(), large_.end(), std::uint8_t{0});
+    for (const std::uint32_t k : opened) large_[k] = was_gap_[k];
+    shaper_.drop_pieces_below(large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    for (const std::uint32_t k : opened)
+      if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
+  }
+
+  // Not of the last column or row, which are no cells.
+  bool inner(std::size_t k) const {
+    return lattice_.inside(static_cast<int>(k) % lattice_.columns + 1, static_cast<int>(k) / lattice_.columns + 1);
   }
 
   bool continues_both(const SightEdge& edge, float width, float before, float after) const {
@@ -153,56 +182,21 @@ class GapCloser {
     return edge_between(middle(at), plus(middle(at), plus(right, down)));
   }
 
-  // Nodes of bridged cells that no triangle holds. Their sigma: twice that of the known around them.
-  void free_nodes() {
-    for (int r = 0; r < lattice_.rows; ++r)
-      for (int c = 0; c < lattice_.columns; ++c) carrying_[lattice_.index(c, r)] = carries_surface(lattice_, surface_, c, r);
-    const std::size_t w = static_cast<std::size_t>(lattice_.columns);
-    CellMask listed(lattice_.size(), 0, memory_);
-    for (std::size_t k = 0; k < gap_.size(); ++k)
-      if (gap_[k])
-        for (const std::size_t corner : {k, k + 1, k + w, k + w + 1}) listed[corner] = !carrying_[corner];
-    free_.reserve(static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 1)));
-    for (std::uint32_t k = 0; k < listed.size(); ++k)
-      if (listed[k]) free_.push_back(k);
-    for (const std::uint32_t k : free_) {
-      lattice_.node[k] = Node::Filled;
-      lattice_.sigma_mm[k] = 2 * usual_sigma(k);
-    }
-  }
-
-  float usual_sigma(std::uint32_t k) const {
-    const int c = static_cast<int>(k) % lattice_.columns;
-    const int r = static_cast<int>(k) / lattice_.columns;
-    float sum = 0;
-    float count = 0;
-    for (int reach = 1; count == 0 && reach < std::max(lattice_.columns, lattice_.rows); ++reach)
-      for (int y = r - reach; y <= r + reach; ++y)
-        for (int x = c - reach; x <= c + reach; ++x) {
-          if (!lattice_.inside(x, y) || !carrying_[lattice_.index(x, y)]) continue;
-          sum += lattice_.sigma_mm[lattice_.index(x, y)];
-          count += 1;
-        }
-    return count > 0 ? sum / count : 1;
-  }
-
   PointLattice& lattice_;
   LatticeSurface& surface_;
   const GapLimits& limits_;
   MaskShaper& shaper_;
   float cell_mm_ = 0;
-  CellMask whole_, gap_;                // of cells
-  CellMask carrying_;                   // of nodes
-  std::pmr::vector<std::uint32_t> free_;
+  CellMask whole_, gap_, was_gap_, large_;
   std::pmr::memory_resource* memory_;
 };
 
 }  // namespace
 
-void close_gaps(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, std::size_t max_added,
-                MaskShaper& shaper, std::pmr::memory_resource* memory) {
+void close_gaps(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
+                std::pmr::memory_resource* memory) {
   if (limits.max_width_mm <= 0) return;
-  GapCloser(lattice, surface, limits, shaper, memory).close(max_added);
+  GapCloser(lattice, surface, limits, shaper, memory).close();
 }
 
 }  // namespace relievo::pipeline

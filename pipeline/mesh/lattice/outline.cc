@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/mesh/lattice/cell_filler.h"
 #include "pipeline/mesh/vector_math.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::cross, mesh::dot, mesh::minus, mesh::plus;
+using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus;
 
 constexpr float kSlopeRadiusMm = 1.5F;   // a cell's slope is the mean so far around it
+constexpr float kGiven = 0.5F, kKept = 0.4F;  // of what lies around, so much must be in to gain a cell, or to keep one: what was measured weighs more
+constexpr float kAgreeMm = 1;           // along the line of sight, where it is steep: a third of it across the surface
 constexpr float kChannelShare = 0.5F;   // steep channels narrower than this share of min_width_mm let nothing in
 
 // Sums along rows over windows of 2 reach + 1, in place.
@@ -54,9 +57,33 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
   return steep;
 }
 
+// What the outline gains by being straightened continues the surface within it. Where something was
+// measured that continues it too, the measurement stays; the last rows before the horizon often do not.
+void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted, float max_slope,
+          MaskShaper& shaper, std::pmr::memory_resource* memory) {
+  CellMask gained = before;
+  shaper.erode(gained, 1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (!before[k]) surface.cells[k] = 0;
+    gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
+                l.inside(static_cast<int>(k) % l.columns + 1, static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
+  }
+  const PointLattice measured(l, memory);
+  fill_cells(l, surface, gained, max_slope, memory);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (l.node[k] == measured.node[k] || measured.node[k] == Node::Empty) continue;
+    if (length(minus(l.at_mm[k], measured.at_mm[k])) > kAgreeMm) continue;
+    l.at_mm[k] = measured.at_mm[k];
+    l.sigma_mm[k] = measured.sigma_mm[k];
+    l.node[k] = measured.node[k];
+  }
+  for (std::size_t k = 0; k < l.size(); ++k)
+    if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
+}
+
 }  // namespace
 
-CellMask trim_outline(const PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
+CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
                       std::pmr::memory_resource* memory) {
   CellMask all(l.size(), 0, memory);
   for (std::size_t k = 0; k < l.size(); ++k) all[k] = surface.cells[k] != 0;
@@ -70,6 +97,17 @@ CellMask trim_outline(const PointLattice& l, LatticeSurface& surface, const Outl
   shaper.fill_holes(kept);
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && all[k];
   shaper.open(kept, limits.min_width_mm / 2);
+  if (limits.wave_mm > 0) {
+    shaper.keep_largest_piece(kept);
+    const CellMask before(kept, memory);
+    CellMask given(kept, memory);
+    shaper.straighten(given, limits.wave_mm, kGiven);
+    shaper.straighten(kept, limits.wave_mm, kKept);
+    for (std::size_t k = 0; k < l.size(); ++k) kept[k] = given[k] || (kept[k] && before[k]);
+    grow(l, surface, before, kept, limits.max_slope, shaper, memory);
+    for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && (before[k] || surface.cells[k]);
+    shaper.open(kept, limits.min_width_mm / 2);
+  }
   shaper.keep_largest_piece(kept);
   for (std::size_t k = 0; k < l.size(); ++k)
     if (!kept[k]) surface.cells[k] = 0;

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The outline of a lattice's surface. What lies beyond it is trimmed in two steps, both blind to holes
-// inside, whose surroundings stay as they are:
-//   the rim   surface that turns away from the camera and leads to the outside: the last rows before the
-//             horizon are measured worst, and left standing they are a fringe of teeth and flags;
-//   strips    whatever a disc of min_width_mm does not fit into (an opening; Serra 1982).
+// The outline of a lattice's surface, found in three steps, all blind to holes inside, whose surroundings
+// stay as they are:
+//   the rim   surface that turns away from the camera and leads to the outside goes: the last rows before
+//             the horizon are measured worst, and left standing they are a fringe of teeth and flags;
+//   strips    whatever a disc of min_width_mm does not fit into goes (an opening; Serra 1982);
+//   waves     the line of a cheek's steepest surface swings in and out: it is straightened (a Gaussian of
+//             wave_mm over what is in). Bays are filled with what was measured there, where it continues
+//             the surface, else with its smooth continuation (Node::Filled); tongues are cut.
 #pragma once
 
 #include <memory_resource>
@@ -16,12 +19,14 @@
 namespace relievo::pipeline {
 
 struct OutlineLimits {
+  float max_slope = 0;       // tangent of the steepest angle of incidence
   float max_rim_slope = 0;   // tangent of the steepest angle of incidence before the outside
   float min_width_mm = 0;
+  float wave_mm = 0;         // sigma of the straightening
 };
 
-// Empties the cells beyond; returns what lies inside, holes included. Throws std::bad_alloc when `memory` is used up.
-CellMask trim_outline(const PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
+// Empties the cells beyond, fills bays; returns what lies inside, holes included. Throws std::bad_alloc when `memory` is used up.
+CellMask trim_outline(PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
                       MaskShaper& shaper, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -49,8 +49,12 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
 
 }  // namespace
 
-PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
-                          std::pmr::memory_resource* memory) {
+LatticeThinning thin_lattice(double share) {
+  const double each = std::sqrt(std::min(share, 1.0));
+  return {each, each};
+}
+
+PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinning, std::pmr::memory_resource* memory) {
   PointLattice lattice(memory);
   if (cloud.lattice_step_px <= 0) return lattice;
   const Box box = bounds(cloud);
@@ -58,8 +62,11 @@ PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
 
   const float step = static_cast<float>(cloud.lattice_step_px);
   const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
-  lattice.columns = steps(box.left, box.right) / stride_x + 1;
-  lattice.rows = steps(box.top, box.bottom) / stride_y + 1;
+  // Of n lines floor(n share) are kept: line i where that counts up.
+  const auto place = [](int i, double share) { return static_cast<int>(std::floor(i * share + 1e-9)); };
+  const auto kept = [&](int i, double share) { return i == 0 || place(i, share) != place(i - 1, share); };
+  lattice.columns = place(steps(box.left, box.right), thinning.columns) + 1;
+  lattice.rows = place(steps(box.top, box.bottom), thinning.rows) + 1;
   const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
@@ -69,8 +76,8 @@ PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
     if (!usable(p)) continue;
     const int x = steps(box.left, p.left_px.x);
     const int y = steps(box.top, p.left_px.y);
-    if (x % stride_x != 0 || y % stride_y != 0) continue;
-    const std::size_t k = lattice.index(x / stride_x, y / stride_y);
+    if (!kept(x, thinning.columns) || !kept(y, thinning.rows)) continue;
+    const std::size_t k = lattice.index(place(x, thinning.columns), place(y, thinning.rows));
     if (lattice.node[k] != Node::Empty && lattice.sigma_mm[k] <= p.sigma_mm) continue;
     lattice.node[k] = Node::Measured;
     lattice.at_mm[k] = p.at_mm;

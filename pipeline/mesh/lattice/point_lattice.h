@@ -18,6 +18,9 @@ enum class Node : std::uint8_t { Empty, Measured, Filled };
 
 struct PointLattice {
   explicit PointLattice(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), node(memory) {}
+  PointLattice(const PointLattice& other, std::pmr::memory_resource* memory)
+      : columns(other.columns), rows(other.rows), cell_width_mm(other.cell_width_mm), cell_height_mm(other.cell_height_mm),
+        at_mm(other.at_mm, memory), sigma_mm(other.sigma_mm, memory), node(other.node, memory) {}
   int columns = 0;
   int rows = 0;
   // A cell as the camera sees it, across the line of sight: the usual distance of neighbours in a row
@@ -39,10 +42,15 @@ struct PointLattice {
   }
 };
 
-// Takes every `stride_x`-th column and `stride_y`-th row. Points that are not finite are left out;
+// Which share of a lattice's columns and rows to keep, spread evenly.
+struct LatticeThinning { double columns = 1, rows = 1; };
+
+// A share of all nodes: as many columns as rows, so that cells stay as square as they are.
+LatticeThinning thin_lattice(double share_of_nodes);
+
+// Points that are not finite are left out;
 // where two fall on one node the more certain one stays. An empty lattice where no point is usable.
 // Throws std::bad_alloc when `memory` is used up.
-PointLattice make_lattice(const PointCloud& cloud, int stride_x, int stride_y,
-                          std::pmr::memory_resource* memory);
+PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinning, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

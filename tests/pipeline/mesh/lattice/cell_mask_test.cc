@@ -12,7 +12,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kColumns = 37, kRows = 29;
-constexpr float kWidth = 0.7F, kHeight = 0.4F;  // cells are seldom square: columns are thinned first
+constexpr float kWidth = 0.7F, kHeight = 0.4F;  // cells need not be square
 
 struct Room {
   std::pmr::monotonic_buffer_resource memory;
@@ -120,6 +120,33 @@ TEST(MaskShaper, PiecesAreJoinedThroughSides) {
   other.shaper.keep_largest_piece(other.mask);
   EXPECT_EQ(other.count(), 25);
   EXPECT_EQ(other.at(4, 4), 1);
+}
+
+// Against the Gaussian itself, summed over all cells.
+TEST(MaskShaper, StraightensByWhatLiesAround) {
+  constexpr float kSigma = 1.5F;
+  Room room;
+  scatter(room, 0.2, 5);
+  room.fill(6, 5, 30, 14);
+  room.fill(12, 15, 15, 24);
+  const CellMask before(room.mask, &room.memory);
+  room.shaper.straighten(room.mask, kSigma, 0.4F);
+  int doubtful = 0;
+  for (int r = 0; r < kRows; ++r)
+    for (int c = 0; c < kColumns; ++c) {
+      double sum = 0;
+      for (int y = 0; y < kRows; ++y)
+        for (int x = 0; x < kColumns; ++x) {
+          const double dx = (x - c) * static_cast<double>(kWidth) / static_cast<double>(kSigma);
+          const double dy = (y - r) * static_cast<double>(kHeight) / static_cast<double>(kSigma);
+          if (before[static_cast<std::size_t>(y) * kColumns + static_cast<std::size_t>(x)]) sum += std::exp(-(dx * dx + dy * dy) / 2);
+        }
+      const double share = sum * 0.7F * 0.4F / (2 * 3.14159265 * 1.5 * 1.5);
+      if (std::abs(share - 0.4) < 0.04) ++doubtful;  // three boxes are no Gaussian, but nearly
+      else EXPECT_EQ(room.at(c, r) != 0, share > 0.4) << c << ' ' << r << ' ' << share;
+    }
+  EXPECT_LT(doubtful, 200);
+  EXPECT_GT(room.count(), 100);
 }
 
 }  // namespace

@@ -113,6 +113,36 @@ TEST(GridMesher, ARaggedOutlineIsCutSmooth) {
   for (const Vec3f& v : smooth->vertices_mm) EXPECT_NEAR(v.z, 500, 1e-3) << "cut, not moved";
 }
 
+TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
+  // A ball's cap whose border swings 3 mm in and out, 16 mm from wave to wave.
+  const PointCloud cloud = cloud_of([](double sx, double sy) {
+    const double edge = 0.1 + 0.006 * std::sin(20 * std::atan2(sy, sx));
+    return std::hypot(sx, sy) < edge ? test::sphere_depth(sx, sy, 600, 90) : kNothing;
+  });
+  GridMesherOptions wavy;
+  wavy.outline_wave_mm = 0;
+  StageRoom room, other;
+  const auto straight = mesh_grid(cloud, room);
+  const auto before = mesh_grid(cloud, other, wavy);
+  ASSERT_TRUE(straight && before);
+  test::expect_clean(*straight);
+  EXPECT_EQ(test::boundary_loops(*straight), 1U);
+  double turned = 0, turned_before = 0;
+  boundary_mm(*straight, &turned);
+  boundary_mm(*before, &turned_before);
+  EXPECT_LT(turned, 0.5 * turned_before);
+  EXPECT_GT(area_mm2(straight->vertices_mm, straight->triangles), 0.99 * area_mm2(before->vertices_mm, before->triangles)) << "what it takes it gives";
+  std::size_t given = 0;
+  for (std::size_t v = 0; v < straight->vertices_mm.size(); ++v) {
+    if (straight->measured[v]) continue;
+    ++given;
+    EXPECT_NEAR(mesh::length(mesh::minus(straight->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.25) << "it goes on as the ball does";
+    const float cosine = -mesh::dot(straight->normals[v], mesh::unit(straight->vertices_mm[v]));
+    EXPECT_GT(straight->sigma_mm[v], 0.0199F * cosine) << "no more certain than what was measured";
+  }
+  EXPECT_GT(given, 100U);
+}
+
 TEST(GridMesher, TheRimThatTurnsAwayGoesAndAHoleInsideKeepsItsSurroundings) {
   // A sphere seen up to its horizon; a hole of 24 mm on its steep side.
   const PointCloud cloud = cloud_of([](double sx, double sy) {

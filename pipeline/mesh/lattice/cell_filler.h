@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fills cells of a lattice that carry no surface, or half of one: nodes that no triangle holds are put
+// where a thin plate through the surface around them has them (inside a gap it bridges, beyond an outline
+// it goes on straight), become Node::Filled, with twice the sigma usual around them; then the cells are
+// cut, but for those that would be steeper than `max_slope`. Throws std::bad_alloc when `memory` is used up.
+#pragma once
+
+#include <memory_resource>
+
+#include "pipeline/mesh/lattice/cell_mask.h"
+#include "pipeline/mesh/lattice/lattice_surface.h"
+
+namespace relievo::pipeline {
+
+// `cells` must not touch the last column and row.
+void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::pmr::memory_resource* memory);
+
+}  // namespace relievo::pipeline
