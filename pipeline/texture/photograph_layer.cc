@@ -27,7 +27,8 @@ class Layer {
         bands_(mesh, chart_, kBands, &context.scratch),
         maps_{FrontMap(chart_, 0, &context.scratch), FrontMap(chart_, kLeftSide, &context.scratch), FrontMap(chart_, kRightSide, &context.scratch)},
         kept_(mesh.triangles.size(), 0, &context.scratch), photographed_(mesh.vertices_mm.size(), 0, &context.scratch),
-        known_(mesh.vertices_mm.size(), 0, &context.scratch),        colours_(mesh.vertices_mm.size(), VertexColour{}, &context.scratch), sides_(&context.scratch), atlas_(&context.output) {}
+        known_(mesh.vertices_mm.size(), 0, &context.scratch),
+        colours_(mesh.vertices_mm.size(), VertexColour{}, &context.scratch), sides_(&context.scratch), atlas_(&context.output) {}
 
   Result<TextureAtlas> run() {
     const Error stopped{Errc::Cancelled, "texturing was stopped"};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel, after the exposures
-// are matched, it shows light mirrored towards that camera (Shafer's dichromatic model, 1985: a
-// mirrored light adds the lamp's colour), and the darker one is the skin.
+// ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel,
+// after the exposures are matched, it shows light mirrored towards that camera (Shafer: Using color to
+// separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the skin.
 // Thread: prepared by one, then mix() by any number.
 #pragma once
 

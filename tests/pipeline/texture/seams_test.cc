@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Seams of a simulated face, photographed by cameras that disagree about its brightness.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "hal/sim/head/head_traits.h"
+#include "hal/sim/render.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/texture/single_view_texturer.h"
+#include "tests/support/colour_difference.h"
+#include "tests/support/rig_calibration.h"
+#include "tests/support/stage_bench.h"
+#include "tests/support/texture_seams.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::SeamFigures;
+
+// Published pairs of Sharma, Wu and Dalal (2005), table 1: the formula's awkward corners.
+TEST(ColourDifference, AgreesWithThePublishedPairs) {
+  const struct { test::Lab one, two; double difference; } kPairs[] = {
+      {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},   {{50, -1.3802, -84.2814}, {50, 0, -82.7485}, 1.0000},
+      {{50, 0, 0}, {50, -1, 2}, 2.3669},                     {{50, 2.49, -0.001}, {50, -2.49, 0.0009}, 7.1792},
+      {{50, 2.49, -0.001}, {50, -2.49, 0.0011}, 7.2195},     {{50, 2.5, 0}, {73, 25, -18}, 27.1492},
+      {{50, 2.5, 0}, {56, -27, -3}, 31.9030},                {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+      {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082}};
+  for (const auto& pair : kPairs) EXPECT_NEAR(test::ciede2000(pair.one, pair.two), pair.difference, 1e-4);
+  const test::Lab white = test::lab_of({255, 255, 255});
+  EXPECT_NEAR(white.l, 100, 1e-3);
+  EXPECT_NEAR(std::hypot(white.a, white.b), 0, 0.02);
+}
+
+// A face whose left half is painted by one photograph and its right half by another, 20 levels brighter.
+TEST(TextureSeams, TheMeasureSeesAStep) {
+  FaceMesh mesh(std::pmr::get_default_resource());
+  TextureAtlas atlas(std::pmr::get_default_resource());
+  constexpr int kSide = 41;
+  atlas.width_px = atlas.height_px = 200;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      for (int c = 0; c < 3; ++c) atlas.rgb.push_back(x < 100 ? 120 : 140);
+      atlas.origin.push_back(x < 100 ? 2 : 255);
+    }
+  const auto corner = [&](int x, int y) {
+    atlas.uv.push_back({static_cast<float>(x) / (kSide - 1), static_cast<float>(y) / (kSide - 1)});
+    return static_cast<std::uint32_t>(y * kSide + x);
+  };
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), 500});
+  for (int y = 0; y + 1 < kSide; ++y)
+    for (int x = 0; x + 1 < kSide; ++x) {
+      mesh.triangles.push_back({corner(x, y), corner(x, y + 1), corner(x + 1, y + 1)});
+      mesh.triangles.push_back({corner(x, y), corner(x + 1, y + 1), corner(x + 1, y)});
+    }
+  const test::SeamReport report = test::measure_seams(mesh, atlas);
+  const double truth = test::ciede2000(test::lab_of({120, 120, 120}), test::lab_of({140, 140, 140}));
+  EXPECT_EQ(report.step.count, 40u);
+  EXPECT_NEAR(report.across.median, truth, 0.2);
+  EXPECT_GT(report.step.median, 0.4 * truth) << "the filter between texels softens it";
+}
+
+class SeamsOfAFace : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    hal::sim::RigOptions options;
+    options.width_px = 864;
+    options.height_px = 540;
+    rig = new hal::sim::SimRig(hal::sim::make_rig(options));
+    ThreadPool pool(2);
+    const auto head = hal::sim::make_head(hal::sim::traits_of(3), pool);
+    scene = hal::sim::make_head_scene(head, {}, pool).release();
+  }
+  static void TearDownTestSuite() {
+    delete scene;
+    delete rig;
+  }
+  // The right camera gets `right_exposure` times the left one's light.
+  test::SeamReport seams(double right_exposure) {
+    test::StageBench bench;
+    hal::sim::SensorOptions left, right;
+    right.exposure = right_exposure;
+    const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig->left, left, bench.pool), left, 1);
+    const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig->right, right, bench.pool), right, 2);
+    const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
+    EXPECT_TRUE(pipeline);
+    StageContext& c = bench.context;
+    const auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
+    EXPECT_TRUE(pair);
+    const auto matches = pipeline->match(*pair, c);
+    EXPECT_TRUE(matches);
+    const auto cloud = pipeline->reconstruct(*pair, *matches, c);
+    EXPECT_TRUE(cloud);
+    auto mesh = pipeline->mesh(*cloud, c);
+    EXPECT_TRUE(mesh);
+    const auto left_alone = SingleViewTexturer({}).texture(*mesh, *pair, c);
+    EXPECT_TRUE(left_alone);
+    const auto model = pipeline->texture(*std::move(mesh), *pair, c);
+    EXPECT_TRUE(model);
+    EXPECT_GT(model->quality.texture_sharpness, 0.3);
+    return test::measure_seams(model->mesh, model->texture, &*left_alone);
+  }
+  static void print(double exposure, const test::SeamReport& r) {
+    std::printf("right camera %.2f of the light: %zu seam edges, step %.2f / %.2f, over 3 mm %.2f / %.2f (CIEDE2000, median / 95 %%)\n",
+                exposure, r.step.count, r.step.median, r.step.p95, r.across.median, r.across.p95);
+  }
+  static hal::sim::SimRig* rig;
+  static hal::sim::Scene* scene;
+};
+hal::sim::SimRig* SeamsOfAFace::rig = nullptr;
+hal::sim::Scene* SeamsOfAFace::scene = nullptr;
+
+TEST_F(SeamsOfAFace, CannotBeSeenHoweverUnequalTheExposures) {
+  for (const double exposure : {1.0, 0.6}) {
+    const test::SeamReport report = seams(exposure);
+    print(exposure, report);
+    EXPECT_GT(report.step.count, 100u);
+    EXPECT_LT(report.step.median, 1.5) << exposure;
+    EXPECT_LT(report.step.p95, 4) << exposure;
+    EXPECT_LT(report.across.median, 1.5) << exposure;
+    EXPECT_LT(report.across.p95, 4) << exposure;
+  }
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
