@@ -9,6 +9,8 @@
 #include "firmware/command/output_folder.h"
 #include "firmware/command/subject_lookup.h"
 #include "firmware/command/wall_time.h"
+#include "firmware/version.h"
+#include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -53,8 +55,12 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   const storage::Enrolment& newest = enrolments.back();
   std::pmr::monotonic_buffer_resource memory;
   RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
+  RELIEVO_TRY_ASSIGN(const auto images, pipeline::make_recognition_images(model, memory, memory));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  if (const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Head); !files) {
+  storage::ExportOptions options(storage::ExportFrame::Head);
+  options.version = kVersion;
+  options.images = &images;
+  if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
   if (!newest.report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));

@@ -29,6 +29,7 @@ Result<void> check(const FaceModel& model) {
                                                       static_cast<std::size_t>(texture.height_px) * 3 &&
                             fits(texture.uv.size(), mesh.triangles.size() * 3) &&
                             (texture.uv.empty() || !texture.rgb.empty()) &&
+                            fits(texture.origin.size(), texture.rgb.size() / 3) &&
                             fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
   if (v > 0x7fffffff || !fits(mesh.normals.size(), v) || !fits(mesh.sigma_mm.size(), v) ||
@@ -79,7 +80,7 @@ Result<ExportMesh> make_export_mesh(const FaceModel& model, ExportFrame frame) {
   const bool head = frame == ExportFrame::Head;
   const Vec3d out_of_the_face{0, 0, head ? 1.0 : -1.0};
   const std::size_t count = model.mesh.vertices_mm.size();
-  ExportMesh mesh{model, frame, {}, {}, {}};
+  ExportMesh mesh{model, frame, {}, {}, {}, {}};
   mesh.vertices_mm.reserve(count);
   mesh.normals.reserve(count);
   mesh.colours.reserve(count);

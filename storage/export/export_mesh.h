@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -24,6 +25,7 @@ struct ExportMesh {
   std::vector<pipeline::Vec3f> vertices_mm;
   std::vector<pipeline::Vec3f> normals;              // unit length, always
   std::vector<std::array<std::uint8_t, 3>> colours;  // one a vertex; white where the model has none
+  std::string_view version{};                        // of the program, for files that can say it
 
   bool textured() const { return !model.texture.uv.empty(); }
 };

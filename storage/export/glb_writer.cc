@@ -156,10 +156,29 @@ std::string add_material(Buffer& to, std::span<const std::byte> png) {
          "\"metallicFactor\":0,\"roughnessFactor\":1}}]," + texture;
 }
 
+// What is known of the model, for programs that ask: numbers of the report, millimetres but where the name says otherwise.
+std::string quality_text(const pipeline::ModelQuality& q) {
+  std::string text;
+  const auto add = [&text](const char* name, double value) {
+    if (!std::isfinite(value) || std::abs(value) > 1e9) return;
+    text += text.empty() ? "" : ",";
+    text += std::string("\"") + name + "\":";
+    append_rounded(text, value, 4);
+  };
+  add("median_sigma_mm", q.median_sigma_mm);
+  add("measured_area_mm2", q.measured_area_mm2);
+  add("coverage", q.coverage);
+  add("width_mm", q.width_mm);
+  add("height_mm", q.height_mm);
+  add("nose_relief_mm", q.nose_relief_mm);
+  add("epipolar_residual_px", q.epipolar_residual_px);
+  add("texture_sharpness", q.texture_sharpness);
+  return text;
+}
+
 std::string about(const ExportMesh& mesh) {
-  return std::string(
-             "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo\",\"extras\":{\"units\":\"metres\","
-             "\"frame\":\"") +
+  return "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo" + (mesh.version.empty() ? std::string() : " " + std::string(mesh.version)) +
+         "\",\"extras\":{\"units\":\"metres\",\"quality\":{" + quality_text(mesh.model.quality) + "},\"frame\":\"" +
          (mesh.frame == ExportFrame::Head
               ? "head: origin at the tip of the nose, x to the person's left, y up, z out of the face"
               : "camera: origin at the left camera, x right, y up, z towards the camera") +

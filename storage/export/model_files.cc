@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/export/model_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "storage/export/obj_writer.h"
 #include "storage/export/ply_writer.h"
 #include "storage/export/png_writer.h"
+#include "storage/export/recognition_files.h"
+#include "storage/export/stl_writer.h"
 
 namespace relievo::storage {
 namespace {
@@ -56,29 +59,47 @@ class Batch {
   std::vector<PendingFile> files_;
 };
 
+Result<std::vector<std::byte>> origin_png(const pipeline::TextureAtlas& texture) {
+  std::vector<std::uint8_t> grey(texture.origin.size());
+  std::ranges::transform(texture.origin, grey.begin(), [](std::uint8_t o) {
+    return o >= pipeline::kLeftPhotographTexel ? std::uint8_t{255} : o == pipeline::kFilledTexel ? std::uint8_t{128} : std::uint8_t{0};
+  });
+  return png_of_grey(texture.width_px, texture.height_px, grey);
+}
+
 Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
-                                        ExportFrame frame) {
-  RELIEVO_TRY_ASSIGN(const ExportMesh mesh, make_export_mesh(model, frame));
+                                        const ExportOptions& options) {
+  RELIEVO_TRY_ASSIGN(ExportMesh mesh, make_export_mesh(model, options.frame));
+  mesh.version = options.version;
   RELIEVO_TRY(make_directory(dir));
   Batch batch(dir);
   RELIEVO_TRY(batch.add("model.ply", ply_bytes(mesh)));
+  RELIEVO_TRY(batch.add("model.stl", stl_bytes(mesh)));
   std::vector<std::byte> png;
   if (mesh.textured()) {
     RELIEVO_TRY_ASSIGN(png, png_bytes(model.texture));
     RELIEVO_TRY(batch.add("model.png", png));
+    if (!model.texture.origin.empty()) {
+      RELIEVO_TRY_ASSIGN(const auto origin, origin_png(model.texture));
+      RELIEVO_TRY(batch.add("model_origin.png", origin));
+    }
   }
   RELIEVO_TRY(batch.add("model.mtl", bytes_of(mtl_text(mesh, "model.png"))));
   RELIEVO_TRY(batch.add("model.obj", bytes_of(obj_text(mesh, "model.mtl"))));
   RELIEVO_TRY(batch.add("model.glb", glb_bytes(mesh, png)));
+  if (options.images != nullptr) {
+    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, options.version));
+    for (const NamedBytes& file : files) RELIEVO_TRY(batch.add(file.name, file.bytes));
+  }
   return batch.publish();
 }
 
 }  // namespace
 
 Result<std::vector<fs::path>> write_model_files(const pipeline::FaceModel& model, const fs::path& dir,
-                                                ExportFrame frame) {
+                                                const ExportOptions& options) {
   try {
-    return write_all(model, dir, frame);
+    return write_all(model, dir, options);
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "not enough memory to write the model; nothing was written"};
   }

@@ -1,27 +1,39 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The files a face model is handed out in: model.ply, model.obj + .mtl + .png, model.glb.
+// The files a face model is handed out in: model.ply, model.obj + .mtl + .png, model.stl, model.glb, and
+// model_origin.png: what the texture's texels are (0 no surface, 128 filled, 255 photographed). With
+// images, those of recognition_files.h too.
 //
-// All are written under temporary names and made durable first, then renamed: a failure while
+// One file's bytes are in memory at a time, beside the texture's, which two files carry: at most
+// 100 bytes a triangle. All are written under temporary names and made durable first, then renamed: a failure while
 // writing leaves the directory as it was, and an older model.* whole.
 // Errors: InvalidInput (the model does not hang together); MediaFull; IoFailed; OutOfMemory.
 // Thread: any; blocks on the disk (the keeper, not the screen).
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
+#include "pipeline/model/recognition_images.h"
 #include "storage/export/export_mesh.h"
 
 namespace relievo::storage {
 
-// Makes the directory if there is none. Returns the files written, in the order ply, png, mtl, obj,
-// glb; without a texture there is no png.
+struct ExportOptions {
+  ExportOptions(ExportFrame in_frame) : frame(in_frame) {}  // NOLINT(google-explicit-constructor): a frame says it all, mostly
+  ExportFrame frame;
+  std::string_view version{};                               // of the program
+  const pipeline::RecognitionImages* images = nullptr;      // always in the head frame
+};
+
+// Makes the directory if there is none. Returns the files written, in the order ply, stl, png, origin,
+// mtl, obj, glb, images; without a texture there is no png.
 Result<std::vector<std::filesystem::path>> write_model_files(const pipeline::FaceModel& model,
                                                              const std::filesystem::path& dir,
-                                                             ExportFrame frame);
+                                                             const ExportOptions& options);
 
 }  // namespace relievo::storage

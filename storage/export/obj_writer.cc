@@ -8,10 +8,14 @@
 namespace relievo::storage {
 namespace {
 
+// What the file is good for and no more: a thousandth of a millimetre, 0.06 degrees of a normal, a
+// fiftieth of a texel of the largest atlas.
+constexpr int kPlaceDecimals = 3, kNormalDecimals = 3, kTextureDecimals = 5;
+
 template <typename... Numbers>
-void add_line(std::string& text, const char* word, Numbers... values) {
+void add_line(std::string& text, const char* word, int decimals, Numbers... values) {
   text += word;
-  ((text += ' ', append_number(text, values)), ...);
+  ((text += ' ', append_rounded(text, static_cast<double>(values), decimals)), ...);
   text += '\n';
 }
 
@@ -25,10 +29,10 @@ std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
   text += mesh.frame == ExportFrame::Head ? "head frame: x to the person's left, y up, z out of the face\n"
                                           : "camera frame: x right, y down, z forward\n";
   text.append("mtllib ").append(mtl_name).append("\no face\n");
-  for (const auto& v : mesh.vertices_mm) add_line(text, "v", v.x, v.y, v.z);
-  for (const auto& n : mesh.normals) add_line(text, "vn", n.x, n.y, n.z);
+  for (const auto& v : mesh.vertices_mm) add_line(text, "v", kPlaceDecimals, v.x, v.y, v.z);
+  for (const auto& n : mesh.normals) add_line(text, "vn", kNormalDecimals, n.x, n.y, n.z);
   if (mesh.textured()) {
-    for (const auto& entry : split.entries) add_line(text, "vt", entry.uv.x, 1.0f - entry.uv.y);
+    for (const auto& entry : split.entries) add_line(text, "vt", kTextureDecimals, entry.uv.x, 1.0f - entry.uv.y);
   }
   text += "usemtl face\n";
   for (const auto& triangle : split.triangles) {

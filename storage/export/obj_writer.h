@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Wavefront OBJ with its material. Millimetres, in the mesh's frame; texture coordinates from the
-// lower left, as the format wants. Every float is written so that it reads back the same.
+// lower left, as the format wants. Rounded to a thousandth of a millimetre.
 // May throw std::bad_alloc. Thread: any.
 #pragma once
 

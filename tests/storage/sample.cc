@@ -63,6 +63,27 @@ FaceModel sample_model(int side, unsigned seed) {
   return model;
 }
 
+pipeline::RecognitionImages sample_images() {
+  pipeline::RecognitionImages images(std::pmr::new_delete_resource());
+  auto& p = images.portrait;
+  p.width_px = 2;
+  p.height_px = 1;
+  p.rgb = {10, 20, 30, 200, 201, 202};
+  p.shows = {2, 1};
+  p.mm_per_px = 0.3;
+  p.camera_mm = 1500;
+  p.between_eyes_mm = 63.25;
+  auto& r = images.range;
+  r.width_px = 3;
+  r.height_px = 2;
+  r.pitch_mm = 0.5;
+  r.first_mm = {-2.5, 7};
+  r.z_mm = {0, -12.34f, 5, -400, 400, 0};
+  r.sigma_mm = {0, 0.0123f, 0.1f, 0, 1000, 2};
+  r.shows = {0, 2, 1, 2, 2, 2};
+  return images;
+}
+
 pipeline::StereoCalibration sample_calibration() {
   pipeline::StereoCalibration c;
   c.left = {{1200.123456789012, 1201.1}, {640.25, 480.75}, {0.21, -0.1, 1e-5, -1e-6, 0.3}, 1280, 960};

@@ -14,6 +14,7 @@
 #include "hal/clock.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/face_model.h"
+#include "pipeline/model/recognition_images.h"
 #include "storage/sqlite/sqlite_store.h"
 
 namespace relievo::storage::test {
@@ -29,6 +30,7 @@ class StillClock final : public hal::Clock {
 // A curved surface of side x side vertices in the camera frame, 600 mm away, with a seam in its
 // texture down the middle, awkward floats, and numbers that differ by `seed`.
 pipeline::FaceModel sample_model(int side = 12, unsigned seed = 1);
+pipeline::RecognitionImages sample_images();  // a few pixels of every kind
 pipeline::StereoCalibration sample_calibration();
 // The record of it as stores of before migration 3 hold it.
 std::vector<std::byte> calibration_of_first_form(const pipeline::StereoCalibration& calibration);

@@ -38,10 +38,10 @@ class WholeWay : public RelievoProcess {
   void reconstruct() {
     done({"simulate", "face", "-o", "face", "--scale", "0.33", "--truth"});
     done({"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", "model", "--frame", "camera"});
-    expect_files("model", {"model.ply", "model.obj", "model.mtl", "model.png", "model.glb", "report.json"});
+    expect_files("model", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb", "portrait.png", "range.png", "recognition.json", "report.json"});
     const std::string report = read_text(here / "model/report.json");
     for (const char* key : {"\"version\"", "\"calibration\"", "\"algorithms\"", "\"stages\"", "\"arena_peak_bytes\"",
-                            "\"total_ms\"", "\"peak_rss_bytes\"", "\"quality\"", "Match", "Reconstruct", "Mesh", "Texture"}) {
+                            "\"total_ms\"", "\"peak_rss_bytes\"", "\"quality\"", "\"texture_sharpness\"", "Match", "Reconstruct", "Mesh", "Texture"}) {
       EXPECT_NE(report.find(key), std::string::npos) << key;
     }
     const Said compared = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--truth", "face", "-o", "compared"});
@@ -57,7 +57,7 @@ class WholeWay : public RelievoProcess {
     EXPECT_NE(done({"subjects", "list", "--store", "store"}).out.find("1 enrolment   Ada Lovelace"), std::string::npos);
     EXPECT_NE(done({"subjects", "show", "Ada Lovelace", "--store", "store"}).out.find("calibration 1"), std::string::npos);
     done({"subjects", "export", "Ada Lovelace", "-o", "exported", "--store", "store"});
-    expect_files("exported", {"model.ply", "model.obj", "model.mtl", "model.png", "model.glb", "report.json"});
+    expect_files("exported", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb", "portrait.png", "range.png", "recognition.json", "report.json"});
     EXPECT_EQ(done({"selftest", "--store", "store"}).exit_code, 0);
     refused({"subjects", "show", "Nobody", "--store", "store"}, "Nobody");
   }

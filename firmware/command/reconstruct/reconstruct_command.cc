@@ -5,6 +5,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/reconstruct/reconstruction.h"
+#include "firmware/version.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -15,8 +16,11 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
                                  args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  const auto frame = args.camera_frame ? storage::ExportFrame::Camera : storage::ExportFrame::Head;
-  if (const auto files = storage::write_model_files(reconstruction.model(), folder.path(), frame); !files) {
+  RELIEVO_TRY_ASSIGN(const auto images, reconstruction.draw_images());
+  storage::ExportOptions options(args.camera_frame ? storage::ExportFrame::Camera : storage::ExportFrame::Head);
+  options.version = kVersion;
+  options.images = &images;
+  if (const auto files = storage::write_model_files(reconstruction.model(), folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(reconstruction.report()), args.output));

@@ -8,6 +8,7 @@
 #include "firmware/work/pool_size.h"
 #include "firmware/work/reconstruct_job.h"
 #include "hal/monotonic_clock.h"
+#include "pipeline/recognition/recognition_images.h"
 
 namespace relievo::firmware {
 
@@ -32,6 +33,11 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
              peak_rss_bytes(), model().quality, session_.products().drift,
              session_.products().matches->motion_px};
   return {};
+}
+
+Result<pipeline::RecognitionImages> Reconstruction::draw_images() {
+  EnrolmentSession::Scratch scratch(session_);
+  return pipeline::make_recognition_images(model(), session_.output(), scratch.arena());
 }
 
 }  // namespace relievo::firmware

@@ -13,6 +13,7 @@
 #include "firmware/command/reconstruct/report.h"
 #include "firmware/session.h"
 #include "firmware/work/pipeline_stages.h"
+#include "pipeline/model/recognition_images.h"
 
 namespace relievo::firmware {
 
@@ -22,6 +23,8 @@ class Reconstruction {
   // Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const Path& left, const Path& right, const Path& calibration, const AlgorithmArgs& algorithms,
                    Console& console, WhenMoved when_moved = WhenMoved::Refuse);
+  // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
+  Result<pipeline::RecognitionImages> draw_images();
   const pipeline::FaceModel& model() const { return *session_.products().model; }
   const Report& report() const { return report_; }
 

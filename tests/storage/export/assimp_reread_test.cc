@@ -99,16 +99,27 @@ TEST_P(Reread, ObjIsTheSameWithItsTexture) {
   const auto wanted = corners_of(mesh), found = corners_in(*scene);
   ASSERT_EQ(found.size(), wanted.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    // assimp reads decimals in its own, faster way.
-    ASSERT_LT(distance(found[i].at, wanted[i].at), 2e-4f) << i;
-    ASSERT_LT(distance(found[i].normal, wanted[i].normal), 1e-6f) << i;
-    ASSERT_NEAR(found[i].uv.x, wanted[i].uv.x, 1e-6f);
-    ASSERT_NEAR(found[i].uv.y, 1.0f - wanted[i].uv.y, 1e-6f) << "the format counts from below";
+    // Half of the last decimal, and assimp reads decimals in its own, faster way.
+    ASSERT_LT(distance(found[i].at, wanted[i].at), 1.1e-3f) << i;
+    ASSERT_LT(distance(found[i].normal, wanted[i].normal), 1e-3f) << i;
+    ASSERT_NEAR(found[i].uv.x, wanted[i].uv.x, 6e-6f);
+    ASSERT_NEAR(found[i].uv.y, 1.0f - wanted[i].uv.y, 6e-6f) << "the format counts from below";
   }
   aiString texture;
   const aiMaterial& material = *scene->mMaterials[scene->mMeshes[0]->mMaterialIndex];
   ASSERT_EQ(material.GetTexture(aiTextureType_DIFFUSE, 0, &texture), AI_SUCCESS);
   EXPECT_STREQ(texture.C_Str(), "model.png");
+}
+
+TEST_P(Reread, StlIsTheSameToTheBit) {
+  const aiScene* scene = read("model.stl");
+  ASSERT_TRUE(scene);
+  const auto wanted = corners_of(mesh), found = corners_in(*scene);
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(distance(found[i].at, wanted[i].at), 0.0f) << i;
+    ASSERT_NEAR(std::hypot(found[i].normal.x, found[i].normal.y, found[i].normal.z), 1, 1e-5) << i;
+  }
 }
 
 TEST_P(Reread, GlbIsTheSameInMetresAndUpright) {
@@ -131,7 +142,7 @@ TEST_P(Reread, GlbIsTheSameInMetresAndUpright) {
 }
 
 TEST_P(Reread, EveryTriangleTurnsOutward) {
-  for (const char* name : {"model.ply", "model.obj", "model.glb"}) {
+  for (const char* name : {"model.ply", "model.obj", "model.stl", "model.glb"}) {
     const aiScene* scene = read(name);
     ASSERT_TRUE(scene);
     const auto corners = corners_in(*scene);
@@ -155,10 +166,11 @@ TEST(RereadUntextured, GlbCarriesColoursOfVertices) {
   auto model = test::sample_model(8);
   model.texture.uv.clear();
   model.texture.rgb.clear();
+  model.texture.origin.clear();
   model.texture.width_px = model.texture.height_px = 0;
   const auto files = write_model_files(model, folder.path(), ExportFrame::Head);
   ASSERT_TRUE(files);
-  EXPECT_EQ(files->size(), 4u);
+  EXPECT_EQ(files->size(), 5u);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile((folder / "model.glb").string(), 0);
   ASSERT_TRUE(scene) << importer.GetErrorString();

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -12,6 +15,7 @@
 #include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
 #include "storage/export/glb_writer.h"
+#include "storage/export/number_text.h"
 #include "storage/export/ply_writer.h"
 #include "storage/export/png_writer.h"
 #include "tests/storage/sample.h"
@@ -95,7 +99,9 @@ TEST(ModelFiles, RefusesWhatDoesNotHangTogetherAndWritesNothing) {
   no_pixels.texture.width_px = no_pixels.texture.height_px = 0;
   auto bad_frame = sample_model(4);
   bad_frame.head_from_camera.translation_mm.x = std::numeric_limits<double>::infinity();
-  for (const auto* model : {&empty, &nowhere, &wild, &no_pixels, &bad_frame}) {
+  auto short_origin = sample_model(4);
+  short_origin.texture.origin.pop_back();
+  for (const auto* model : {&empty, &nowhere, &wild, &no_pixels, &bad_frame, &short_origin}) {
     const auto written = write_model_files(*model, folder / "out", ExportFrame::Head);
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().code, Errc::InvalidInput);
@@ -113,8 +119,38 @@ TEST(ModelFiles, NamesWhatItWroteAndReplacesWhatWasThere) {
     names += file.filename().string() + " ";
     EXPECT_GT(std::filesystem::file_size(file), 10u);
   }
-  EXPECT_EQ(names, "model.ply model.png model.mtl model.obj model.glb ");
+  EXPECT_EQ(names, "model.ply model.stl model.png model_origin.png model.mtl model.obj model.glb ");
   EXPECT_EQ(relievo::test::read_text(folder / "model.ply").substr(0, 4), "ply\n");
+}
+
+TEST(ModelFiles, ImagesForRecognitionGoBesideTheModel) {
+  const TemporaryFolder folder;
+  const auto images = test::sample_images();
+  ExportOptions options(ExportFrame::Head);
+  options.version = "1.2.3";
+  options.images = &images;
+  const auto files = write_model_files(sample_model(), folder.path(), options);
+  ASSERT_TRUE(files);
+  std::string names;
+  for (auto file = files->begin() + 7; file != files->end(); ++file) names += file->filename().string() + " ";
+  EXPECT_EQ(names, "portrait.png portrait_shows.png range.png range_sigma.png range_shows.png recognition.json ");
+  const std::string page = relievo::test::read_text(folder / "recognition.json");
+  EXPECT_NE(page.find("\"generator\": \"Relievo 1.2.3\""), std::string::npos);
+  EXPECT_NE(page.find("\"pitch_mm\": 0.5, \"first_pixel_xy_mm\": [-2.5, 7]"), std::string::npos);
+  EXPECT_NE(page.find("\"eyes_found\": true, \"between_eyes_mm\": 63.25"), std::string::npos);
+  const std::string glb = relievo::test::read_text(folder / "model.glb");
+  EXPECT_NE(glb.find("\"generator\":\"Relievo 1.2.3\""), std::string::npos);
+  EXPECT_NE(glb.find("\"texture_sharpness\":0.7"), std::string::npos);
+}
+
+TEST(NumberText, RoundsAndKeepsNoNeedlessDigit) {
+  const struct { double value; int decimals; const char* text; } kCases[] = {
+      {0, 3, "0"}, {-0.0004, 3, "0"}, {-0.0006, 3, "-0.001"}, {12.5, 3, "12.5"}, {-12.0625, 3, "-12.063"}, {100, 3, "100"}, {0.99999, 3, "1"}, {0.00001, 5, "0.00001"}, {7.25, 0, "7"}};
+  for (const auto& c : kCases) {
+    std::string text;
+    append_rounded(text, c.value, c.decimals);
+    EXPECT_EQ(text, c.text);
+  }
 }
 
 TEST(ModelFiles, SaysWhereItCouldNotWrite) {
@@ -129,6 +165,26 @@ TEST(ModelFiles, SaysWhereItCouldNotWrite) {
   ASSERT_FALSE(in_the_way);
   EXPECT_NE(in_the_way.error().where().find("model.obj"), std::string_view::npos);
   EXPECT_EQ(relievo::test::listing(folder / "out").find(".part"), std::string::npos);
+}
+
+// A file-size limit stands in for the full disk: the write fails in the middle of the batch.
+TEST(ModelFiles, ADiskThatIsFullLeavesWhatWasThereAndNothingElse) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_model_files(sample_model(4), folder.path(), ExportFrame::Head));
+  const std::string before = relievo::test::listing(folder.path());
+  const std::string old_glb = relievo::test::read_text(folder / "model.glb");
+  rlimit old_limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{90'000, old_limit.rlim_max};  // room for the PLY, not for what follows
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto written = write_model_files(sample_model(40), folder.path(), ExportFrame::Head);
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Errc::MediaFull);
+  EXPECT_EQ(relievo::test::listing(folder.path()), before);
+  EXPECT_EQ(relievo::test::read_text(folder / "model.glb"), old_glb);
 }
 
 TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {

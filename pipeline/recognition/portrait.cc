@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/recognition/portrait.h"
+
+#include "pipeline/recognition/textured_view.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kWidthPx = 840;
+constexpr int kHeightPx = 1080;
+constexpr double kMmPerPx = 0.3;
+constexpr double kCameraMm = 1500;
+constexpr double kEyeLine = 0.45;       // of the height, from above
+// From the tip of the nose, where eyes were not found; faces differ by some millimetres.
+constexpr Vec3d kTypicalEyesMm{0, 34, -30};
+
+}  // namespace
+
+Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output, std::pmr::memory_resource* scratch) {
+  Portrait portrait(output);
+  portrait.width_px = kWidthPx;
+  portrait.height_px = kHeightPx;
+  portrait.mm_per_px = kMmPerPx;
+  portrait.camera_mm = kCameraMm;
+  portrait.eyes_mm = kTypicalEyesMm;
+  portrait.eyes_px = {(kWidthPx - 1) / 2.0, kEyeLine * kHeightPx};
+
+  ViewCamera camera;
+  camera.width_px = kWidthPx;
+  camera.height_px = kHeightPx;
+  camera.focal_px = kCameraMm / kMmPerPx;
+  camera.centre_px = portrait.eyes_px;
+  // x stays, y and z turn: the camera looks along the head's -z and counts rows downwards.
+  const RigidTransform& head = model.head_from_camera;
+  for (int i = 0; i < 9; ++i) camera.view_from_camera.rotation.m[i] = (i < 3 ? 1 : -1) * head.rotation.m[i];
+  camera.view_from_camera.translation_mm = {head.translation_mm.x - portrait.eyes_mm.x, -(head.translation_mm.y - portrait.eyes_mm.y),
+                                            -(head.translation_mm.z - portrait.eyes_mm.z) + kCameraMm};
+  TexturedView view = draw_textured(model.mesh, model.texture, camera, output, scratch);
+  portrait.rgb = std::move(view.rgb);
+  portrait.shows = std::move(view.shows);
+  return portrait;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pictures we write, read again by libpng's own reader, value by value.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "storage/export/png_writer.h"
+#include "storage/export/recognition_files.h"
+#include "tests/storage/sample.h"
+
+namespace relievo::storage {
+namespace {
+
+struct Reread {
+  int width = 0, height = 0, bits = 0, channels = 0;
+  std::vector<unsigned> values;
+};
+
+// The plain reader: no conversion of any kind.
+Reread reread(const std::vector<std::byte>& file) {
+  Reread out;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  struct Source { const std::byte* at; std::size_t left; } source{file.data(), file.size()};
+  png_set_read_fn(png, &source, [](png_structp p, png_bytep to, std::size_t size) {
+    auto& from = *static_cast<Source*>(png_get_io_ptr(p));
+    if (size > from.left) png_error(p, "the file is too short");
+    std::memcpy(to, from.at, size);
+    from.at += size;
+    from.left -= size;
+  });
+  png_read_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+  out.width = static_cast<int>(png_get_image_width(png, info));
+  out.height = static_cast<int>(png_get_image_height(png, info));
+  out.bits = png_get_bit_depth(png, info);
+  out.channels = png_get_channels(png, info);
+  png_bytepp rows = png_get_rows(png, info);
+  for (int y = 0; y < out.height; ++y)
+    for (int k = 0; k < out.width * out.channels; ++k)
+      out.values.push_back(out.bits == 8 ? rows[y][k] : static_cast<unsigned>(rows[y][2 * k] << 8 | rows[y][2 * k + 1]));
+  png_destroy_read_struct(&png, &info, nullptr);
+  return out;
+}
+
+TEST(PngWriter, EveryKindReadsBackValueByValue) {
+  std::vector<std::uint8_t> rgb, grey;
+  std::vector<std::uint16_t> deep;
+  for (unsigned k = 0; k < 37 * 23; ++k) {
+    for (unsigned c = 0; c < 3; ++c) rgb.push_back(static_cast<std::uint8_t>(k * 7 + c * 91));
+    grey.push_back(static_cast<std::uint8_t>(k * 5));
+    deep.push_back(static_cast<std::uint16_t>(k * 77));
+  }
+  const auto check = [](const Result<std::vector<std::byte>>& file, const auto& wanted, int bits, int channels) {
+    ASSERT_TRUE(file);
+    const Reread got = reread(*file);
+    EXPECT_EQ(got.width, 37);
+    EXPECT_EQ(got.height, 23);
+    EXPECT_EQ(got.bits, bits);
+    EXPECT_EQ(got.channels, channels);
+    ASSERT_EQ(got.values.size(), wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k) ASSERT_EQ(got.values[k], wanted[k]) << k;
+  };
+  check(png_of_rgb(37, 23, rgb), rgb, 8, 3);
+  check(png_of_grey(37, 23, grey), grey, 8, 1);
+  check(png_of_grey16(37, 23, deep), deep, 16, 1);
+}
+
+TEST(PngWriter, RefusesWhatIsNoPicture) {
+  const std::vector<std::uint8_t> three{1, 2, 3};
+  for (const auto& file : {png_of_rgb(0, 1, {}), png_of_rgb(2, 1, three), png_of_grey(-1, 3, three)}) {
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code, Errc::InvalidInput);
+  }
+}
+
+TEST(RecognitionFiles, HeightsAndSigmasReadBackInMillimetres) {
+  const auto images = test::sample_images();
+  const auto files = recognition_files(images, "1");
+  ASSERT_TRUE(files);
+  ASSERT_EQ(files->size(), 6u);
+  const auto named = [&](std::string_view name) {
+    for (const auto& file : *files)
+      if (name == file.name) return reread(file.bytes);
+    ADD_FAILURE() << name;
+    return Reread{};
+  };
+  EXPECT_EQ(named("portrait.png").values, (std::vector<unsigned>{10, 20, 30, 200, 201, 202}));
+  EXPECT_EQ(named("portrait_shows.png").values, (std::vector<unsigned>{255, 128}));
+  EXPECT_EQ(named("range_shows.png").values, (std::vector<unsigned>{0, 255, 128, 255, 255, 255}));
+  const Reread heights = named("range.png"), sigmas = named("range_sigma.png");
+  ASSERT_EQ(heights.bits, 16);
+  EXPECT_EQ(heights.values[0], 0u);
+  EXPECT_NEAR((heights.values[1] - 32768.0) / 100, -12.34, 0.0051);
+  EXPECT_NEAR((heights.values[2] - 32768.0) / 100, 5, 0.0051);
+  EXPECT_EQ(heights.values[3], 1u) << "what is out of range stays a height";
+  EXPECT_EQ(heights.values[4], 65535u);
+  EXPECT_EQ((heights.values[5] - 32768.0) / 100, 0);
+  EXPECT_NEAR(sigmas.values[1] / 1000.0, 0.0123, 0.00051);
+  EXPECT_EQ(sigmas.values[4], 65000u);
+  EXPECT_EQ(sigmas.values[0], 0u);
+}
+
+}  // namespace
+}  // namespace relievo::storage
