@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/mesh/grid_mesher.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "pipeline/mesh/lattice/gap_closer.h"
+#include "pipeline/mesh/lattice/lattice_resampler.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/sliver_mender.h"
@@ -16,7 +18,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-constexpr double kTrianglesPerPoint = 1.98;  // of a face's cloud, the outline's loss and the gaps' gain together
+constexpr double kThinnerStep = 1.003;  // where the triangles at hand are exceeded by a few
 
 FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& context) {
   std::pmr::vector<std::uint32_t> place(surface.at_mm.size(), kUnused, &context.scratch);
@@ -44,7 +46,26 @@ FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& 
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
 
-CutSurface make_surface(PointLattice& lattice, const GridMesherOptions& o, Arena& scratch) {
+std::size_t count_triangles(const LatticeSurface& surface) {
+  std::size_t count = 0;
+  for (const std::uint8_t cell : surface.cells) count += static_cast<std::size_t>(triangle_count(cell));
+  return count;
+}
+
+// On a lattice that makes good use of the triangles there may be: of a face far away finer than the
+// points', but not so fine that it would only repeat them.
+ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesherOptions& o, Arena& scratch) {
+  const double present = static_cast<double>(count_triangles(shaped.surface));
+  double spacing = std::max(std::sqrt(present / triangles), o.finest_cells);
+  while (present > 0 && spacing != 1) {
+    ShapedLattice other = resample_lattice(shaped, static_cast<float>(spacing), max_slope, &scratch);
+    if (static_cast<double>(count_triangles(other.surface)) <= triangles) return other;
+    spacing *= kThinnerStep;
+  }
+  return shaped;
+}
+
+CutSurface make_surface(PointLattice lattice, double triangles, const GridMesherOptions& o, Arena& scratch) {
   const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
                              static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
@@ -55,9 +76,10 @@ CutSurface make_surface(PointLattice& lattice, const GridMesherOptions& o, Arena
   // After the gaps: a crack must not make a narrow place of a wide one.
   const OutlineLimits outline{limits.max_slope, tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm),
                               static_cast<float>(o.outline_wave_mm)};
-  const CellMask inside = trim_outline(lattice, surface, outline, shaper, &scratch);
+  CellMask inside = trim_outline(lattice, surface, outline, shaper, &scratch);
   const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm), static_cast<float>(o.rim_smoothing_mm)};
-  CutSurface cut = cut_outline(lattice, surface, inside, smoothing, limits.max_slope, &scratch);
+  const ShapedLattice shaped = fill_budget({std::move(lattice), std::move(surface), std::move(inside)}, triangles, limits.max_slope, o, scratch);
+  CutSurface cut = cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, limits.max_slope, &scratch);
   keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
   if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, limits.max_slope}, &scratch) > 0)
     keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
@@ -69,6 +91,8 @@ CutSurface make_surface(PointLattice& lattice, const GridMesherOptions& o, Arena
 Result<void> GridMesherOptions::check() const {
   if (max_triangles < 1000 || max_triangles > 10'000'000)
     return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.grid");
+  if (!(finest_cells >= 0.5 && finest_cells <= 4))
+    return Error{Errc::InvalidInput, "finest_cells must lie in 0.5 .. 4"}.at("mesher.grid");
   if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
     return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.grid");
   if (!(step_sigmas >= 0 && step_sigmas <= 100) || !(step_slope_ratio >= 1 && step_slope_ratio <= 100) ||
@@ -101,22 +125,18 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported, "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
 
-  // What the outline takes and closed gaps add is known once it is done; in the rare case that it does not
-  // fit, a thinner lattice does. A lattice is thinned as far as need be, not by whole strides.
-  const double most = static_cast<double>(options_.max_triangles);
-  for (double share = std::min(1.0, most / (kTrianglesPerPoint * static_cast<double>(cloud.points.size())));;) {
+  // What the outline's cut takes is known once it is done; in the rare case that it leaves more than it
+  // found, a thinner lattice fits.
+  for (double triangles = options_.max_triangles;; triangles *= 0.98) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
-    PointLattice lattice = make_lattice(cloud, thin_lattice(share), &context.scratch);
+    PointLattice lattice = make_lattice(cloud, &context.scratch);
     context.progress.done.store(0.2F, std::memory_order_relaxed);
-    const CutSurface surface = make_surface(lattice, options_, context.scratch);
+    const CutSurface surface = make_surface(std::move(lattice), triangles, options_, context.scratch);
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;
-    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) {
-      share *= 0.98 * most / static_cast<double>(surface.triangles.size());
-      continue;
-    }
+    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) continue;
     FaceMesh mesh = pack(surface, static_cast<float>(options_.measured_sigma_mm), context);
     compute_normals(mesh, options_.normal_passes, &context.scratch);
     turn_sigma_perpendicular(mesh);

@@ -49,12 +49,7 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
 
 }  // namespace
 
-LatticeThinning thin_lattice(double share) {
-  const double each = std::sqrt(std::min(share, 1.0));
-  return {each, each};
-}
-
-PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinning, std::pmr::memory_resource* memory) {
+PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* memory) {
   PointLattice lattice(memory);
   if (cloud.lattice_step_px <= 0) return lattice;
   const Box box = bounds(cloud);
@@ -62,11 +57,8 @@ PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinni
 
   const float step = static_cast<float>(cloud.lattice_step_px);
   const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
-  // Of n lines floor(n share) are kept: line i where that counts up.
-  const auto place = [](int i, double share) { return static_cast<int>(std::floor(i * share + 1e-9)); };
-  const auto kept = [&](int i, double share) { return i == 0 || place(i, share) != place(i - 1, share); };
-  lattice.columns = place(steps(box.left, box.right), thinning.columns) + 1;
-  lattice.rows = place(steps(box.top, box.bottom), thinning.rows) + 1;
+  lattice.columns = steps(box.left, box.right) + 1;
+  lattice.rows = steps(box.top, box.bottom) + 1;
   const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
@@ -74,10 +66,7 @@ PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinni
 
   for (const CloudPoint& p : cloud.points) {
     if (!usable(p)) continue;
-    const int x = steps(box.left, p.left_px.x);
-    const int y = steps(box.top, p.left_px.y);
-    if (!kept(x, thinning.columns) || !kept(y, thinning.rows)) continue;
-    const std::size_t k = lattice.index(place(x, thinning.columns), place(y, thinning.rows));
+    const std::size_t k = lattice.index(steps(box.left, p.left_px.x), steps(box.top, p.left_px.y));
     if (lattice.node[k] != Node::Empty && lattice.sigma_mm[k] <= p.sigma_mm) continue;
     lattice.node[k] = Node::Measured;
     lattice.at_mm[k] = p.at_mm;

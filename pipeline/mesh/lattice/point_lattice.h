@@ -42,15 +42,8 @@ struct PointLattice {
   }
 };
 
-// Which share of a lattice's columns and rows to keep, spread evenly.
-struct LatticeThinning { double columns = 1, rows = 1; };
-
-// A share of all nodes: as many columns as rows, so that cells stay as square as they are.
-LatticeThinning thin_lattice(double share_of_nodes);
-
-// Points that are not finite are left out;
-// where two fall on one node the more certain one stays. An empty lattice where no point is usable.
+// Points that are not finite are left out; where two fall on one node the more certain one stays. An empty lattice where no point is usable.
 // Throws std::bad_alloc when `memory` is used up.
-PointLattice make_lattice(const PointCloud& cloud, const LatticeThinning& thinning, std::pmr::memory_resource* memory);
+PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

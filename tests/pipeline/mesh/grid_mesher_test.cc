@@ -130,6 +130,7 @@ TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
   EXPECT_LT(right, 26);
   EXPECT_LT(top, -136) << "the corner at (-75, -75) is rounded by no more than a few millimetres";
   GridMesherOptions options;
+  options.finest_cells = 1;
   options.min_width_mm = 0;
   options.max_rim_deg = 90;
   options.outline_wave_mm = 0;
@@ -224,6 +225,7 @@ TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
   StageRoom room;
   const PointCloud truth = test::truth_cloud(*dir, {});
   GridMesherOptions options;
+  options.finest_cells = 1;
   options.max_hole_mm = 0;
   options.outline_wave_mm = 0;
   options.outline_smoothing_mm = 0;

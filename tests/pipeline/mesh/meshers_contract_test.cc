@@ -84,7 +84,7 @@ TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
   const double truth = area_mm2(corners, two);
   const double area = area_mm2(result->vertices_mm, result->triangles);
   EXPECT_LT(area, truth * 1.0001);
-  EXPECT_GT(area, truth * 0.93);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
+  EXPECT_GT(area, truth * 0.925);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
   const Vec3f normal = mesh::unit({0.3F, -0.2F, -1});
   for (const Vec3f& n : result->normals) EXPECT_GT(mesh::dot(n, normal), 0.9999F);
 }

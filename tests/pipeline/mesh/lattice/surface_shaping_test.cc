@@ -95,8 +95,9 @@ TEST(GridMesher, ARaggedOutlineIsCutSmooth) {
     return std::hypot(sx, sy) < 0.12 - early ? 500.0 : kNothing;
   });
   StageRoom room, other;
-  const auto smooth = mesh_grid(cloud, room);
   GridMesherOptions options;
+  options.finest_cells = 1;
+  const auto smooth = mesh_grid(cloud, room, options);
   options.outline_smoothing_mm = 0;
   options.rim_smoothing_mm = 0;
   const auto rough = mesh_grid(cloud, other, options);

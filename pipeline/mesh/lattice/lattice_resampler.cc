@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/lattice/lattice_resampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using mesh::plus, mesh::times;
+
+// A place between nodes: the cell, and how far into it.
+struct Place { int column, row; float tx, ty; };
+
+// The last node counts as the far end of the last cell.
+void split(float at, int nodes, int& cell, float& t) {
+  cell = std::clamp(static_cast<int>(at), 0, nodes - 2);
+  t = at - static_cast<float>(cell);
+}
+
+std::array<float, 4> cubic_weights(float t) {
+  const float t2 = t * t;
+  const float t3 = t2 * t;
+  return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t), 0.5F * (t3 - t2)};
+}
+
+// The weights of the four corners a, b, c, d of lattice_surface.h on the surface of the cell; all 0 off it.
+std::array<float, 4> corner_weights(std::uint8_t cell, float tx, float ty) {
+  switch (cell) {
+    case kFalling:
+    case kRising: return {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
+    case kUnder: if (ty >= tx) return {1 - ty, 0, ty - tx, tx}; break;
+    case kOver: if (tx >= ty) return {1 - tx, tx - ty, 0, ty}; break;
+    case kLeft: if (tx + ty <= 1) return {1 - tx - ty, tx, ty, 0}; break;
+    case kRight: if (tx + ty >= 1) return {0, 1 - ty, 1 - tx, tx + ty - 1}; break;
+    default: break;
+  }
+  return {};
+}
+
+bool whole(std::uint8_t cell) { return cell == kFalling || cell == kRising; }
+
+class Reader {
+ public:
+  explicit Reader(const ShapedLattice& old) : from_(old.lattice), cells_(old.surface.cells), inside_(old.inside) {}
+
+  Place place(float u, float v) const {
+    Place at{};
+    split(u, from_.columns, at.column, at.tx);
+    split(v, from_.rows, at.row, at.ty);
+    return at;
+  }
+  bool carried(float u, float v) const {
+    const Place at = place(u, v);
+    const std::array<float, 4> w = corner_weights(cells_[from_.index(at.column, at.row)], at.tx, at.ty);
+    return w[0] + w[1] + w[2] + w[3] > 0;
+  }
+  std::uint8_t inside(float u, float v) const {
+    const Place at = place(u, v);
+    return inside_[from_.index(at.column, at.row)];
+  }
+
+  Node read(const Place& at, Vec3f& point, float& sigma) const {
+    const std::size_t a = from_.index(at.column, at.row);
+    const std::size_t below = a + static_cast<std::size_t>(from_.columns);
+    const std::array<float, 4> w = corner_weights(cells_[a], at.tx, at.ty);
+    const std::array<std::size_t, 4> corner{a, a + 1, below, below + 1};
+    if (w[0] + w[1] + w[2] + w[3] <= 0) return Node::Empty;
+    Node node = Node::Measured;
+    float least_certain = 0;
+    Vec3f linear{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (w[k] == 0) continue;
+      if (from_.node[corner[k]] == Node::Filled) node = Node::Filled;
+      sigma += w[k] * from_.sigma_mm[corner[k]];
+      least_certain = std::max(least_certain, from_.sigma_mm[corner[k]]);
+      linear = plus(linear, times(from_.at_mm[corner[k]], w[k]));
+    }
+    if (node == Node::Filled) sigma = least_certain;  // a guess never passes for half a measurement
+    point = smooth(at) ? cubic(at) : linear;
+    return node;
+  }
+
+ private:
+  bool smooth(const Place& at) const {
+    if (at.column < 1 || at.row < 1 || at.column + 2 >= from_.columns || at.row + 2 >= from_.rows) return false;
+    for (int r = -1; r <= 1; ++r)
+      for (int c = -1; c <= 1; ++c)
+        if (!whole(cells_[from_.index(at.column + c, at.row + r)])) return false;
+    return true;
+  }
+
+  Vec3f cubic(const Place& at) const {
+    const std::array<float, 4> wx = cubic_weights(at.tx);
+    const std::array<float, 4> wy = cubic_weights(at.ty);
+    Vec3f sum{};
+    for (int r = 0; r < 4; ++r) {
+      Vec3f row{};
+      for (int c = 0; c < 4; ++c)
+        row = plus(row, times(from_.at_mm[from_.index(at.column + c - 1, at.row + r - 1)], wx[static_cast<std::size_t>(c)]));
+      sum = plus(sum, times(row, wy[static_cast<std::size_t>(r)]));
+    }
+    return sum;
+  }
+
+  const PointLattice& from_;
+  const std::pmr::vector<std::uint8_t>& cells_;
+  const CellMask& inside_;
+};
+
+// Cells of the new lattice in those of the old: as asked for, but whole cells from end to end.
+struct Step { float x, y; };
+
+Step fit(const PointLattice& from, float spacing, PointLattice& to) {
+  const auto cells = [spacing](int nodes) { return std::max(1, static_cast<int>(std::lround(static_cast<float>(nodes - 1) / spacing))); };
+  to.columns = cells(from.columns) + 1;
+  to.rows = cells(from.rows) + 1;
+  const Step step{static_cast<float>(from.columns - 1) / static_cast<float>(to.columns - 1),
+                  static_cast<float>(from.rows - 1) / static_cast<float>(to.rows - 1)};
+  to.cell_width_mm = from.cell_width_mm * step.x;
+  to.cell_height_mm = from.cell_height_mm * step.y;
+  return step;
+}
+
+void read_nodes(const Reader& reader, const Step& step, PointLattice& to) {
+  const std::size_t count = static_cast<std::size_t>(to.columns) * static_cast<std::size_t>(to.rows);
+  to.node.assign(count, Node::Empty);
+  to.at_mm.assign(count, Vec3f{});
+  to.sigma_mm.assign(count, 0.0F);
+  for (int r = 0; r < to.rows; ++r)
+    for (int c = 0; c < to.columns; ++c) {
+      const std::size_t k = to.index(c, r);
+      to.node[k] = reader.read(reader.place(static_cast<float>(c) * step.x, static_cast<float>(r) * step.y), to.at_mm[k], to.sigma_mm[k]);
+    }
+}
+
+// Which of the four triangles of the new cell (c, r) the old surface carries, by samples no further apart
+// than half an old cell.
+std::uint8_t carried_parts(const Reader& reader, int c, int r, const Step& step) {
+  const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(step.x, step.y)));
+  std::uint8_t parts = kFalling | kRising;
+  for (int j = 0; j < samples && parts != 0; ++j)
+    for (int i = 0; i < samples; ++i) {
+      const float x = static_cast<float>(i) / static_cast<float>(samples - 1);
+      const float y = static_cast<float>(j) / static_cast<float>(samples - 1);
+      if (reader.carried((static_cast<float>(c) + x) * step.x, (static_cast<float>(r) + y) * step.y)) continue;
+      if (j >= i) parts &= static_cast<std::uint8_t>(~kUnder);
+      if (i >= j) parts &= static_cast<std::uint8_t>(~kOver);
+      if (i + j <= samples - 1) parts &= static_cast<std::uint8_t>(~kLeft);
+      if (i + j >= samples - 1) parts &= static_cast<std::uint8_t>(~kRight);
+    }
+  return parts;
+}
+
+std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, float max_slope) {
+  if (parts == 0) return 0;
+  const std::size_t a = l.index(c, r);
+  const std::size_t below = a + static_cast<std::size_t>(l.columns);
+  if (parts == (kFalling | kRising)) return best_cut(l, a, max_slope);
+  const Vec3f &p = l.at_mm[a], &q = l.at_mm[a + 1], &o = l.at_mm[below], &d = l.at_mm[below + 1];
+  const float min_cosine = cosine_of_slope(max_slope);
+  if ((parts & kUnder) && facing(p, o, d, min_cosine)) return kUnder;
+  if ((parts & kOver) && facing(p, d, q, min_cosine)) return kOver;
+  if ((parts & kLeft) && facing(p, o, q, min_cosine)) return kLeft;
+  if ((parts & kRight) && facing(q, o, d, min_cosine)) return kRight;
+  return 0;
+}
+
+}  // namespace
+
+ShapedLattice resample_lattice(const ShapedLattice& old, float spacing, float max_slope, std::pmr::memory_resource* memory) {
+  ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
+  if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
+  const Reader reader(old);
+  const Step step = fit(old.lattice, spacing, made.lattice);
+  read_nodes(reader, step, made.lattice);
+  const PointLattice& l = made.lattice;
+  made.surface.cells.assign(l.size(), 0);
+  made.inside.assign(l.size(), 0);
+  for (int r = 0; r + 1 < l.rows; ++r)
+    for (int c = 0; c + 1 < l.columns; ++c) {
+      const std::size_t k = l.index(c, r);
+      made.inside[k] = reader.inside((static_cast<float>(c) + 0.5F) * step.x, (static_cast<float>(r) + 0.5F) * step.y);
+      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, c, r, step), max_slope);
+    }
+  return made;
+}
+
+}  // namespace relievo::pipeline
