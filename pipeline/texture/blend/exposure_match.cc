@@ -8,10 +8,10 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kEvery = 3;        // texels between samples
+constexpr int kEvery = 5;        // texels between samples
 constexpr int kDark = 8;         // black and blown-out pixels say nothing about exposure
 constexpr int kBright = 246;
-constexpr int kRounds = 12;
+constexpr int kRounds = 8;
 
 template <typename Visit>
 void for_each_sample(const Chart& chart, const ShotPlanes& planes, std::size_t channel, Visit&& visit) {
