@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware/command/commands.h"
+#include "firmware/command/light_model.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/subject_lookup.h"
 #include "firmware/command/wall_time.h"
@@ -62,6 +63,10 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   options.images = &images;
   if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
+  }
+  if (args.lod > 0) {
+    RELIEVO_TRY_ASSIGN(const std::string light, write_light_model(model, args.lod, folder.path(), storage::ExportFrame::Head, args.output));
+    console.say(light);
   }
   if (!newest.report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(folder.commit());

@@ -11,7 +11,7 @@
 #include "pipeline/mesh/lattice/lattice_resampler.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
-#include "pipeline/mesh/sliver_mender.h"
+#include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -71,22 +72,23 @@ Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const 
                                         const ExportOptions& options) {
   RELIEVO_TRY_ASSIGN(ExportMesh mesh, make_export_mesh(model, options.frame));
   mesh.version = options.version;
+  const auto name = [&options](const char* ending) { return std::string(options.stem) + ending; };
   RELIEVO_TRY(make_directory(dir));
   Batch batch(dir);
-  RELIEVO_TRY(batch.add("model.ply", ply_bytes(mesh)));
-  RELIEVO_TRY(batch.add("model.stl", stl_bytes(mesh)));
+  RELIEVO_TRY(batch.add(name(".ply"), ply_bytes(mesh)));
+  RELIEVO_TRY(batch.add(name(".stl"), stl_bytes(mesh)));
   std::vector<std::byte> png;
   if (mesh.textured()) {
     RELIEVO_TRY_ASSIGN(png, png_bytes(model.texture));
-    RELIEVO_TRY(batch.add("model.png", png));
+    RELIEVO_TRY(batch.add(name(".png"), png));
     if (!model.texture.origin.empty()) {
       RELIEVO_TRY_ASSIGN(const auto origin, origin_png(model.texture));
-      RELIEVO_TRY(batch.add("model_origin.png", origin));
+      RELIEVO_TRY(batch.add(name("_origin.png"), origin));
     }
   }
-  RELIEVO_TRY(batch.add("model.mtl", bytes_of(mtl_text(mesh, "model.png"))));
-  RELIEVO_TRY(batch.add("model.obj", bytes_of(obj_text(mesh, "model.mtl"))));
-  RELIEVO_TRY(batch.add("model.glb", glb_bytes(mesh, png)));
+  RELIEVO_TRY(batch.add(name(".mtl"), bytes_of(mtl_text(mesh, name(".png")))));
+  RELIEVO_TRY(batch.add(name(".obj"), bytes_of(obj_text(mesh, name(".mtl")))));
+  RELIEVO_TRY(batch.add(name(".glb"), glb_bytes(mesh, png)));
   if (options.images != nullptr) {
     RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, options.version));
     for (const NamedBytes& file : files) RELIEVO_TRY(batch.add(file.name, file.bytes));

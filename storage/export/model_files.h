@@ -28,6 +28,7 @@ struct ExportOptions {
   ExportFrame frame;
   std::string_view version{};                               // of the program
   const pipeline::RecognitionImages* images = nullptr;      // always in the head frame
+  std::string_view stem = "model";                          // of the files' names: another for a lighter model beside it
 };
 
 // Makes the directory if there is none. Returns the files written, in the order ply, stl, png, origin,

@@ -114,6 +114,10 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, Cali
   });
 }
 
+void add_lod(CLI::App& command, int& triangles) {
+  command.add_option("--lod", triangles, "a lighter model beside it, light.*, of so many triangles")->type_name("TRIANGLES")->check(CLI::Range(100, 10'000'000));
+}
+
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
   CLI::App* command = app.add_subcommand("reconstruct", "a pair of pictures to a textured model");
   command->add_option("left", args.left)->required()->type_name("LEFT");
@@ -124,6 +128,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
       "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; }, "axes of the model")
       ->check(CLI::IsMember({"head", "camera"}));
   command->add_flag("--despite-drift", args.despite_drift, "go on though the cameras have moved since they were calibrated");
+  add_lod(*command, args.lod);
   add_algorithms(*command, args.algorithms);
   command->callback([&] { chosen = args; });
 }
@@ -154,8 +159,9 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   };
   verb("list", "everyone, one a line", Verb::List);
   verb("show", "the enrolments of one", Verb::Show);
-  verb("export", "the newest model of one as files", Verb::Export)
-      ->add_option("-o,--output", args.output)->required()->type_name("DIR");
+  CLI::App* exported = verb("export", "the newest model of one as files", Verb::Export);
+  exported->add_option("-o,--output", args.output)->required()->type_name("DIR");
+  add_lod(*exported, args.lod);
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 

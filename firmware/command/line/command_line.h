@@ -79,6 +79,7 @@ struct ReconstructArgs {
   Path output;
   bool camera_frame = false;      // --frame camera
   bool despite_drift = false;     // go on though the cameras have moved
+  int lod = 0;                    // triangles of a lighter model beside it; 0 for none
   AlgorithmArgs algorithms;
 };
 
@@ -110,6 +111,7 @@ struct SubjectsArgs {
   enum class Verb { List, Show, Export, Erase } verb = Verb::List;
   std::string subject;
   Path output;                    // export
+  int lod = 0;                    // export: triangles of a lighter model beside it; 0 for none
   Path store;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
+#include <string>
 
 #include "firmware/command/commands.h"
+#include "firmware/command/light_model.h"
 #include "firmware/command/output_folder.h"
 #include "firmware/command/reconstruct/reconstruction.h"
 #include "firmware/version.h"
@@ -23,6 +25,10 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   if (const auto files = storage::write_model_files(reconstruction.model(), folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
+  std::string light;
+  if (args.lod > 0) {
+    RELIEVO_TRY_ASSIGN(light, write_light_model(reconstruction.model(), args.lod, folder.path(), options.frame, args.output));
+  }
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(reconstruction.report()), args.output));
   RELIEVO_TRY(folder.commit());
 
@@ -34,6 +40,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,
                 q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
   services.console.say(line);
+  if (!light.empty()) services.console.say(light);
   services.console.say("model and report: " + args.output.string());
   return {};
 }

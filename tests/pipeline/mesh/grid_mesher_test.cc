@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/mesh/grid_mesher.h"
-#include "pipeline/mesh/sliver_mender.h"
+#include "pipeline/mesh/detail/sliver_mender.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
@@ -201,7 +201,7 @@ TEST(GridMesher, NoSlivers) {
     if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
     StageRoom room;
     test::TruthOptions options;
-    options.noise_mm = 0.08;
+    options.noise_mm = 0.04;
     const auto head = mesh_grid(test::truth_cloud(*dir, options), room);
     ASSERT_TRUE(head);
     EXPECT_GE(test::smallest_angle_deg(*head), kSmallestAngleDeg - 0.01F);

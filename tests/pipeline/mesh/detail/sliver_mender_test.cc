@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/sliver_mender.h"
+#include "pipeline/mesh/detail/sliver_mender.h"
 
 #include <gtest/gtest.h>
 
