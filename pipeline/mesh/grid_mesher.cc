@@ -108,6 +108,8 @@ Result<void> GridMesherOptions::check() const {
     return Error{Errc::InvalidInput, "max_rim_deg must lie in 30 .. 90"}.at("mesher.grid");
   if (!(outline_smoothing_mm >= 0 && outline_smoothing_mm <= 10) || !(rim_smoothing_mm >= 0 && rim_smoothing_mm <= 10))
     return Error{Errc::InvalidInput, "outline_smoothing_mm and rim_smoothing_mm must lie in 0 .. 10"}.at("mesher.grid");
+  if (!(outline_wave_mm >= 0 && outline_wave_mm <= 30))
+    return Error{Errc::InvalidInput, "outline_wave_mm must lie in 0 .. 30"}.at("mesher.grid");
   if (normal_passes < 0 || normal_passes > 16)
     return Error{Errc::InvalidInput, "normal_passes must lie in 0 .. 16"}.at("mesher.grid");
   if (!(measured_sigma_mm > 0)) return Error{Errc::InvalidInput, "measured_sigma_mm must be positive"}.at("mesher.grid");
