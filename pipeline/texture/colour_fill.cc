@@ -8,7 +8,10 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kSweeps = 40;
+// There and back. A hole is smooth long before; a whole completed head gets as many as its size allows in the time.
+constexpr int kFewestSweeps = 10, kMostSweeps = 40;
+constexpr std::size_t kSweptVertices = 1'500'000;
+constexpr float kStill = 0.25F;          // grey levels: nothing moves by more
 constexpr float kOverRelaxation = 1.6F;  // Young's successive over-relaxation; below 2 it converges
 
 // Neighbours of the unknown vertices, each as often as triangles say so: twice inside, once at an edge.
@@ -102,19 +105,25 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
   if (std::find(known.begin(), known.end(), std::uint8_t{1}) == known.end()) return;
   const Neighbours neighbours(mesh, known, &context.scratch);
   const std::pmr::vector<std::uint32_t> order = reach(mesh, known, neighbours, colours, &context.scratch);
+  float moved = 0;
   const auto relax = [&](std::uint32_t v) {
     const auto around = neighbours.of(v);
     const float share = 1 / static_cast<float>(around.size());
     for (std::size_t c = 0; c < 3; ++c) {
       float sum = 0;
       for (const std::uint32_t n : around) sum += colours[n][c];
-      colours[v][c] += kOverRelaxation * (sum * share - colours[v][c]);
+      const float step = kOverRelaxation * (sum * share - colours[v][c]);
+      colours[v][c] += step;
+      moved = std::max(moved, std::abs(step));
     }
   };
-  // There and back: what is known travels all the way in from either side.
-  for (int sweep = 0; sweep < kSweeps && !context.stop(); ++sweep) {
+  // What is known travels all the way in from either side.
+  const int sweeps = std::clamp(static_cast<int>(kSweptVertices / (order.size() + 1)), kFewestSweeps, kMostSweeps);
+  for (int sweep = 0; sweep < sweeps && !context.stop(); ++sweep) {
+    moved = 0;
     for (const std::uint32_t v : order) relax(v);
     for (std::size_t i = order.size(); i > 0; --i) relax(order[i - 1]);
+    if (moved < kStill) break;
   }
 }
 
