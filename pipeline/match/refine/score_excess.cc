@@ -20,6 +20,8 @@ constexpr int kMeanRadius = 6;   // over which the blocks' variance is taken
 // the squared second differences; within 3 % from 0.1 to 0.8.
 float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.95F)); }
 
+constexpr float kLeastReal = 0.03F;  // share of what seems to be information that at least is
+
 // Tents overlap by half: a block of them counts the pixels along its edges in part.
 float tent_share(int step) {
   const float along = step == 1 ? 1.0F : (2.0F * kBlock - 0.5F) / (2.0F * kBlock);
@@ -28,16 +30,18 @@ float tent_share(int step) {
 
 }  // namespace
 
-void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, int step, ThreadPool& pool,
+void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real, int step, ThreadPool& pool,
                           std::pmr::memory_resource& scratch, Plane<float>& excess) {
   const int w = system.width();
   const int h = system.height();
-  Plane<float> across(&scratch, w, h), told(&scratch, w, h), bend(&scratch, w, h);
+  Plane<float> across(&scratch, w, h), told(&scratch, w, h), answers(&scratch, w, h), bend(&scratch, w, h);
   box_sum(pull, kBlockRadius, pool, across, excess);
   for (float& v : excess.values) v *= v;
   box_sum(excess, kMeanRadius, pool, across, excess);
   box_sum(system.data, kBlockRadius, pool, across, told);
   box_sum(told, kMeanRadius, pool, across, told);
+  box_sum(real, kBlockRadius, pool, across, answers);
+  box_sum(answers, kMeanRadius, pool, across, answers);
   box_sum(system.bend_xx, kMeanRadius, pool, across, bend);
   constexpr float kCells = kBlock * kBlock;
   const float share = tent_share(step);
@@ -46,9 +50,9 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
       excess.values[k] = 1;
       continue;
     }
-    const float reach = std::sqrt(std::sqrt(told.values[k] / kCells / bend.values[k]));
+    const float reach = std::sqrt(std::sqrt(std::max(answers.values[k], kLeastReal * told.values[k]) / kCells / bend.values[k]));
     const float expected = told.values[k] * share * left_by_the_fit(reach);
-    excess.values[k] = std::max(1.0F, excess.values[k] / expected);
+    excess.values[k] = std::max(0.5F, excess.values[k] / expected);
   }
 }
 

@@ -49,17 +49,17 @@ Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
 
 struct Work {
   Work(std::pmr::memory_resource* memory, int w, int h)
-      : system(memory, w, h), pull(memory, w, h), sure(memory, w, h), d(memory, w, h), delta(memory, w, h),
+      : system(memory, w, h), pull(memory, w, h), agreed(memory, w, h), d(memory, w, h), delta(memory, w, h),
         domain(memory, w, h) {}
   BendingSystem system;
   Plane<float> pull;   // weight * gradient * residual, gathered
-  Plane<float> sure;   // weight, gathered
+  Plane<float> agreed; // weight * agreed, gathered by judge()
   Plane<float> d, delta;
   Plane<std::uint8_t> domain;
 };
 
 // Adds what every pixel says to the nodes around it.
-void gather_data(const WarpTerms& terms, int step, Work& work, ThreadPool& pool) {
+void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, Work& work, ThreadPool& pool) {
   BendingSystem& system = work.system;
   constexpr float kTent[3] = {0.5F, 1, 0.5F};
   pool.for_each_band(system.height(), kBands, [&](int begin, int end, int) {
@@ -67,7 +67,7 @@ void gather_data(const WarpTerms& terms, int step, Work& work, ThreadPool& pool)
       for (int i = 0; i < system.width(); ++i) {
         float a = 0;
         float b = 0;
-        float sure = 0;
+        float real = 0;
         for (int dy = 1 - step; dy < step; ++dy)
           for (int dx = 1 - step; dx < step; ++dx) {
             const int x = i * step + dx;
@@ -77,11 +77,11 @@ void gather_data(const WarpTerms& terms, int step, Work& work, ThreadPool& pool)
             const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
             a += wg * terms.gradient.row(y)[x];
             b += wg * terms.residual.row(y)[x];
-            sure += tent * terms.weight.row(y)[x];
+            if (agreed != nullptr) real += tent * terms.weight.row(y)[x] * agreed->row(y)[x];
           }
         system.data.row(j)[i] = a;
         work.pull.row(j)[i] = b;
-        work.sure.row(j)[i] = sure;
+        work.agreed.row(j)[i] = real;
       }
   });
 }
@@ -129,40 +129,38 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
+constexpr double kLeastReal = 0.03;  // share of what seems to be information; less is lost in the noise of this very estimate
+
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
-// with A the information that the gradients seem to carry, noise in them included, and a what is left
-// without the noise: the fit answers to a, yet is shaken by A.
-float posterior_sigma(double seeming, double noise_share, double bend) {
-  const double real = std::max(seeming - noise_share, 0.1 * seeming);
+// with A the information that the gradients seem to carry, noise in them included, and a what both views'
+// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A.
+float posterior_sigma(double seeming, double agreed, double bend) {
+  const double real = std::clamp(agreed, kLeastReal * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
   return static_cast<float>(std::sqrt(variance));
 }
 
 // sigma and cost of every node.
-void judge(const WarpTerms& terms, const RefinerScene& scene, int step, double lambda, const Window& nodes,
+void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
            const Work& work, std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
   Plane<float> mean(&scratch, nodes.width, nodes.height);
-  Plane<float> mean_sure(&scratch, nodes.width, nodes.height);
+  Plane<float> agreed(&scratch, nodes.width, nodes.height);
   Plane<float> across(&scratch, nodes.width, nodes.height);
   Plane<float> excess(&scratch, nodes.width, nodes.height);
-  measure_score_excess(work.system, work.pull, step, pool, scratch, excess);
+  measure_score_excess(work.system, work.pull, work.agreed, step, pool, scratch, excess);
   constexpr int kRadius = 4;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
-  // Central differences of white noise have half its variance, the mean of two views half of that, and
-  // the residual twice the noise's: an eighth; resampling smooths a little of it away.
-  constexpr double kSlopeNoise = 0.1;
   box_sum(work.system.data, kRadius, pool, across, mean);
-  box_sum(work.sure, kRadius, pool, across, mean_sure);
-  const double level_pixels = 1.0 / (1 << (2 * scene.level));
+  box_sum(work.agreed, kRadius, pool, across, agreed);
   for (int y = 1; y < nodes.height - 1; ++y)
     for (int x = 1; x < nodes.width - 1; ++x) {
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
-      const double noise = kSlopeNoise * level_pixels * static_cast<double>(terms.noise_variance * mean_sure.row(y)[x]) / kCells;
+      const double real = static_cast<double>(agreed.row(y)[x]) / kCells;
       const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          posterior_sigma(seeming, noise, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
+          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
@@ -195,8 +193,10 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     Work work(&context.scratch, nodes.width, nodes.height);
     load(field, nodes, work);
     WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
-    form_terms(scene, options, field, extent.pixels, context, terms);
-    gather_data(terms, step, work, context.pool);
+    const bool last = k == steps - 1;
+    Plane<float> agreed(&context.scratch, last ? extent.pixels.width : 0, last ? extent.pixels.height : 0);
+    form_terms(scene, options, field, extent.pixels, context, terms, last ? &agreed : nullptr);
+    gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
     weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n)
       if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = 0;
@@ -210,7 +210,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)
           field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] += std::clamp(work.delta.row(y)[x], -limit, limit);
-    if (k == steps - 1) judge(terms, scene, step, lambda, nodes, work, context.scratch, context.pool, field);
+    if (last) judge(terms, step, lambda, nodes, work, context.scratch, context.pool, field);
   }
   return {};
 }

@@ -92,7 +92,7 @@ struct Moments {
 
 // May be the very rows that are read: `right` becomes the residual, its slope the gradient, a moment the cost.
 struct RowTerms {
-  float *residual, *gradient, *cost;
+  float *residual, *gradient, *cost, *agreed;
 };
 
 struct RowViews {
@@ -116,7 +116,9 @@ RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, i
     const float inverse = 1.0F / root;
     const float left_slope = 0.5F * (s.left[x + 1] - s.left[x - 1]);
     out.residual[x] = s.mask[x] * ((s.right[x] - mean_right) * inverse - (s.left[x] - mean_left) * root);
-    out.gradient[x] = s.mask[x] * -0.5F * level_scale * (s.right_slope[x] * inverse + left_slope * root);
+    const float right_slope = s.right_slope[x];
+    out.gradient[x] = s.mask[x] * -0.5F * level_scale * (right_slope * inverse + left_slope * root);
+    out.agreed[x] = s.mask[x] * level_scale * level_scale * right_slope * left_slope;  // the roots cancel
     out.cost[x] = 1.0F - s.mask[x] * covariance / std::sqrt(var_left * var_right + 1e-3F);
   }
 }
@@ -144,7 +146,7 @@ float noise_variance(const WarpTerms& terms) {
 }  // namespace
 
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
-                const Window& window, StageContext& context, WarpTerms& terms) {
+                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
   const int w = window.width;
   const int h = window.height;
   ThreadPool& pool = context.pool;
@@ -189,14 +191,16 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       const Moments m{count.row(y), sum_left.row(y), sum_right.row(y), sum_ll.row(y), sum_rr.row(y), sum_lr.row(y)};
-      const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y)};
+      // Where nobody asks for it the product goes to a row that has had its day.
+      const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
+                         agreed != nullptr ? agreed->row(y) : sum_rr.row(y)};
       const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, right.row(y), right_slope.row(y)};
       // A pixel on the picture's own edge has no slope, and the mask is 0 there.
       const int begin_x = window.x0 == 0 ? 1 : 0;
       const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
       residual_row(m, views, begin_x, end_x, level_scale, gain, 16.0F, out);
       for (const int x : {0, w - 1})
-        if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = 0, out.cost[x] = 1;
+        if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = out.agreed[x] = 0, out.cost[x] = 1;
     }
   });
   // The offset soaks up what a slope of shading says: so must the gradient's own mean.
@@ -205,8 +209,11 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
   terms.noise_variance = noise;
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < w; ++x)
-        terms.gradient.row(y)[x] -= terms.mask.row(y)[x] * sum_left.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+      for (int x = 0; x < w; ++x) {
+        const float mean = terms.mask.row(y)[x] * sum_left.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+        terms.gradient.row(y)[x] -= mean;
+        if (agreed != nullptr) agreed->row(y)[x] -= mean * mean;
+      }
       multiply_row(terms.residual.row(y), terms.residual.row(y), w, sum_rr.row(y));
     }
   });

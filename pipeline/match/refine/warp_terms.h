@@ -27,7 +27,9 @@ struct WarpTerms {
   float noise_variance = 0;  // of the residual over the whole surface
 };
 
+// `agreed`, where wanted: the product of both views' own derivatives by the disparity, means taken out. Its
+// mean is that of the squared gradient without noise, for the noise of the views is independent.
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
-                const Window& window, StageContext& context, WarpTerms& terms);
+                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed);
 
 }  // namespace relievo::pipeline
