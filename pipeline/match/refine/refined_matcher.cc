@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/match/epipolar/row_aligner.h"
+#include "pipeline/match/refine/detail_search.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -15,6 +16,7 @@ constexpr int kNodeStepPx = 2;  // the final lattice
 // Rows further apart than half a pixel of a quarter of the size mislead the coarse surface: it is looked for again.
 constexpr double kSearchAgainPx = 2;
 constexpr int kPasses = 2;
+constexpr int kLooks = 4;  // for what lies further off than one search reaches
 
 // The field on a lattice twice as dense: bilinear inside, nearest at the edge.
 void densify(const SurfaceField& from, SurfaceField& to) {
@@ -81,11 +83,11 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   set.lattice_step_px = keypoints.lattice_step_px;
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
   const double lambda = bending_weight(pair, options_.refiner.bending);
-  const auto refine = [&](int level, SurfaceField& field) {
-    const RefinerScene scene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
-                             pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
-    return refine_surface(scene, options_.refiner, context, field);
+  const auto scene_at = [&](int level) {
+    return RefinerScene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
+                        pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
   };
+  const auto refine = [&](int level, SurfaceField& field) { return refine_surface(scene_at(level), options_.refiner, context, field); };
   const auto& half = pyramids.left[1].grey;
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
@@ -105,6 +107,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
     if (rows.align(field2) < kSearchAgainPx) break;
   }
   RELIEVO_TRY(refine(1, field2));
+  for (int look = 0; look < kLooks && search_by_detail(scene_at(1), context, field2); ++look) RELIEVO_TRY(refine(1, field2));
   if (rows.motion().seen) rows.align_motion(field2);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   RELIEVO_TRY(refine(0, field2));

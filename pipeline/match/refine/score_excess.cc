@@ -20,6 +20,7 @@ constexpr int kMeanRadius = 6;   // over which the blocks' variance is taken
 // the squared second differences; within 3 % from 0.1 to 0.8.
 float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.95F)); }
 
+constexpr float kLeastExcess = 0.5F;  // calmer by more is chance. Cut off at 1, the mean would be too large.
 constexpr float kLeastReal = 0.03F;  // share of what seems to be information that at least is
 
 // Tents overlap by half: a block of them counts the pixels along its edges in part.
@@ -52,7 +53,7 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
     }
     const float reach = std::sqrt(std::sqrt(std::max(answers.values[k], kLeastReal * told.values[k]) / kCells / bend.values[k]));
     const float expected = told.values[k] * share * left_by_the_fit(reach);
-    excess.values[k] = std::max(0.5F, excess.values[k] / expected);
+    excess.values[k] = std::max(kLeastExcess, excess.values[k] / expected);
   }
 }
 

@@ -15,7 +15,7 @@ namespace relievo::pipeline {
 
 // `pull` is the weighted gradient times residual gathered at every node, from tents of `step` pixels (1 or 2) on
 // each side. Writes the factor of the variance, 1 where the residuals look independent and where nothing
-// was measured; never below 1. `real` is the part of system.data that holds no noise. `excess` has the system's shape.
+// was measured; never below a half. `real` is the part of system.data that holds no noise. `excess` has the system's shape.
 void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real, int step, ThreadPool& pool,
                           std::pmr::memory_resource& scratch, Plane<float>& excess);
 

@@ -129,7 +129,7 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
-constexpr double kLeastReal = 0.03;  // share of what seems to be information; less is lost in the noise of this very estimate
+constexpr double kLeastReal = 0.06;  // share of what seems to be information; less is lost in the noise of this very estimate
 
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
@@ -145,19 +145,25 @@ float posterior_sigma(double seeming, double agreed, double bend) {
 void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
            const Work& work, std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
   Plane<float> mean(&scratch, nodes.width, nodes.height);
-  Plane<float> agreed(&scratch, nodes.width, nodes.height);
+  Plane<float> noise(&scratch, nodes.width, nodes.height);
+  Plane<float> area(&scratch, nodes.width, nodes.height);
   Plane<float> across(&scratch, nodes.width, nodes.height);
   Plane<float> excess(&scratch, nodes.width, nodes.height);
   measure_score_excess(work.system, work.pull, work.agreed, step, pool, scratch, excess);
-  constexpr int kRadius = 4;  // about the reach of one pixel's influence on skin
+  constexpr int kRadius = 6;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
   box_sum(work.system.data, kRadius, pool, across, mean);
-  box_sum(work.agreed, kRadius, pool, across, agreed);
+  // What is not agreed on is noise, as much of it on one patch of skin as on the next: a wide mean knows it best.
+  constexpr int kNoiseRadius = 12;
+  for (std::size_t k = 0; k < noise.values.size(); ++k) noise.values[k] = work.system.data.values[k] - work.agreed.values[k];
+  box_sum(noise, kNoiseRadius, pool, across, noise);
+  for (std::size_t k = 0; k < area.values.size(); ++k) area.values[k] = work.system.data.values[k] > 0 ? 1 : 0;
+  box_sum(area, kNoiseRadius, pool, across, area);
   for (int y = 1; y < nodes.height - 1; ++y)
     for (int x = 1; x < nodes.width - 1; ++x) {
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
-      const double real = static_cast<double>(agreed.row(y)[x]) / kCells;
+      const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
       const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
           posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
@@ -199,7 +205,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
     weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n)
-      if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = 0;
+      if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = work.agreed.values[n] = 0;
     Plane<float> rolling(&context.scratch, rolling_floats(nodes.width), 1);
     apply_system(work.system, work.d, false, work.system.rhs, 0, nodes.height, rolling.row(0));
     for (std::size_t n = 0; n < work.pull.values.size(); ++n)
