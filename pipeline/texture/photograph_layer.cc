@@ -196,6 +196,18 @@ class Layer {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
       if (!seen_whole(t)) paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
     }
+    // A triangle between texel centres covers none: what a filter reads around its corners is its corners' colour.
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i) surround(side_corner(s, i), colours_[mesh_.triangles[sides_.triangles[s]][i]]);
+  }
+
+  void surround(const Vec2f& corner, const VertexColour& colour) {
+    const float rgb[3]{colour[0], colour[1], colour[2]};
+    const int x = static_cast<int>(std::lround(corner.x));
+    const int y = static_cast<int>(std::lround(corner.y));
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, atlas_.height_px - 1); ++v)
+      for (int u = std::max(x - 1, chart_.width_px); u <= std::min(x + 1, atlas_.width_px - 1); ++u)
+        if (atlas_.origin[atlas_index(u, v)] == kNoSurfaceTexel) set(atlas_index(u, v), rgb, kFilledTexel);
   }
 
   void write_vertex_colours() {

@@ -308,6 +308,36 @@ INSTANTIATE_TEST_SUITE_P(All, TexturerContract, testing::Values("single-view", "
                          [](const auto& test_case) { return test_case.param == "two-view" ? "two" : "single"; });
 
 // An offset and a gain of its own in each channel of the right view.
+// Crumbs of completed surface, each smaller than a texel of its chart, on a painted surface: they take its colour.
+TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
+  FaceMesh mesh = plane_mesh();
+  const RectifiedPair pair = photographed_plane();
+  const std::size_t front_triangles = mesh.triangles.size();
+  for (std::uint32_t k = 0; k < 40; ++k) {  // each hangs on a vertex of the front by an edge of 0.3 mm
+    const std::uint32_t at = 400 + 13 * k;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    const Vec3f v = mesh.vertices_mm[at];
+    mesh.vertices_mm.push_back({v.x + 0.3F, v.y, v.z + 0.2F});
+    mesh.vertices_mm.push_back({v.x, v.y + 0.3F, v.z + 0.2F});
+    for (int i = 0; i < 2; ++i) {
+      mesh.normals.push_back({0, 0, 1});
+      mesh.sigma_mm.push_back(1);
+      mesh.measured.push_back(0);
+    }
+    mesh.triangles.push_back({at, first, first + 1});  // turned away
+  }
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t c = 3 * front_triangles; c < atlas->uv.size(); ++c) {
+    const Vec3d seen = look_up(*atlas, atlas->uv[c]);
+    const Vec3f& at = mesh.vertices_mm[mesh.triangles[c / 3][0]];
+    const Vec3d wanted = paint(double(at.x), double(at.y));
+    ASSERT_NEAR(seen.x, wanted.x, 10) << c;
+    ASSERT_NEAR(seen.y, wanted.y, 10) << c;
+  }
+}
+
 TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
   StageRoom room;
   const FaceMesh mesh = plane_mesh();
