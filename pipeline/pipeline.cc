@@ -5,7 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/mesh/head_frame.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/model_quality.h"
 #include "pipeline/texture/texture_sharpness.h"
 
@@ -103,6 +104,7 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
     RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c, across));
     model.head_from_camera = frame.head_from_camera;
+    RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
     model.quality = measure_quality(mesh, frame, c);
     model.quality.texture_sharpness = texture_sharpness(model.texture, c);
     model.mesh = std::move(mesh);

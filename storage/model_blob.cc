@@ -17,7 +17,7 @@ using pipeline::Vec2f;
 using pipeline::Vec3f;
 
 constexpr std::string_view kMagic{"RFACE\0", 6};
-constexpr std::uint16_t kVersion = 2;
+constexpr std::uint16_t kVersion = 3;
 constexpr std::size_t kHeaderBytes = 6 + 2 + 5 * 4;
 constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::measured_area_mm2,
@@ -26,10 +26,14 @@ constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::height_mm,
                                               &ModelQuality::nose_relief_mm,
                                               &ModelQuality::epipolar_residual_px,
-                                              &ModelQuality::texture_sharpness};
+                                              &ModelQuality::texture_sharpness,
+                                              &ModelQuality::symmetry_residual_mm};
 
 // Each version added figures at the end.
-std::size_t quality_figures(std::uint16_t version) { return version < 2 ? 7 : std::size(kQuality); }
+std::size_t quality_figures(std::uint16_t version) { return version < 2 ? 7 : version < 3 ? 8 : std::size(kQuality); }
+
+constexpr std::size_t kLandmarkBytes = pipeline::kLandmarkCount * (4 * 4 + 1);
+std::size_t landmark_bytes(std::uint16_t version) { return version < 3 ? 0 : kLandmarkBytes; }
 
 // What the header says; everything else follows from it.
 struct Shape {
@@ -51,7 +55,7 @@ struct Shape {
   std::size_t total_bytes() const {
     const std::size_t v = vertices;
     const std::size_t texels = std::size_t{width_px} * height_px;
-    return kHeaderBytes + (12 + quality_figures(version)) * 8 + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
+    return kHeaderBytes + (12 + quality_figures(version)) * 8 + landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
            count(Measured, v) + std::size_t{triangles} * 12 + texels * 3 + count(Origin, texels) +
            count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + sizeof(Sha256);
   }
@@ -101,6 +105,10 @@ void put_numbers(ByteWriter& to, const FaceModel& model) {
   to.put(model.head_from_camera.translation_mm.y);
   to.put(model.head_from_camera.translation_mm.z);
   for (const auto member : kQuality) to.put(model.quality.*member);
+  for (const pipeline::Landmark& l : model.landmarks) {
+    for (const float value : {l.at_mm.x, l.at_mm.y, l.at_mm.z, l.sigma_mm}) to.put(value);
+    to.put(static_cast<std::uint8_t>(l.found ? 1 : 0));
+  }
 }
 
 void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
@@ -109,6 +117,11 @@ void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
   model.head_from_camera.translation_mm.y = from.get<double>();
   model.head_from_camera.translation_mm.z = from.get<double>();
   for (const auto member : std::span(kQuality).first(quality_figures(version))) model.quality.*member = from.get<double>();
+  if (landmark_bytes(version) == 0) return;
+  for (pipeline::Landmark& l : model.landmarks) {
+    for (float* value : {&l.at_mm.x, &l.at_mm.y, &l.at_mm.z, &l.sigma_mm}) *value = from.get<float>();
+    l.found = from.get<std::uint8_t>() != 0;
+  }
 }
 
 template <typename Element, typename Item>

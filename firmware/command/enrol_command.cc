@@ -95,7 +95,7 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
 std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
                       const pipeline::FaceModel& model) {
   Report report{calibrated.name, stages.pipeline().algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
-                model.quality, appliance.drift(), {}};
+                model.quality, appliance.drift(), {}, model.landmarks, model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   return report_json(report);
 }

@@ -68,6 +68,7 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
   quality.width_mm = frame.width_mm;
   quality.height_mm = frame.height_mm;
   quality.nose_relief_mm = frame.nose_relief_mm;
+  quality.symmetry_residual_mm = frame.asymmetry_mm;
   return quality;
 }
 

@@ -4,7 +4,7 @@
 // What can be said about a finished surface without knowing the truth.
 #pragma once
 
-#include "pipeline/mesh/head_frame.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/stage.h"

@@ -7,6 +7,7 @@
 #include <memory_resource>
 
 #include "pipeline/model/face_mesh.h"
+#include "pipeline/model/landmarks.h"
 #include "pipeline/model/texture_atlas.h"
 
 namespace relievo::pipeline {
@@ -20,6 +21,7 @@ struct ModelQuality {
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
   double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
   double texture_sharpness = 0;     // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
+  double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
 };
 
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the
@@ -29,6 +31,7 @@ struct FaceModel {
   FaceMesh mesh;
   TextureAtlas texture;
   RigidTransform head_from_camera;
+  Landmarks landmarks{};
   ModelQuality quality;
 };
 

@@ -10,6 +10,7 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/number_text.h"
+#include "storage/export/placed_landmarks.h"
 #include "storage/export/seam_split.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
@@ -173,12 +174,32 @@ std::string quality_text(const pipeline::ModelQuality& q) {
   add("nose_relief_mm", q.nose_relief_mm);
   add("epipolar_residual_px", q.epipolar_residual_px);
   add("texture_sharpness", q.texture_sharpness);
+  add("symmetry_residual_mm", q.symmetry_residual_mm);
+  return text;
+}
+
+// Places in the file's own frame and metres.
+std::string landmark_text(const ExportMesh& mesh) {
+  const double turn = mesh.frame == ExportFrame::Head ? 1 : -1;
+  std::string text;
+  for (const PlacedLandmark& l : placed_landmarks(mesh)) {
+    text += text.empty() ? "\"" : ",\"";
+    text += std::string(l.name) + "\":{\"at\":[";
+    append_rounded(text, l.at_mm.x / 1000, 6);
+    text += ",";
+    append_rounded(text, turn * l.at_mm.y / 1000, 6);
+    text += ",";
+    append_rounded(text, turn * l.at_mm.z / 1000, 6);
+    text += "],\"sigma_mm\":";
+    append_rounded(text, l.sigma_mm, 2);
+    text += "}";
+  }
   return text;
 }
 
 std::string about(const ExportMesh& mesh) {
   return "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo" + (mesh.version.empty() ? std::string() : " " + std::string(mesh.version)) +
-         "\",\"extras\":{\"units\":\"metres\",\"quality\":{" + quality_text(mesh.model.quality) + "},\"frame\":\"" +
+         "\",\"extras\":{\"units\":\"metres\",\"quality\":{" + quality_text(mesh.model.quality) + "},\"landmarks\":{" + landmark_text(mesh) + "},\"frame\":\"" +
          (mesh.frame == ExportFrame::Head
               ? "head: origin at the tip of the nose, x to the person's left, y up, z out of the face"
               : "camera: origin at the left camera, x right, y up, z towards the camera") +

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "storage/byte_order.h"
+#include "storage/export/number_text.h"
+#include "storage/export/placed_landmarks.h"
 
 namespace relievo::storage {
 namespace {
@@ -18,6 +20,14 @@ std::string header(const ExportMesh& mesh) {
   text += head ? "comment frame head: origin at the tip of the nose, x to the person's left, y up, z out of "
                  "the face\n"
                : "comment frame camera: the left camera, x right, y down, z forward\n";
+  for (const PlacedLandmark& l : placed_landmarks(mesh)) {
+    text += "comment landmark " + std::string(l.name);
+    for (const double value : {l.at_mm.x, l.at_mm.y, l.at_mm.z, l.sigma_mm}) {
+      text += " ";
+      append_rounded(text, value, 3);
+    }
+    text += "\n";
+  }
   text += "element vertex " + std::to_string(mesh.vertices_mm.size()) + "\n";
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "sigma_mm"})
     text += std::string("property float ") + name + "\n";

@@ -59,7 +59,9 @@ FaceModel sample_model(int side, unsigned seed) {
     }
   }
   model.head_from_camera = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0.1 + seed, 1.0 / 3.0, 600.5}};
-  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7};
+  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7, 0.21};
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k)
+    model.landmarks[k] = {{static_cast<float>(k) - 4.5F, static_cast<float>(seed), 610.25F}, 0.5F + static_cast<float>(k), k != 3};
   return model;
 }
 
@@ -130,6 +132,9 @@ bool identical(const FaceModel& a, const FaceModel& b) {
          same(a.texture.origin, b.texture.origin) &&
          a.texture.width_px == b.texture.width_px && a.texture.height_px == b.texture.height_px &&
          std::memcmp(&a.head_from_camera, &b.head_from_camera, sizeof a.head_from_camera) == 0 &&
+         std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(), [](const auto& l, const auto& r) {
+           return std::memcmp(&l.at_mm, &r.at_mm, sizeof l.at_mm) == 0 && l.sigma_mm == r.sigma_mm && l.found == r.found;
+         }) &&
          std::memcmp(&a.quality, &b.quality, sizeof a.quality) == 0;
 }
 

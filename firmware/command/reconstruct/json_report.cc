@@ -19,6 +19,20 @@ nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>&
           {"expected_px", drift->expected_px}};
 }
 
+// In the head frame, whatever frame the files are in.
+nlohmann::ordered_json landmarks_json(const Report& report) {
+  auto all = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = report.landmarks[k];
+    const std::string name(word(static_cast<pipeline::LandmarkName>(k)));
+    all[name] = nullptr;
+    if (!l.found) continue;
+    const pipeline::Vec3d at = apply(report.head_from_camera, {l.at_mm.x, l.at_mm.y, l.at_mm.z});
+    all[name] = {{"at_mm", {at.x, at.y, at.z}}, {"sigma_mm", l.sigma_mm}};
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -49,7 +63,9 @@ std::string report_json(const Report& report) {
                     {"height_mm", q.height_mm},
                     {"nose_relief_mm", q.nose_relief_mm},
                     {"epipolar_residual_px", q.epipolar_residual_px},
-                    {"texture_sharpness", q.texture_sharpness}}},
+                    {"texture_sharpness", q.texture_sharpness},
+                    {"symmetry_residual_mm", q.symmetry_residual_mm}}},
+                  {"landmarks", landmarks_json(report)},
                   {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
                   {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.

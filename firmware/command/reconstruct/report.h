@@ -26,6 +26,8 @@ struct Report {
   pipeline::ModelQuality quality;
   std::optional<pipeline::DriftJudgement> drift;  // none where nothing was matched
   std::optional<double> motion_px;       // MatchSet::motion_px, where it is known
+  pipeline::Landmarks landmarks{};       // the left camera's frame
+  pipeline::RigidTransform head_from_camera{};
 };
 
 std::string line_of(const StageRecord& stage);   // for a terminal

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/symmetry_plane.h"
+#include "pipeline/mesh/landmarks/symmetry_plane.h"
 
 #include <algorithm>
 #include <array>

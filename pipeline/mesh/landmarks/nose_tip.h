@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-#include "pipeline/mesh/symmetry_plane.h"
+#include "pipeline/mesh/landmarks/symmetry_plane.h"
 
 namespace relievo::pipeline {
 

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/head_frame.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "pipeline/mesh/nose_tip.h"
-#include "pipeline/mesh/symmetry_plane.h"
+#include "pipeline/mesh/landmarks/face_relief.h"
+#include "pipeline/mesh/landmarks/nose_tip.h"
+#include "pipeline/mesh/landmarks/symmetry_plane.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -95,52 +96,6 @@ void move_into(Points& points, const Frame& frame) {
 // `second` is given in the coordinates that `first` leads to.
 Frame chained(const Frame& first, const Frame& second) {
   return {second.rows * first.rows, first.origin + first.rows.transpose() * second.origin};
-}
-
-// Foremost point of a paraboloid through the surface around the foremost place near the origin.
-Vector3d tip_near(std::span<const SurfacePoint> points) {
-  Vector3d top(0, 0, -1e9);
-  for (const SurfacePoint& p : points)
-    if (std::abs(p.at_mm.x()) < 10 && std::abs(p.at_mm.y()) < 14 && p.at_mm.z() > top.z()) top = p.at_mm;
-  if (top.z() < -1e8) return Vector3d::Zero();
-  for (int turn = 0; turn < 4; ++turn) {
-    Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Identity() * 1e-6;
-    Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
-    for (const SurfacePoint& p : points) {
-      const double x = p.at_mm.x() - top.x();
-      const double y = p.at_mm.y() - top.y();
-      if (x * x + y * y > 64 || std::abs(p.at_mm.z() - top.z()) > 12) continue;
-      Eigen::Matrix<double, 6, 1> row;
-      row << 1, x, y, x * x, x * y, y * y;
-      a += row * row.transpose();
-      b += row * (p.at_mm.z() - top.z());
-    }
-    const Eigen::Matrix<double, 6, 1> c = a.ldlt().solve(b);
-    const double det = 4 * c[3] * c[5] - c[4] * c[4];
-    if (!(c[3] < 0 && det > 1e-8)) break;
-    const double x = (-2 * c[5] * c[1] + c[4] * c[2]) / det;
-    const double y = (-2 * c[3] * c[2] + c[4] * c[1]) / det;
-    if (x * x + y * y > 36) break;
-    top += Vector3d(x, y, c[0] + 0.5 * (c[1] * x + c[2] * y));
-    if (x * x + y * y < 1e-4) break;
-  }
-  return top;
-}
-
-// How much the surface beside the nose leans back with height: z = a + nod y + c x^2. The x^2 takes
-// the roundness of the face, so that a side seen less does not tilt the result.
-double nod_of(std::span<const SurfacePoint> points, double radius_mm) {
-  Matrix3d a = Matrix3d::Identity() * 1e-6;
-  Vector3d b = Vector3d::Zero();
-  for (const SurfacePoint& p : points) {
-    const double x = p.at_mm.x();
-    const double y = p.at_mm.y();
-    if (std::abs(x) < 18 || std::abs(x) > 50 || x * x + y * y > radius_mm * radius_mm || p.at_mm.z() < -70) continue;
-    const Vector3d row(1, y, x * x / 50);
-    a += row * row.transpose();
-    b += row * p.at_mm.z();
-  }
-  return a.ldlt().solve(b)[1];
 }
 
 double percentile(std::pmr::vector<double>& values, double share) {
@@ -230,13 +185,124 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
   return chained(frame, at_nose);
 }
 
+void move(Frame& frame, Points& points, const Frame& step) {
+  frame = chained(frame, step);
+  move_into(points, step);
+}
+
+void turn(Frame& frame, Points& points, double nod_rad) {
+  Frame turned;
+  turned.rows = Eigen::AngleAxisd(nod_rad, Vector3d::UnitX()).toRotationMatrix().transpose();
+  move(frame, points, turned);
+}
+
+// The core of a face: what cameras see of it however it turns. Beside the nose and below the eyes; the tip.
+constexpr double kCoreHalf = 50, kCoreFrom = -30, kCoreTo = 78;
+constexpr double kCoreCell = 1.25;
+constexpr double kTipReach = 11;    // mm around the tip: both wings' flanks belong to it
+constexpr double kRidgeShare = 0.2; // of the vote of the nose's sides: highlights lie on the ridge
+constexpr double kTipScale = 1.0;   // mm: what lies further off the paraboloid counts little
+
+struct Core {
+  double nod_rad = 0;              // how much the cheeks lean back with height
+  Vector3d tip = Vector3d::Zero(); // on the plane of symmetry
+};
+
+// A window beside or above the nose: its height and lean at its middle, by a quadratic through what was
+// seen of it, so that a part that is missing shifts nothing.
+struct Window { double from_x, to_x, from_y, to_y; };
+// Of a head held upright (nasion above pogonion, as in the Frankfurt plane): 10 +- 3 degrees.
+constexpr double kBrowBeforeCheeks = 10 * std::numbers::pi / 180;
+constexpr Window kCheek{18, 46, -22, 16}, kBrow{0, 30, 50, 76};
+
+bool height_at_middle(const FaceRelief& core, const Window& w, double& z_mm) {
+  using Vector5d = Eigen::Matrix<double, 5, 1>;
+  Eigen::Matrix<double, 5, 5> a = Eigen::Matrix<double, 5, 5>::Identity() * 1e-6;
+  Vector5d b = Vector5d::Zero();
+  const double middle_x = 0.5 * (w.from_x + w.to_x), middle_y = 0.5 * (w.from_y + w.to_y);
+  int count = 0;
+  for (int r = 0; r < core.rows(); ++r)
+    for (int c = 0; c < core.columns(); ++c) {
+      const double x = core.x_mm(c), y = core.y_mm(r), z = static_cast<double>(core.z(c, r));
+      if (std::isnan(z) || x < w.from_x || x > w.to_x || y < w.from_y || y > w.to_y || z < -70) continue;
+      Vector5d row;
+      const double u = (x - middle_x) / 20, v = (y - middle_y) / 20;
+      row << 1, u, v, u * u, v * v;
+      a += row * row.transpose();
+      b += row * z;
+      ++count;
+    }
+  z_mm = a.ldlt().solve(b)[0];
+  return count > 200;
+}
+
+double nod_of(const FaceRelief& core) {
+  double cheek = 0, brow = 0;
+  if (!height_at_middle(core, kCheek, cheek) || !height_at_middle(core, kBrow, brow)) return 0;
+  return std::atan2(brow - cheek, 0.5 * (kBrow.from_y + kBrow.to_y - kCheek.from_y - kCheek.to_y)) - kBrowBeforeCheeks;
+}
+
+// Foremost point of a paraboloid, upright in x, through the surface around the foremost place near the
+// origin. Robust (Geman-McClure): a highlight or the nose's limb may have pulled a part of it away.
+Vector3d tip_of(const FaceRelief& core) {
+  Vector3d top(0, 0, -1e9);
+  for (int r = 0; r < core.rows(); ++r)
+    for (int c = 0; c < core.columns(); ++c)
+      if (std::abs(core.x_mm(c)) < 4 && std::abs(core.y_mm(r)) < 16 && static_cast<double>(core.z(c, r)) > top.z()) top = {0, core.y_mm(r), static_cast<double>(core.z(c, r))};
+  if (top.z() < -1e8) return Vector3d::Zero();
+  Eigen::Vector4d k = Eigen::Vector4d::Zero();
+  for (int turn = 0; turn < 12; ++turn) {
+    Eigen::Matrix4d a = Eigen::Matrix4d::Identity() * 1e-6;
+    Eigen::Vector4d b = Eigen::Vector4d::Zero();
+    for (int r = 0; r < core.rows(); ++r)
+      for (int c = 0; c < core.columns(); ++c) {
+        const double x = core.x_mm(c), y = core.y_mm(r) - top.y(), z = static_cast<double>(core.z(c, r)) - top.z();
+        const double q = (x * x + y * y) / (kTipReach * kTipReach);
+        if (!(q < 1) || !(std::abs(z) < 12)) continue;
+        const Eigen::Vector4d row(1, y, y * y, x * x);
+        const double e = turn < 2 ? 0 : (z - row.dot(k)) / kTipScale;
+        const double beside = kRidgeShare + (1 - kRidgeShare) * std::min(1.0, x * x / 25);
+        const double w = beside * (1 - q) * (1 - q) / ((1 + e * e) * (1 + e * e));
+        a += w * row * row.transpose();
+        b += w * row * z;
+      }
+    k = a.ldlt().solve(b);
+    if (!(k[2] < -1e-4)) break;
+    const double y = std::clamp(-k[1] / (2 * k[2]), -3.0, 3.0);
+    top += Vector3d(0, y, k[0] + y * (k[1] + y * k[2]));
+    k = {0, 0, k[2], k[3]};
+    if (turn > 3 && std::abs(y) < 1e-3) break;
+  }
+  return top;
+}
+
+Core core_of(const FaceMesh& mesh, const Frame& frame, Arena& scratch) {
+  const Arena::Mark mark(scratch);
+  FaceRelief core({-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell}, &scratch);
+  core.add(mesh, to_transform(frame));
+  const Vector3d tip = tip_of(core);
+  core.symmetrise();
+  return {nod_of(core), tip};
+}
+
+Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, StageContext& context) {
+  for (int round = 0; round < 8; ++round) {
+    if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+    const Core core = core_of(mesh, frame, context.scratch);
+    Frame tip;
+    tip.origin = core.tip;
+    move(frame, points, tip);
+    turn(frame, points, core.nod_rad);
+    if (core.tip.norm() < 1e-2 && std::abs(core.nod_rad) < 1e-4) break;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> HeadFrameOptions::check() const {
   if (sample_points < 500 || sample_points > 100'000)
     return Error{Errc::InvalidInput, "sample_points must lie in 500 .. 100000"}.at("head-frame");
-  if (!(face_radius_mm >= 40 && face_radius_mm <= 120))
-    return Error{Errc::InvalidInput, "face_radius_mm must lie in 40 .. 120"}.at("head-frame");
   return {};
 }
 
@@ -252,23 +318,7 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
   RELIEVO_TRY_ASSIGN(Frame frame, upright_frame(points, {across.x, across.y, across.z}, plane, context));
   move_into(points, frame);
 
-  for (int turn = 0; turn < 6; ++turn) {
-    Frame step;
-    step.origin = tip_near(points);
-    step.origin.x() = 0;  // the plane of symmetry is surer than a crooked tip; moved there at the end
-    frame = chained(frame, step);
-    move_into(points, step);
-    const double nod = std::atan(nod_of(points, options.face_radius_mm));
-    Frame turned;
-    turned.rows = Eigen::AngleAxisd(nod, Vector3d::UnitX()).toRotationMatrix().transpose();
-    frame = chained(frame, turned);
-    move_into(points, turned);
-    if (std::abs(nod) < 1e-4) break;
-  }
-  Frame tip;
-  tip.origin = tip_near(points);
-  frame = chained(frame, tip);
-  move_into(points, tip);
+  RELIEVO_TRY(set_upright(mesh, frame, points, context));
 
   HeadFrame head;
   head.head_from_camera = to_transform(frame);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/nose_tip.h"
+#include "pipeline/mesh/landmarks/nose_tip.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The face's profile: where its plane of symmetry cuts it, and the points that anatomy names on it.
+// Nasion and subnasale are what lies deepest below the profile's convex hull, so that they do not depend on
+// how the head nods; tip, nasion's depth and chin are extremes along z, so that their depth does so only in
+// second order. A nod that sets nasion and chin upright is therefore found by turning a few times.
+// Millimetres, in a frame with x = 0 on the plane of symmetry, y up, z out of the face. Thread: any.
+#pragma once
+
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/mesh/landmarks/face_relief.h"
+
+namespace relievo::pipeline {
+
+struct ProfilePoint {
+  double y_mm = 0, z_mm = 0;
+};
+
+// From the chin upwards; gaps are left out. Both sides of the nose count, or the one that was seen.
+std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, std::pmr::memory_resource* memory);
+
+struct ProfileMarks {
+  std::optional<ProfilePoint> tip, nasion, subnasale, chin;
+};
+
+// `profile` in a frame whose origin lies within about 15 mm of the tip.
+ProfileMarks find_profile_marks(std::span<const ProfilePoint> profile);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/landmarks/face_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+FaceRelief::FaceRelief(const ReliefBox& box, std::pmr::memory_resource* memory) : box_(box), z_(memory) {
+  columns_ = static_cast<int>(std::lround((box.right_mm - box.left_mm) / box.cell_mm)) + 1;
+  rows_ = static_cast<int>(std::lround((box.top_mm - box.bottom_mm) / box.cell_mm)) + 1;
+  z_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
+}
+
+double FaceRelief::at(double x_mm, double y_mm) const {
+  const double c = (x_mm - box_.left_mm) / box_.cell_mm;
+  const double r = (y_mm - box_.bottom_mm) / box_.cell_mm;
+  if (!(c >= 0 && r >= 0 && c <= columns_ - 1 && r <= rows_ - 1)) return std::numeric_limits<double>::quiet_NaN();
+  const int c0 = std::min(static_cast<int>(c), columns_ - 2);
+  const int r0 = std::min(static_cast<int>(r), rows_ - 2);
+  const double u = c - c0;
+  const double v = r - r0;
+  const auto value = [&](int dc, int dr) { return static_cast<double>(z(c0 + dc, r0 + dr)); };
+  return (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) + v * ((1 - u) * value(0, 1) + u * value(1, 1));
+}
+
+// Corners in cells; z in mm.
+void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  if (!(std::abs(area) > 1e-9F)) return;
+  const int from_row = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+  const int to_row = std::min(rows_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+  const int from_column = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
+  const int to_column = std::min(columns_ - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
+  for (int row = from_row; row <= to_row; ++row)
+    for (int column = from_column; column <= to_column; ++column) {
+      const float dx = static_cast<float>(column) - a.x;
+      const float dy = static_cast<float>(row) - a.y;
+      const float v = (dx * (c.y - a.y) - dy * (c.x - a.x)) / area;
+      const float w = (dy * (b.x - a.x) - dx * (b.y - a.y)) / area;
+      if (v < 0 || w < 0 || v + w > 1) continue;
+      const float height = a.z + v * (b.z - a.z) + w * (c.z - a.z);
+      float& cell = z(column, row);
+      if (!(cell >= height)) cell = height;
+    }
+}
+
+void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh) {
+  const auto cells = [&](std::uint32_t v) {
+    const Vec3f& m = mesh.vertices_mm[v];
+    const Vec3d p = apply(frame_from_mesh, {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)});
+    return Vec3f{static_cast<float>((p.x - box_.left_mm) / box_.cell_mm), static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm),
+                 static_cast<float>(p.z)};
+  };
+  for (const auto& t : mesh.triangles) {
+    if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
+    const Vec3f a = cells(t[0]);
+    if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) || a.y > static_cast<float>(rows_ + 20)) continue;
+    add_triangle(a, cells(t[1]), cells(t[2]));
+  }
+}
+
+void FaceRelief::symmetrise() {
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_ / 2; ++column) {
+      float& left = z(column, row);
+      float& right = z(columns_ - 1 - column, row);
+      const float both = std::isnan(left) ? right : std::isnan(right) ? left : 0.5F * (left + right);
+      left = right = both;
+    }
+}
+
+void FaceRelief::smooth_along(bool rows, const std::pmr::vector<float>& kernel, std::pmr::vector<float>& line) {
+  const int lines = rows ? rows_ : columns_;
+  const int length = rows ? columns_ : rows_;
+  const int reach = static_cast<int>(kernel.size()) - 1;
+  for (int l = 0; l < lines; ++l) {
+    for (int i = 0; i < length; ++i) line[static_cast<std::size_t>(i)] = rows ? z(i, l) : z(l, i);
+    for (int i = 0; i < length; ++i) {
+      const float middle = line[static_cast<std::size_t>(i)];
+      if (std::isnan(middle)) continue;
+      float sum = 0;
+      float weight = 0;
+      for (int k = std::max(0, i - reach); k <= std::min(length - 1, i + reach); ++k) {
+        const float value = line[static_cast<std::size_t>(k)];
+        if (std::isnan(value)) continue;
+        const float w = kernel[static_cast<std::size_t>(std::abs(k - i))];
+        sum += w * value;
+        weight += w;
+      }
+      (rows ? z(i, l) : z(l, i)) = sum / weight;
+    }
+  }
+}
+
+void FaceRelief::smooth(double sigma_mm, std::pmr::memory_resource* scratch) {
+  const double sigma = sigma_mm / box_.cell_mm;
+  const auto reach = static_cast<std::size_t>(std::ceil(3 * sigma));
+  std::pmr::vector<float> kernel(reach + 1, 0.0F, scratch);
+  for (std::size_t i = 0; i <= reach; ++i)
+    kernel[i] = static_cast<float>(std::exp(-0.5 * static_cast<double>(i * i) / (sigma * sigma)));
+  std::pmr::vector<float> line(static_cast<std::size_t>(std::max(columns_, rows_)), 0.0F, scratch);
+  smooth_along(true, kernel, line);
+  smooth_along(false, kernel, line);
+}
+
+}  // namespace relievo::pipeline

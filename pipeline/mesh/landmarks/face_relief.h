@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FaceRelief: the measured surface as heights over a plane of the head, z(x, y) on square cells; NaN
+// where nothing was measured. Where surface lies behind surface the foremost counts. Millimetres, in
+// the frame it is asked for. Memory: the arena given. Thread: any.
+#pragma once
+
+#include <memory_resource>
+#include <vector>
+
+#include "pipeline/model/face_mesh.h"
+
+namespace relievo::pipeline {
+
+struct ReliefBox {
+  double left_mm = 0, right_mm = 0, bottom_mm = 0, top_mm = 0;  // x and y of the outermost cells' centres
+  double cell_mm = 1;
+};
+
+class FaceRelief {
+ public:
+  FaceRelief(const ReliefBox& box, std::pmr::memory_resource* memory);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double x_mm(int column) const { return box_.left_mm + column * box_.cell_mm; }
+  double y_mm(int row) const { return box_.bottom_mm + row * box_.cell_mm; }
+  float& z(int column, int row) { return z_[index(column, row)]; }
+  float z(int column, int row) const { return z_[index(column, row)]; }
+  bool inside(int column, int row) const { return column >= 0 && row >= 0 && column < columns_ && row < rows_; }
+  // Between cells; NaN where one of the four around has nothing.
+  double at(double x_mm, double y_mm) const;
+
+  // Lays the triangles whose three corners were measured into it. The box's left is its right, mirrored.
+  void add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh);
+  // Both halves become their mean, or the one there is.
+  void symmetrise();
+  // A Gaussian over what is there; cells with nothing stay so.
+  void smooth(double sigma_mm, std::pmr::memory_resource* scratch);
+
+ private:
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
+  void smooth_along(bool rows, const std::pmr::vector<float>& kernel, std::pmr::vector<float>& line);
+
+  ReliefBox box_;
+  int columns_ = 0, rows_ = 0;
+  std::pmr::vector<float> z_;
+};
+
+}  // namespace relievo::pipeline

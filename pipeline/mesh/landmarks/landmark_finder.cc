@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/landmarks/landmark_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/mesh/landmarks/face_profile.h"
+
+namespace relievo::pipeline {
+namespace {
+
+struct Place { double x = 0, y = 0; };
+
+// Where a pit is looked for: mean and deviation, mm in the head frame, on the person's left.
+struct Expected { double x, y, sigma_x, sigma_y; };
+
+constexpr double kCellMm = 1, kSmoothMm = 1.5;
+constexpr int kSpan = 2;               // cells between the heights of a second difference
+constexpr double kPitWorth = 25;       // of one unit of bend (1 / mm), against half a squared deviation
+constexpr double kOwnReachMm = 3;      // a side's own pit lies that near the place of both
+constexpr double kFissureMm = 30.8, kFissureRiseMm = 1.5;  // Farkas: ex - en
+constexpr double kNasionOverCanthus = 3;                   // sellion lies that much higher than en
+constexpr double kStomionBelowSubnasale = 21;
+
+// Sigmas, mm, each coordinate.
+constexpr float kTipSigma = 0.7F, kNasionSigma = 1.7F, kSubnasaleSigma = 1.5F, kChinSigma = 1.7F;
+constexpr float kInnerEyeSigma = 2.0F, kOuterEyeSigma = 4.0F, kMouthSigma = 3.0F;
+
+// The lesser of the two bends of a hollow: positive only where the surface is a pit. 1 / mm.
+double pit(const FaceRelief& relief, int column, int row) {
+  const auto z = [&](int dc, int dr) { return static_cast<double>(relief.z(column + dc * kSpan, row + dr * kSpan)); };
+  const double step = kSpan * kCellMm;
+  const double xx = (z(1, 0) - 2 * z(0, 0) + z(-1, 0)) / (step * step);
+  const double yy = (z(0, 1) - 2 * z(0, 0) + z(0, -1)) / (step * step);
+  const double xy = (z(1, 1) - z(-1, 1) - z(1, -1) + z(-1, -1)) / (4 * step * step);
+  return 0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);  // NaN where something is missing
+}
+
+// The most pit-like and most expected place within the window.
+bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Place& best) {
+  double best_score = -1e9;
+  for (int row = kSpan; row < relief.rows() - kSpan; ++row)
+    for (int column = kSpan; column < relief.columns() - kSpan; ++column) {
+      const double u = (relief.x_mm(column) - e.x) / e.sigma_x, v = (relief.y_mm(row) - e.y) / e.sigma_y;
+      if (u * u + v * v > reach * reach) continue;
+      const double bend = pit(relief, column, row);
+      const double score = kPitWorth * bend - 0.5 * (u * u + v * v);
+      if (std::isnan(bend) || score <= best_score) continue;
+      best_score = score;
+      best = {relief.x_mm(column), relief.y_mm(row)};
+    }
+  return best_score > -1e8;
+}
+
+class Finder {
+ public:
+  Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch)
+      : camera_from_head_(inverse(head_from_camera)), own_({-62, 62, -78, 62, kCellMm}, &scratch), both_({-62, 62, -78, 62, kCellMm}, &scratch) {
+    own_.add(mesh, head_from_camera);
+    both_ = own_;  // keeps its own memory
+    both_.symmetrise();
+    own_.smooth(kSmoothMm, &scratch);
+    both_.smooth(kSmoothMm, &scratch);
+    const auto profile = profile_of(mesh, head_from_camera, &scratch);
+    marks_ = find_profile_marks(profile);
+  }
+
+  Landmarks find() {
+    if (marks_.tip) set(LandmarkName::Pronasale, {0, 0, 0}, kTipSigma);
+    mark(LandmarkName::Nasion, marks_.nasion, kNasionSigma);
+    mark(LandmarkName::Subnasale, marks_.subnasale, kSubnasaleSigma);
+    mark(LandmarkName::Pogonion, marks_.chin, kChinSigma);
+    eyes();
+    mouth();
+    return found_;
+  }
+
+ private:
+  void set(LandmarkName name, const Vec3d& in_head, float sigma_mm) {
+    const Vec3d p = apply(camera_from_head_, in_head);
+    found_[static_cast<std::size_t>(name)] = {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, sigma_mm, true};
+  }
+  void mark(LandmarkName name, const std::optional<ProfilePoint>& at, float sigma_mm) {
+    if (at) set(name, {0, at->y_mm, at->z_mm}, sigma_mm);
+  }
+  // At the place, or where surface was measured nearest to it.
+  void on_surface(LandmarkName name, const Place& at, float sigma_mm) {
+    constexpr int kReach = 4;
+    double nearest = kReach * kReach + 0.5, z = 0;
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        const double here = own_.at(at.x + dx, at.y + dy);
+        if (std::isnan(here) || dx * dx + dy * dy >= nearest) continue;
+        nearest = dx * dx + dy * dy;
+        z = here;
+      }
+    if (nearest <= kReach * kReach) set(name, {at.x, at.y, z}, sigma_mm);
+  }
+
+  // Both sides' common place first, then each side's own near it.
+  bool pair(const Expected& e, LandmarkName right, LandmarkName left, float sigma_mm, Place& common) {
+    if (!find_pit(both_, e, 2.5, common)) return false;
+    for (const double side : {-1.0, 1.0}) {
+      Place own{side * common.x, common.y};
+      find_pit(own_, {own.x, own.y, kOwnReachMm, kOwnReachMm}, 1, own);
+      on_surface(side < 0 ? right : left, own, sigma_mm);
+    }
+    return true;
+  }
+
+  void eyes() {
+    const double y = marks_.nasion ? marks_.nasion->y_mm - kNasionOverCanthus : 34;
+    Place inner{16, y};
+    pair({16, y, 3, 4}, LandmarkName::EndocanthionRight, LandmarkName::EndocanthionLeft, kInnerEyeSigma, inner);
+    const Place outer{inner.x + kFissureMm - 1, inner.y + kFissureRiseMm};
+    on_surface(LandmarkName::ExocanthionRight, {-outer.x, outer.y}, kOuterEyeSigma);
+    on_surface(LandmarkName::ExocanthionLeft, outer, kOuterEyeSigma);
+  }
+
+  void mouth() {
+    const double y = marks_.subnasale ? marks_.subnasale->y_mm - kStomionBelowSubnasale : -34;
+    Place corner;
+    pair({26, y, 3.5, 3.5}, LandmarkName::CheilionRight, LandmarkName::CheilionLeft, kMouthSigma, corner);
+  }
+
+  RigidTransform camera_from_head_;
+  FaceRelief own_, both_;
+  ProfileMarks marks_;
+  Landmarks found_{};
+};
+
+}  // namespace
+
+Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
+  if (context.stop()) return Error{Errc::Cancelled, "the search for landmarks was stopped"};
+  const Arena::Mark mark(context.scratch);
+  return Finder(mesh, head_from_camera, context.scratch).find();
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Is the head's frame the same however the head is turned? Folders of one photograph each (left.png,
+// right.png, rig.yml, head.ply), named PERSON_POSE, as `relievo simulate face --truth` writes them: each is
+// reconstructed, and the frames of one person are compared pair by pair, their true motion undone.
+// Exit code 1 where any two frames of one person are further apart than 0.7 mm or 0.7 degrees.
+//   frame_repeatability FOLDER...
+// A set:  for s in $(seq 1 10); do for p in "front 0 0" "left 25 0" "right -25 0" "down 0 15" "up 0 -15"; do
+//           set -- $p; relievo simulate face --seed $s --yaw $2 --pitch $3 --scale 0.5 --truth -o set/s${s}_$1; done; done
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "firmware/measure/true_surface.h"
+#include "firmware/measure/vector3.h"
+#include "tests/bench/frame_trial.h"
+
+namespace relievo::bench {
+namespace {
+
+constexpr double kBarMm = 0.7, kBarDeg = 0.7;
+
+Result<Photograph> look_at(const std::filesystem::path& folder, test::StageBench& room) {
+  Photograph photo{person_of(folder), pose_of(folder), {}, {}, {}};
+  RELIEVO_TRY_ASSIGN(photo.true_surface, firmware::measure::read_true_surface(folder / "head.ply"));
+  RELIEVO_TRY_ASSIGN(const auto mesh, reconstruct_folder(folder, room, photo.across));
+  auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) { return find_head_frame(mesh, {}, c, photo.across); });
+  if (!frame) return frame.error();
+  photo.frame = *frame;
+  return photo;
+}
+
+struct Worst {
+  double mm = 0, deg = 0;
+};
+
+Worst compare(const std::vector<Photograph>& photos) {
+  Worst worst;
+  for (std::size_t i = 0; i < photos.size(); ++i)
+    for (std::size_t j = i + 1; j < photos.size(); ++j) {
+      const Apart apart = between(photos[i], photos[j], a_from_b(photos[i], photos[j]));
+      const double mm = firmware::measure::length(apart.origin_mm);
+      std::printf("%-8s %-6s %-6s  %5.2f mm (%5.2f %5.2f %5.2f)  %5.2f deg (%5.2f %5.2f %5.2f)%s\n", photos[i].person.c_str(),
+                  photos[i].pose.c_str(), photos[j].pose.c_str(), mm, apart.origin_mm.x, apart.origin_mm.y, apart.origin_mm.z,
+                  apart.turned_deg, apart.turns_deg.x, apart.turns_deg.y, apart.turns_deg.z,
+                  mm > kBarMm || apart.turned_deg > kBarDeg ? "  over" : "");
+      worst = {std::max(worst.mm, mm), std::max(worst.deg, apart.turned_deg)};
+    }
+  return worst;
+}
+
+int run(int count, char** folders) {
+  test::StageBench room;
+  std::map<std::string, std::vector<Photograph>> people;
+  for (int i = 1; i < count; ++i) {
+    auto photo = look_at(folders[i], room);
+    if (!photo) {
+      std::fprintf(stderr, "%s: %.*s\n", folders[i], static_cast<int>(photo.error().what.view().size()), photo.error().what.view().data());
+      return 1;
+    }
+    people[photo->person].push_back(*std::move(photo));
+  }
+  Worst worst;
+  for (const auto& [person, photos] : people) {
+    const Worst w = compare(photos);
+    worst = {std::max(worst.mm, w.mm), std::max(worst.deg, w.deg)};
+  }
+  std::printf("%zu people: worst pair %.2f mm, %.2f degrees (wanted: %.1f, %.1f)\n", people.size(), worst.mm, worst.deg, kBarMm, kBarDeg);
+  return people.empty() || worst.mm > kBarMm || worst.deg > kBarDeg ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace relievo::bench
+
+int main(int argc, char** argv) { return relievo::bench::run(argc, argv); }

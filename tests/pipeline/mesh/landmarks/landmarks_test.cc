@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Frames and landmarks of simulated heads against what the heads know of themselves.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/mesh/landmarks/landmark_finder.h"
+#include "tests/pipeline/mesh/landmarks/field_head.h"
+#include "tests/pipeline/mesh/stage_room.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using hal::sim::HeadPose;
+using test::FieldHead;
+using test::StageRoom;
+
+struct Look {
+  RigidTransform true_head_from_camera, head_from_camera;
+  Landmarks landmarks;
+};
+
+Look look_at(const FieldHead& head, double yaw_deg, double pitch_deg, StageRoom& room) {
+  HeadPose pose;
+  pose.yaw_deg = yaw_deg;
+  pose.pitch_deg = pitch_deg;
+  const PointCloud cloud = head.cloud(pose, room.pool);
+  const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  EXPECT_TRUE(mesh);
+  const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, {}, c); });
+  EXPECT_TRUE(frame);
+  const auto landmarks = room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, c); });
+  EXPECT_TRUE(landmarks);
+  return {inverse(FieldHead::camera_from_head(pose)), frame->head_from_camera, *landmarks};
+}
+
+// What one frame calls a point, the other calls by the same numbers.
+void expect_same_frame(const Look& a, const Look& b) {
+  const auto in_b = [&](const Vec3d& p) {
+    const Vec3d body = apply(a.true_head_from_camera, apply(inverse(a.head_from_camera), p));
+    return apply(b.head_from_camera, apply(inverse(b.true_head_from_camera), body));
+  };
+  const Vec3d o = in_b({});
+  EXPECT_LT(std::hypot(o.x, o.y, o.z), 0.7);
+  for (const Vec3d& axis : {Vec3d{100, 0, 0}, Vec3d{0, 100, 0}, Vec3d{0, 0, 100}}) {
+    const Vec3d p = in_b(axis);
+    EXPECT_LT(std::hypot(p.x - o.x - axis.x, p.y - o.y - axis.y, p.z - o.z - axis.z), 100 * 0.7 * std::numbers::pi / 180);
+  }
+}
+
+TEST(Landmarks, TheFrameOfAHeadThatTurnsStaysWithin07) {
+  StageRoom room;
+  for (const std::uint32_t seed : {3U}) {
+    const FieldHead head(seed);
+    std::vector<Look> looks;
+    for (const auto& [yaw, pitch] : {std::pair{0.0, 0.0}, {25.0, 0.0}, {-25.0, 0.0}, {0.0, 15.0}, {0.0, -15.0}}) looks.push_back(look_at(head, yaw, pitch, room));
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        SCOPED_TRACE(std::to_string(seed) + ": " + std::to_string(i) + " " + std::to_string(j));
+        expect_same_frame(looks[i], looks[j]);
+      }
+  }
+}
+
+TEST(Landmarks, LieWhereTheSigmaSays) {
+  StageRoom room;
+  int count = 0;
+  double sum = 0;
+  for (const std::uint32_t seed : {4U, 9U}) {
+    const FieldHead head(seed);
+    const Look look = look_at(head, 0, 0, room);
+    const auto truth = hal::sim::landmarks_of(head.field());
+    for (const auto& [name, at] : truth)
+      for (std::size_t k = 0; k < kLandmarkCount; ++k) {
+        if (word(static_cast<LandmarkName>(k)) != name) continue;
+        const Landmark& l = look.landmarks[k];
+        if (!l.found && name.starts_with("exocanthion")) continue;  // this head has no eyeballs: a hole where they are
+        ASSERT_TRUE(l.found) << name;
+        const Vec3d p = apply(look.true_head_from_camera, {double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
+        const double off = std::hypot(p.x - at.x, p.y - at.y, p.z - at.z);
+        EXPECT_LT(off, 4 * static_cast<double>(l.sigma_mm)) << seed << " " << name;
+        sum += off * off / (3 * static_cast<double>(l.sigma_mm * l.sigma_mm));
+        ++count;
+      }
+  }
+  ASSERT_GE(count, 16);
+  // One if the sigmas are right.
+  EXPECT_GT(sum / count, 0.25);
+  EXPECT_LT(sum / count, 1.5);
+}
+
+TEST(Landmarks, AreNotFoundWhereNothingWasMeasured) {
+  StageRoom room;
+  const FaceMesh nothing(std::pmr::get_default_resource());
+  const auto landmarks = room.run([&](StageContext& c) { return find_landmarks(nothing, {}, c); });
+  ASSERT_TRUE(landmarks);
+  for (const Landmark& l : *landmarks) EXPECT_FALSE(l.found);
+  room.cancelled = true;
+  EXPECT_FALSE(room.run([&](StageContext& c) { return find_landmarks(nothing, {}, c); }));
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
