@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/calibrate/drift.h"
+#include "pipeline/match/diagnose/pair_diagnosis.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/model_quality.h"
@@ -57,6 +59,28 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
     }
     return pair;
   });
+}
+
+// Left taken for right has its rows in step and a face within reach.
+bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) const {
+  Arena::Mark mark(context.output);
+  const auto pair = rectify({frame.right, frame.left, frame.sequence, frame.skew_ns}, context);
+  if (!pair) return false;
+  const auto matches = match(*pair, context);
+  return matches && judge_drift(matches->epipolar_shift, calibration_).verdict != DriftVerdict::Refuse &&
+         reconstruct(*pair, *matches, context).has_value();
+}
+
+std::optional<Error> Pipeline::explain(const StereoFrame& frame, Errc failure, StageContext& context) const {
+  std::optional<PairFault> fault;
+  const Result<void> looked = run_stage(context, [&](StageContext& c) -> Result<void> {
+    fault = diagnose_pair(frame, calibration_, volume_, c);
+    return {};
+  });
+  if (!looked || context.stop()) return std::nullopt;
+  const bool light = fault && error_of(*fault).code == Errc::NoFace;
+  if (!light && fault != PairFault::SamePicture && failure != Errc::NoFace && matches_swapped(frame, context)) fault = PairFault::Swapped;
+  return fault ? std::optional(error_of(*fault)) : std::nullopt;
 }
 
 Result<MatchSet> Pipeline::match(const RectifiedPair& pair, StageContext& context) const {

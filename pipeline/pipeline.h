@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pipeline/algorithms.h"
@@ -44,11 +45,15 @@ class Pipeline {
   // Takes the mesh over into the model.
   Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
 
+  // After `failure`: what is wrong with the pictures, if anything is. May take as long as a match.
+  std::optional<Error> explain(const StereoFrame& frame, Errc failure, StageContext& context) const;
+
   const StereoCalibration& calibration() const { return calibration_; }
   const AlgorithmSet& algorithms() const { return set_; }
 
  private:
   Pipeline() = default;
+  bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
   Result<MatchSet> match_prepared(const RectifiedPair& pair, StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;

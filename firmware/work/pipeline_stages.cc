@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "hal/base/assert.h"
@@ -20,6 +21,10 @@ std::uint64_t accepted(const pipeline::MatchSet& matches) {
                                                   [](const pipeline::Match& m) { return m.rejected_by == 0; }));
 }
 
+bool may_be_the_pictures(Errc code) {
+  return code == Errc::NoFace || code == Errc::TooFewMatches || code == Errc::PoorGeometry || code == Errc::NotCalibrated;
+}
+
 Error moved(const pipeline::DriftJudgement& drift) {
   char place[64];
   std::snprintf(place, sizeof place, "rows %.2f px apart", drift.residual_px);
@@ -28,8 +33,17 @@ Error moved(const pipeline::DriftJudgement& drift) {
 
 }  // namespace
 
+// A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
+  Result<void> done = run_stage_of(stage, products, context, record);
+  if (done || !may_be_the_pictures(done.error().code) || !products.frame) return done;
+  if (std::optional<Error> cause = pipeline_.explain(*products.frame, done.error().code, context)) return std::move(*cause);
+  return done;
+}
+
+Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipeline::StageContext& context,
+                                          StageRecord& record) const {
   switch (stage) {
     case State::Match: return match(products, context, record);
     case State::Reconstruct: return reconstruct(products, context, record);

@@ -3,7 +3,7 @@
 //
 // PipelineStages: the four stages of the machine, done by pipeline::Pipeline. Matching also judges whether
 // the cameras have moved since they were calibrated (products.drift).
-// Errors: the stage's own; NotCalibrated after Match where they have moved too far to be measured with,
+// Errors: the stage's own, or what was wrong with the pictures where that explains it (pair_diagnosis.h); NotCalibrated after Match where they have moved too far to be measured with,
 // unless told to go on. Thread: worker.
 #pragma once
 
@@ -22,6 +22,7 @@ class PipelineStages final : public StageRunner {
   Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override;
 
  private:
+  Result<void> run_stage_of(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> match(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> reconstruct(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;

@@ -37,7 +37,7 @@ struct GridMesherOptions {
   double rim_smoothing_mm = 1.5;      // the same, of the rims of open holes
   int normal_passes = 1;              // how often normals are averaged over the neighbours; 0 to 16
   double measured_sigma_mm = 1;       // what is less certain along the line of sight is shown, but not as measured
-  double min_area_mm2 = 2500;         // less surface than this is no face
+  double min_area_mm2 = 6000;         // less surface than this is no face: a third of a child's
 
   Result<void> check() const;
 };

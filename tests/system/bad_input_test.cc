@@ -113,6 +113,16 @@ TEST_F(BadInput, ACalibrationWithImpossibleNumbers) {
 
 TEST_F(BadInput, NoFaceInView) { reconstruct_refused("left.png", "right.png", "left.png", "face"); }
 
+// The cause is told, not what it led to.
+TEST_F(BadInput, PicturesInTheWrongPlaces) {
+  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  const auto wrong = [&](const char* left, const char* right, const char* trouble) {
+    reconstruct_refused(std::string("face/") + left, std::string("face/") + right, left, trouble, "face/rig.yml");
+  };
+  wrong("right.png", "left.png", "left and right are swapped");
+  wrong("left.png", "left.png", "the same picture");
+}
+
 TEST_F(BadInput, SettingsThatDoNotExist) {
   const std::vector<std::string> call{"reconstruct", "left.png", "right.png", "--calibration", "rig.yml", "-o", "out"};
   for (const char* setting : {"matcher=psychic", "nobody=1", "refined.bending=much", "justaword", "="}) {

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/diagnose/pair_diagnosis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "pipeline/match/image/plane.h"
+#include "pipeline/match/rectify/grey_rows.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kEvery = 4;                // pixels looked at for light
+constexpr float kDark = 24;              // grey: the brightest thousandth of a lit face is far above it
+constexpr float kWhite = 250;
+constexpr double kTooMuchWhite = 0.25;   // share of what is lit
+constexpr float kLeastContrast = 8;      // grey, between the darkest and the brightest hundredth
+constexpr double kSame = 0.5;            // mean difference in grey: the noise of two pictures alone is more
+constexpr int kReducedWidth = 120;       // pixels: so few that a face's relief does not matter
+constexpr double kAlike = 0.75;          // correlation of the patch at its best place
+constexpr int kRowsApart = 1;            // reduced pixels; what is less matching copes with or judges itself
+
+enum class Light : std::uint8_t { Good, Dark, Overexposed, Blank };
+
+Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
+  std::array<long, 256> histogram{};
+  std::pmr::vector<float> row(static_cast<std::size_t>(picture.width_px), memory);
+  long all = 0;
+  for (int y = 0; y < picture.height_px; y += kEvery) {
+    grey_rows(picture, row.data() - static_cast<std::ptrdiff_t>(y) * picture.width_px, picture.width_px, y, y + 1);
+    for (int x = 0; x < picture.width_px; x += kEvery, ++all) ++histogram[static_cast<std::size_t>(std::clamp(row[static_cast<std::size_t>(x)], 0.0F, 255.0F))];
+  }
+  const auto level = [&](double share) {
+    long seen = 0;
+    int grey = 0;
+    while (grey < 255 && static_cast<double>(seen + histogram[static_cast<std::size_t>(grey)]) < share * static_cast<double>(all)) seen += histogram[static_cast<std::size_t>(grey++)];
+    return static_cast<float>(grey);
+  };
+  if (level(0.999) < kDark) return Light::Dark;
+  long lit = 0, white = 0;
+  for (int grey = static_cast<int>(kDark); grey < 256; ++grey) {
+    lit += histogram[static_cast<std::size_t>(grey)];
+    white += static_cast<float>(grey) >= kWhite ? histogram[static_cast<std::size_t>(grey)] : 0;
+  }
+  if (static_cast<double>(white) > kTooMuchWhite * static_cast<double>(lit)) return Light::Overexposed;
+  return level(0.99) - level(0.01) < kLeastContrast ? Light::Blank : Light::Good;
+}
+
+bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
+  if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px) return false;
+  const auto width = static_cast<std::size_t>(frame.left.width_px);
+  std::pmr::vector<float> left(width, memory), right(width, memory);
+  double sum = 0;
+  double count = 0;
+  for (int y = 0; y < frame.left.height_px; y += kEvery) {
+    const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(y) * frame.left.width_px;
+    grey_rows(frame.left, left.data() - back, frame.left.width_px, y, y + 1);
+    grey_rows(frame.right, right.data() - back, frame.left.width_px, y, y + 1);
+    for (std::size_t x = 0; x < width; ++x, ++count) sum += static_cast<double>(std::abs(left[x] - right[x]));
+  }
+  return count > 0 && sum / count < kSame;
+}
+
+int reduction(const RectifiedPair& pair) { return std::max(1, pair.width_px / kReducedWidth); }
+
+Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+  const int by = reduction(pair);
+  Plane<float> small(memory, pair.width_px / by, pair.height_px / by);
+  for (int y = 0; y < small.height * by; ++y)
+    for (int x = 0; x < small.width * by; ++x)
+      small.row(y / by)[x / by] += grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)];
+  return small;
+}
+
+struct Box { int x, y, width, height; };
+
+double correlation(const Plane<float>& left, const Box& box, const Plane<float>& right, int dx, int dy) {
+  double l = 0, r = 0, ll = 0, rr = 0, lr = 0;
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const float* a = left.row(y);
+    const float* b = right.row(y + dy) + dx;
+    for (int x = box.x; x < box.x + box.width; ++x) {
+      const double p = static_cast<double>(a[x]), q = static_cast<double>(b[x]);
+      l += p, r += q, ll += p * p, rr += q * q, lr += p * q;
+    }
+  }
+  const double n = static_cast<double>(box.width) * box.height;
+  const double spread = (ll - l * l / n) * (rr - r * r / n);
+  return spread > 0 ? (lr - l * r / n) / std::sqrt(spread) : 0;
+}
+
+struct Place { double alike = -1; int dx = 0, dy = 0; };
+
+// Where the middle of the left view lies in the right one.
+Place find_middle(const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+  const Plane<float> left = reduce(pair.left.grey, pair, memory);
+  const Plane<float> right = reduce(pair.right.grey, pair, memory);
+  const Box box{left.width / 3, left.height / 4, left.width / 3, left.height / 2};
+  Place best;
+  for (int dy = -box.y; dy + box.y + box.height <= right.height; ++dy)
+    for (int dx = -box.x; dx + box.x + box.width <= right.width; ++dx)
+      if (const double alike = correlation(left, box, right, dx, dy); alike > best.alike) best = {alike, dx, dy};
+  return best;
+}
+
+std::optional<PairFault> fault_of_light(Light left, Light right) {
+  const auto pick = [&](Light light, PairFault l, PairFault r, PairFault both) -> std::optional<PairFault> {
+    if (left == light && right == light) return both;
+    if (left == light) return l;
+    if (right == light) return r;
+    return std::nullopt;
+  };
+  if (const auto dark = pick(Light::Dark, PairFault::LeftDark, PairFault::RightDark, PairFault::BothDark)) return dark;
+  if (const auto white = pick(Light::Overexposed, PairFault::LeftOverexposed, PairFault::RightOverexposed, PairFault::BothOverexposed)) return white;
+  return pick(Light::Blank, PairFault::LeftBlank, PairFault::RightBlank, PairFault::BothBlank);
+}
+
+}  // namespace
+
+std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCalibration& calibration,
+                                       const RectifierOptions& volume, StageContext& context) {
+  if (frame.left.empty() || frame.right.empty()) return std::nullopt;
+  Arena::Mark products(context.output);
+  Arena::Mark work(context.scratch);
+  if (const auto light = fault_of_light(judge_light(frame.left, &context.scratch), judge_light(frame.right, &context.scratch))) return light;
+  if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
+  const auto pair = Rectifier(volume).rectify(frame, calibration, context);
+  if (!pair) return std::nullopt;
+  const Place middle = find_middle(*pair, &context.scratch);
+  return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted) : std::nullopt;
+}
+
+Error error_of(PairFault fault) {
+  switch (fault) {
+    case PairFault::SamePicture: return Error{Errc::InvalidInput, "left and right are the same picture: give one of each camera"};
+    case PairFault::LeftDark: return Error{Errc::NoFace, "the left picture is black: is its lens covered, its light off or the exposure too short?"};
+    case PairFault::RightDark: return Error{Errc::NoFace, "the right picture is black: is its lens covered, its light off or the exposure too short?"};
+    case PairFault::BothDark: return Error{Errc::NoFace, "both pictures are black: put light on the face, or expose longer"};
+    case PairFault::LeftOverexposed: return Error{Errc::NoFace, "the left picture is over-exposed: less light, or a shorter exposure"};
+    case PairFault::RightOverexposed: return Error{Errc::NoFace, "the right picture is over-exposed: less light, or a shorter exposure"};
+    case PairFault::BothOverexposed: return Error{Errc::NoFace, "both pictures are over-exposed: less light, or a shorter exposure"};
+    case PairFault::LeftBlank: return Error{Errc::NoFace, "the left picture shows nothing but one grey: is its lens covered or far out of focus?"};
+    case PairFault::RightBlank: return Error{Errc::NoFace, "the right picture shows nothing but one grey: is its lens covered or far out of focus?"};
+    case PairFault::BothBlank: return Error{Errc::NoFace, "both pictures show nothing but one grey: are the lenses covered or far out of focus?"};
+    case PairFault::Swapped: return Error{Errc::InvalidInput, "left and right are swapped: give the left camera's picture first, or calibrate anew if the cameras changed places"};
+    case PairFault::Shifted: return Error{Errc::NotCalibrated, "one picture lies higher than the other: a camera has moved since it was calibrated, or the pictures are not a pair; calibrate again"};
+  }
+  return Error{Errc::InvalidState, "is no fault"};
+}
+
+}  // namespace relievo::pipeline
