@@ -3,6 +3,11 @@
 #include <array>
 
 #include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/mesh/catalogue/advancing_front_mesher.h"
+#include "pipeline/mesh/catalogue/bezier_mesher.h"
+#include "pipeline/mesh/catalogue/marching_cubes_mesher.h"
+#include "pipeline/mesh/catalogue/poisson_mesher.h"
+#include "pipeline/mesh/catalogue/rbf_mesher.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
@@ -30,6 +35,11 @@ constexpr std::array kOutlierFilters{
 constexpr std::array kMeshers{
     with_options<Mesher, GridMesher, GridMesherOptions>("grid"),
     with_options<Mesher, DelaunayMesher, DelaunayMesherOptions>("delaunay"),
+    with_options<Mesher, AdvancingFrontMesher, AdvancingFrontMesherOptions>("advancing-front"),
+    with_options<Mesher, PoissonMesher, PoissonMesherOptions>("poisson"),
+    with_options<Mesher, RbfMesher, RbfMesherOptions>("rbf"),
+    with_options<Mesher, MarchingCubesMesher, MarchingCubesMesherOptions>("marching-cubes"),
+    with_options<Mesher, BezierMesher, BezierMesherOptions>("bezier"),
 };
 
 constexpr std::array kTexturers{

@@ -10,6 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "pipeline/mesh/catalogue/base_sheet.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/mesh/vector_math.h"
@@ -140,6 +141,12 @@ Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& con
   turn_sigma_perpendicular(mesh);
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;
+}
+
+Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context) {
+  DelaunayMesherOptions options;
+  options.max_triangles = max_triangles;
+  return DelaunayMesher(options).mesh(cloud, context);
 }
 
 }  // namespace relievo::pipeline

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "pipeline/mesh/catalogue/base_sheet.h"
 #include "pipeline/mesh/lattice/gap_closer.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
 #include "pipeline/mesh/lattice/outline.h"
@@ -145,6 +146,13 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     context.progress.done.store(1, std::memory_order_relaxed);
     return mesh;
   }
+}
+
+Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2, StageContext& context) {
+  GridMesherOptions options;
+  options.max_triangles = max_triangles;
+  options.min_area_mm2 = min_area_mm2;
+  return GridMesher(options).mesh(cloud, context);
 }
 
 }  // namespace relievo::pipeline

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshers that fit a function, and what every mesher of the catalogue makes of a rendered head's own points.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "pipeline/algorithms.h"
+#include "pipeline/mesh/catalogue/bezier_net.h"
+#include "pipeline/mesh/catalogue/nearest_vertex.h"
+#include "tests/pipeline/mesh/mesh_checks.h"
+#include "tests/pipeline/mesh/stage_room.h"
+#include "tests/pipeline/mesh/truth_cloud.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::StageRoom;
+
+DepthSamples hills(double noise_mm) {
+  DepthSamples samples(std::pmr::get_default_resource());
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1);
+  samples.usual_depth_mm = 500;
+  samples.left = samples.top = -30;
+  samples.right = samples.bottom = 30;
+  for (double v = -30; v <= 30; v += 0.5)
+    for (double u = -30; u <= 30; u += 0.5) {
+      if (std::hypot(u - 5, v) < 4) continue;  // a gap
+      samples.u.push_back(u);
+      samples.v.push_back(v);
+      samples.depth.push_back(500 + 5 * std::sin(u / 8) * std::cos(v / 6) + noise_mm * noise(random));
+      samples.sigma.push_back(std::max(noise_mm, 0.01));
+    }
+  return samples;
+}
+
+double depth_at(const BezierNet& net, double u, double v) {
+  const std::array<double, 1> us{u};
+  std::array<double, 1> depth{};
+  net.depths(us, v, depth);
+  return depth[0];
+}
+
+TEST(BezierNet, NeighboursShareBorderAndTangent) {
+  const BezierNet net(hills(0.1), 2, 0.01, std::pmr::get_default_resource());
+  ASSERT_GT(net.columns(), 20);
+  for (int r = 0; r + 1 < net.rows(); ++r)
+    for (int c = 0; c + 1 < net.columns(); ++c)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const BezierNet::Patch &here = net.patch(c, r), &right = net.patch(c + 1, r), &below = net.patch(c, r + 1);
+        EXPECT_NEAR(here[i][3], right[i][0], 1e-9);
+        EXPECT_NEAR(here[3][i], below[0][i], 1e-9);
+        EXPECT_NEAR(here[i][3] - here[i][2], right[i][1] - right[i][0], 1e-9) << "C1";
+        EXPECT_NEAR(here[3][i] - here[2][i], below[1][i] - below[0][i], 1e-9);
+      }
+}
+
+TEST(BezierNet, FollowsTheFunctionAndCarriesItOverGaps) {
+  const BezierNet net(hills(0.1), 2, 0.01, std::pmr::get_default_resource());
+  double sum = 0;
+  int count = 0;
+  for (double v = -26; v <= 26; v += 0.7)
+    for (double u = -26; u <= 26; u += 0.7) {
+      const double off = depth_at(net, u, v) - (500 + 5 * std::sin(u / 8) * std::cos(v / 6));
+      EXPECT_LT(std::abs(off), 0.3);
+      sum += off * off;
+      ++count;
+    }
+  EXPECT_LT(std::sqrt(sum / count), 0.05) << "of 0.1 mm noise, 16 points a patch leave a third";
+}
+
+TEST(NearestVertex, IsTheNearestOfAll) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> at(-40, 40);
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 400; ++i) points.push_back({at(random), at(random), 300 + at(random)});
+  const NearestVertex nearest(points, std::pmr::get_default_resource());
+  for (int i = 0; i < 300; ++i) {
+    const Vec3f p{1.5F * at(random), at(random), 300 + at(random)};
+    float least = 900;
+    for (const Vec3f& q : points) least = std::min(least, mesh::squared_distance(p, q));
+    const auto hit = nearest.find(p, 30);
+    if (least < 900) EXPECT_NEAR(mesh::squared_distance(points[hit.vertex], p), least, 1e-3F);
+    else EXPECT_EQ(hit.vertex, NearestVertex::kNone);
+  }
+}
+
+// d1's true points with 0.05 mm of noise: how far from the true surface each mesher's vertices lie.
+TEST(MesherCatalogue, OnTheTruthCloud) {
+  const auto dir = test::rendered_head("d1");
+  if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
+  test::TruthOptions exact, noisy;
+  exact.step_px = 2;
+  noisy.step_px = 4;
+  noisy.noise_mm = 0.05;
+  StageRoom truth_room;
+  const PointCloud truth_points = test::truth_cloud(*dir, exact), cloud = test::truth_cloud(*dir, noisy);
+  std::vector<Vec3f> truth;
+  for (const CloudPoint& p : truth_points.points) truth.push_back(p.at_mm);
+  const NearestVertex nearest(truth, std::pmr::get_default_resource());
+  for (const auto& [name, median_mm] : std::vector<std::pair<std::string, double>>{
+           {"grid", 0.06}, {"delaunay", 0.06}, {"advancing-front", 0.06}, {"marching-cubes", 0.05}, {"bezier", 0.05}, {"rbf", 0.12}, {"poisson", 0.12}}) {
+    AlgorithmSet set;
+    ASSERT_TRUE(set.set("mesher", name));
+    const auto mesher = make_mesher(set);
+    ASSERT_TRUE(mesher);
+    StageRoom room;
+    const auto result = room.run([&](StageContext& c) { return (*mesher)->mesh(cloud, c); });
+    ASSERT_TRUE(result) << name;
+    std::vector<double> off;
+    for (std::size_t v = 0; v < result->vertices_mm.size(); v += 7) {
+      // Along the normal, to the plane through the nearest true point.
+      const Vec3f& p = result->vertices_mm[v];
+      const auto hit = nearest.find(p, 3);
+      if (hit.vertex == NearestVertex::kNone || !result->measured[v]) continue;
+      off.push_back(std::abs(static_cast<double>(mesh::dot(mesh::minus(p, truth[hit.vertex]), result->normals[v]))));
+    }
+    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+    std::cout << name << ": median " << off[off.size() / 2] << " mm, " << result->triangles.size() << " triangles\n";
+    EXPECT_LT(off[off.size() / 2], median_mm) << name;
+  }
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
