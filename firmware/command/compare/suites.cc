@@ -122,6 +122,13 @@ Words peers() {
   return words;
 }
 
+// Every mesher on the same points.
+Words meshers() {
+  Words words;
+  for (const std::string& name : names_of("mesher")) words.push_back({name, {"mesher=" + name}});
+  return words;
+}
+
 struct Suite {
   std::string_view name;
   Words (*make)();
@@ -129,7 +136,7 @@ struct Suite {
 constexpr std::array kSuites{
     Suite{"dissertation", dissertation}, Suite{"dissertation-face", dissertation_face}, Suite{"peers", peers},
     Suite{"matchers", matchers},         Suite{"constraints", constraints},             Suite{"selectors", selectors},
-    Suite{"preprocessors", preprocessors},
+    Suite{"preprocessors", preprocessors}, Suite{"meshers", meshers},
 };
 
 }  // namespace
