@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pipeline/model/recognition_images.h"
+#include "pipeline/texture/blend/photo_sampler.h"
 #include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {
@@ -54,7 +55,7 @@ void read_texel(const TextureAtlas& atlas, float u, float v, std::uint8_t* rgb, 
   for (std::size_t c = 0; c < 3; ++c) {
     const float upper = static_cast<float>(p[c]) + fx * static_cast<float>(p[right + c] - p[c]);
     const float lower = static_cast<float>(p[below + c]) + fx * static_cast<float>(p[below + right + c] - p[below + c]);
-    rgb[c] = static_cast<std::uint8_t>(upper + fy * (lower - upper) + 0.5F);
+    rgb[c] = to_byte(upper + fy * (lower - upper));
   }
   if (!atlas.origin.empty() && atlas.origin[k] == kFilledTexel) shows = kCompletedShown;
 }

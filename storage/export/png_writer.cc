@@ -42,7 +42,7 @@ static void say_nothing(png_structp, png_const_charp) {}
 bool compress(const Job& job) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {  // NOLINT(cert-err52-cpp): C has no other way out
     png_destroy_write_struct(&png, &info);
     return false;
   }

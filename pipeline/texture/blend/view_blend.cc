@@ -83,7 +83,7 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
     share += trust * ((v.excess > 0 ? 1.0F : 0.0F) - share);
   }
   const LevelField::Level level = field_->at(texel_x, texel_y);
-  Colour out;
+  Colour out{};
   out.share = share;
   for (std::size_t c = 0; c < 3; ++c) {
     const float left = static_cast<float>(v.left[c]);
