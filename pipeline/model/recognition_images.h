@@ -28,7 +28,14 @@ struct Portrait {
   double camera_mm = 0;                  // from that plane
   Vec3d eyes_mm;                         // midpoint between the eyes, head frame
   Vec2d eyes_px;                         // where it lies in the picture
-  double between_eyes_mm = 0;            // 0 where no eyes were found: eyes_mm is then where a typical face has them
+  double between_eyes_mm = 0;            // 0 where not all corners of both eyes were found: eyes_mm is then what is typical
+  Vec2d right_eye_px, left_eye_px;       // the person's; where both were found
+
+  // Where a point of the head falls in the picture.
+  Vec2d place_of(const Vec3d& at_mm) const {
+    const double px_per_mm = camera_mm / mm_per_px / (camera_mm + eyes_mm.z - at_mm.z);
+    return {eyes_px.x + (at_mm.x - eyes_mm.x) * px_per_mm, eyes_px.y - (at_mm.y - eyes_mm.y) * px_per_mm};
+  }
 };
 
 // The surface as heights over a grid: what z the outermost surface has at each x, y.

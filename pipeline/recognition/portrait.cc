@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/recognition/portrait.h"
 
+#include <cmath>
+
 #include "pipeline/recognition/textured_view.h"
 
 namespace relievo::pipeline {
@@ -15,6 +17,22 @@ constexpr double kEyeLine = 0.45;       // of the height, from above
 // From the tip of the nose, where eyes were not found; faces differ by some millimetres.
 constexpr Vec3d kTypicalEyesMm{0, 34, -30};
 
+struct Eyes { Vec3d right_mm, left_mm; bool found; };
+
+Eyes eyes_of(const FaceModel& model) {
+  const auto middle = [&](LandmarkName inner, LandmarkName outer, bool& found) {
+    const Landmark& a = of(model.landmarks, inner);
+    const Landmark& b = of(model.landmarks, outer);
+    found = found && a.found && b.found;
+    return apply(model.head_from_camera, Vec3d{0.5 * static_cast<double>(a.at_mm.x + b.at_mm.x), 0.5 * static_cast<double>(a.at_mm.y + b.at_mm.y),
+                                               0.5 * static_cast<double>(a.at_mm.z + b.at_mm.z)});
+  };
+  Eyes eyes{{}, {}, true};
+  eyes.right_mm = middle(LandmarkName::EndocanthionRight, LandmarkName::ExocanthionRight, eyes.found);
+  eyes.left_mm = middle(LandmarkName::EndocanthionLeft, LandmarkName::ExocanthionLeft, eyes.found);
+  return eyes;
+}
+
 }  // namespace
 
 Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output, std::pmr::memory_resource* scratch) {
@@ -25,6 +43,13 @@ Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output
   portrait.camera_mm = kCameraMm;
   portrait.eyes_mm = kTypicalEyesMm;
   portrait.eyes_px = {(kWidthPx - 1) / 2.0, kEyeLine * kHeightPx};
+  if (const Eyes eyes = eyes_of(model); eyes.found) {
+    const Vec3d &r = eyes.right_mm, &l = eyes.left_mm;
+    portrait.eyes_mm = {0.5 * (r.x + l.x), 0.5 * (r.y + l.y), 0.5 * (r.z + l.z)};
+    portrait.between_eyes_mm = std::hypot(l.x - r.x, l.y - r.y, l.z - r.z);
+    portrait.right_eye_px = portrait.place_of(r);
+    portrait.left_eye_px = portrait.place_of(l);
+  }
 
   ViewCamera camera;
   camera.width_px = kWidthPx;

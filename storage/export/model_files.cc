@@ -90,7 +90,7 @@ Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const 
   RELIEVO_TRY(batch.add(name(".obj"), bytes_of(obj_text(mesh, name(".mtl")))));
   RELIEVO_TRY(batch.add(name(".glb"), glb_bytes(mesh, png)));
   if (options.images != nullptr) {
-    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, options.version));
+    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks, model.head_from_camera, options.version));
     for (const NamedBytes& file : files) RELIEVO_TRY(batch.add(file.name, file.bytes));
   }
   return batch.publish();

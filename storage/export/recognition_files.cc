@@ -59,12 +59,17 @@ std::string field(const char* name, double number) {
   return text;
 }
 
+std::string eyes_text(const Portrait& p) {
+  if (!(p.between_eyes_mm > 0)) return "    \"eyes_found\": false\n";
+  return "    \"eyes_found\": true, \"right_eye_px\": " + list({p.right_eye_px.x, p.right_eye_px.y}) + ", \"left_eye_px\": " + list({p.left_eye_px.x, p.left_eye_px.y}) +
+         ",\n    " + field("between_eyes_mm", p.between_eyes_mm) + ", " + field("between_eyes_px", std::hypot(p.left_eye_px.x - p.right_eye_px.x, p.left_eye_px.y - p.right_eye_px.y)) + "\n";
+}
+
 std::string portrait_text(const Portrait& p) {
   return "  \"portrait\": {\n    \"file\": \"portrait.png\", \"shows\": \"portrait_shows.png\", " + field("width_px", p.width_px) + ", " +
          field("height_px", p.height_px) + ",\n    " + field("mm_per_px_at_the_eyes", p.mm_per_px) + ", " + field("camera_mm_from_the_eyes", p.camera_mm) +
          ",\n    \"eyes_middle_px\": " + list({p.eyes_px.x, p.eyes_px.y}) + ", \"eyes_middle_mm\": " + list({p.eyes_mm.x, p.eyes_mm.y, p.eyes_mm.z}) +
-         ",\n    \"eyes_found\": " + (p.between_eyes_mm > 0 ? "true" : "false") + ", " + field("between_eyes_mm", p.between_eyes_mm) + ", " +
-         field("between_eyes_px", p.between_eyes_mm / p.mm_per_px) + "\n  },\n";
+         ",\n" + eyes_text(p) + "  },\n";
 }
 
 std::string range_text(const RangeImage& r) {
@@ -74,18 +79,35 @@ std::string range_text(const RangeImage& r) {
          "    \"z_mm\": \"(value - 32768) / 100; value 0: nothing there\", \"sigma_mm\": \"value / 1000: one standard deviation along z\"\n  }\n";
 }
 
-std::string page(const pipeline::RecognitionImages& images, std::string_view version) {
+// Those that were found, in the head frame.
+std::string landmarks_text(const Portrait& p, const pipeline::Landmarks& landmarks, const pipeline::RigidTransform& head_from_camera) {
+  std::string text;
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = landmarks[k];
+    const pipeline::Vec3d at = apply(head_from_camera, {static_cast<double>(l.at_mm.x), static_cast<double>(l.at_mm.y), static_cast<double>(l.at_mm.z)});
+    if (!l.found || !(std::hypot(at.x, at.y, at.z) < 1e4) || !(l.sigma_mm >= 0 && l.sigma_mm < 1e4F)) continue;
+    const pipeline::Vec2d px = p.place_of(at);
+    text += text.empty() ? "" : ",\n";
+    text += "    \"" + std::string(word(static_cast<pipeline::LandmarkName>(k))) + "\": {\"mm\": " + list({at.x, at.y, at.z}) + ", " +
+            field("sigma_mm", static_cast<double>(l.sigma_mm)) + ", \"portrait_px\": " + list({px.x, px.y}) + "}";
+  }
+  return "  \"landmarks\": {" + (text.empty() ? std::string() : "\n" + text + "\n  ") + "},\n";
+}
+
+std::string page(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks, const pipeline::RigidTransform& head_from_camera,
+                 std::string_view version) {
   return "{\n  \"generator\": \"Relievo" + (version.empty() ? std::string() : " " + std::string(version)) +
          "\",\n  \"units\": \"millimetres, pixels\",\n"
          "  \"frame\": \"head: origin at the tip of the nose, x to the person's left, y up, z out of the face\",\n"
          "  \"pixels\": \"(0, 0) is the centre of the upper left one; seen from the front, x grows to the right\",\n"
          "  \"shows\": \"0 nothing, 128 surface that was completed, 255 surface that was measured\",\n" +
-         portrait_text(images.portrait) + range_text(images.range) + "}\n";
+         portrait_text(images.portrait) + landmarks_text(images.portrait, landmarks, head_from_camera) + range_text(images.range) + "}\n";
 }
 
 }  // namespace
 
-Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images, std::string_view version) {
+Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks,
+                                                  const pipeline::RigidTransform& head_from_camera, std::string_view version) {
   const Portrait& p = images.portrait;
   const RangeImage& r = images.range;
   std::vector<NamedBytes> files;
@@ -99,7 +121,7 @@ Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionIma
   RELIEVO_TRY(add("range.png", png_of_grey16(r.width_px, r.height_px, heights(r))));
   RELIEVO_TRY(add("range_sigma.png", png_of_grey16(r.width_px, r.height_px, sigmas(r))));
   RELIEVO_TRY(add("range_shows.png", png_of_grey(r.width_px, r.height_px, visible(r.shows))));
-  const std::string text = page(images, version);
+  const std::string text = page(images, landmarks, head_from_camera, version);
   const auto bytes = bytes_of(text);
   files.push_back({"recognition.json", {bytes.begin(), bytes.end()}});
   return files;

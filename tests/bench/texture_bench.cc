@@ -135,7 +135,7 @@ void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageB
   say("obj", best_of_five([&] { storage::obj_text(mesh, "model.mtl"); }));
   say("glb", best_of_five([&] { storage::glb_bytes(mesh, png); }));
   say("portrait and range", best_of_five([&] { need(make_recognition_images(model, heap, heap)); }));
-  say("their files", best_of_five([&] { need(storage::recognition_files(images, "")); }));
+  say("their files", best_of_five([&] { need(storage::recognition_files(images, model.landmarks, model.head_from_camera, "")); }));
   const Cost sum = all;
   say("all", sum);
 }

@@ -75,6 +75,8 @@ pipeline::RecognitionImages sample_images() {
   p.mm_per_px = 0.3;
   p.camera_mm = 1500;
   p.between_eyes_mm = 63.25;
+  p.right_eye_px = {0.5, 0.25};
+  p.left_eye_px = {1.5, 0.25};
   auto& r = images.range;
   r.width_px = 3;
   r.height_px = 2;

@@ -92,6 +92,39 @@ TEST(Portrait, EveryPlaceOfTheHeadFallsWhereAPinholeCameraSeesIt) {
   EXPECT_GT(seen, 3000u);
 }
 
+// Eyes somewhere, not level: their middle is where the standard wants it, and each is where it is drawn.
+TEST(Portrait, IsLaidOutByTheEyesWhereTheyWereFound) {
+  FaceModel model = painted_card();
+  const RigidTransform camera_from_head = inverse(model.head_from_camera);
+  const auto put = [&](LandmarkName name, double x, double y, double z) {
+    const Vec3d p = apply(camera_from_head, Vec3d{x, y, z});
+    Landmark& l = model.landmarks[static_cast<std::size_t>(name)];
+    l.at_mm = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    l.found = true;
+  };
+  put(LandmarkName::ExocanthionRight, -45, 29, -30);
+  put(LandmarkName::EndocanthionRight, -17, 27, -30);
+  put(LandmarkName::EndocanthionLeft, 15, 31, -30);
+  EXPECT_EQ(draw_portrait(model, heap(), heap()).between_eyes_mm, 0) << "three corners are not two eyes";
+  put(LandmarkName::ExocanthionLeft, 43, 33, -30);
+  const Portrait p = draw_portrait(model, heap(), heap());
+  EXPECT_NEAR(p.eyes_mm.x, -1, 1e-3);
+  EXPECT_NEAR(p.eyes_mm.y, 30, 1e-3);
+  EXPECT_NEAR(p.between_eyes_mm, std::hypot(60, 4), 1e-3);
+  EXPECT_NEAR(p.eyes_px.x / p.width_px, 0.5, 0.001);
+  EXPECT_NEAR(p.eyes_px.y / p.height_px, 0.45, 0.001);
+  EXPECT_NEAR(0.5 * (p.right_eye_px.x + p.left_eye_px.x), p.eyes_px.x, 1e-3);
+  EXPECT_LT(p.right_eye_px.x, p.left_eye_px.x) << "the person's right is the picture's left";
+  const auto painted_at = [&](const Vec2d& at) {
+    const auto k = 3 * static_cast<std::size_t>(std::lround(at.y) * p.width_px + std::lround(at.x));
+    return Vec2d{p.rgb[k] / 2.0 - 60, p.rgb[k + 1] / 1.5 - 80};
+  };
+  EXPECT_NEAR(painted_at(p.right_eye_px).x, -31, 0.8);
+  EXPECT_NEAR(painted_at(p.right_eye_px).y, 28, 0.8);
+  EXPECT_NEAR(painted_at(p.left_eye_px).x, 29, 0.8);
+  EXPECT_NEAR(painted_at(p.left_eye_px).y, 32, 0.8);
+}
+
 TEST(Portrait, OfNothingIsRefused) {
   const FaceModel empty(heap());
   const auto images = make_recognition_images(empty, *heap(), *heap());

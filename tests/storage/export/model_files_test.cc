@@ -137,7 +137,8 @@ TEST(ModelFiles, ImagesForRecognitionGoBesideTheModel) {
   const std::string page = relievo::test::read_text(folder / "recognition.json");
   EXPECT_NE(page.find("\"generator\": \"Relievo 1.2.3\""), std::string::npos);
   EXPECT_NE(page.find("\"pitch_mm\": 0.5, \"first_pixel_xy_mm\": [-2.5, 7]"), std::string::npos);
-  EXPECT_NE(page.find("\"eyes_found\": true, \"between_eyes_mm\": 63.25"), std::string::npos);
+  EXPECT_NE(page.find("\"eyes_found\": true, \"right_eye_px\": [0.5, 0.25], \"left_eye_px\": [1.5, 0.25]"), std::string::npos);
+  EXPECT_NE(page.find("\"between_eyes_mm\": 63.25, \"between_eyes_px\": 1"), std::string::npos);
   const std::string glb = relievo::test::read_text(folder / "model.glb");
   EXPECT_NE(glb.find("\"generator\":\"Relievo 1.2.3\""), std::string::npos);
   EXPECT_NE(glb.find("\"texture_sharpness\":0.7"), std::string::npos);

@@ -80,7 +80,7 @@ TEST(PngWriter, RefusesWhatIsNoPicture) {
 
 TEST(RecognitionFiles, HeightsAndSigmasReadBackInMillimetres) {
   const auto images = test::sample_images();
-  const auto files = recognition_files(images, "1");
+  const auto files = recognition_files(images, pipeline::Landmarks{}, {}, "1");
   ASSERT_TRUE(files);
   ASSERT_EQ(files->size(), 6u);
   const auto named = [&](std::string_view name) {
