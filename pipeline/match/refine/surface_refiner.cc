@@ -173,6 +173,13 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
     }
 }
 
+// Steps are cheap at the smallest size, and what starts far off needs them; in between it is done soonest.
+int steps_at(int level, int steps) {
+  if (level == 0) return steps;
+  const int fewer = std::max(1, steps - 1);
+  return level >= kFarLevel ? 2 * fewer : fewer;
+}
+
 }  // namespace
 
 Result<void> SurfaceRefinerOptions::check() const {
@@ -191,8 +198,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   // Squared second differences over nodes `spacing` apart, one node a spacing^2 of full-size pixels.
   const double lambda = scene.lambda_px / (spacing * spacing);
   const double expected = options.crease / std::sqrt(lambda);
-  // Steps are cheap at the smallest size, and what starts far off needs them.
-  const int steps = scene.level >= kFarLevel ? 2 * options.steps : options.steps;
+  const int steps = steps_at(scene.level, options.steps);
   for (int k = 0; k < steps; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
     Arena::Mark mark(context.scratch);

@@ -44,7 +44,7 @@ struct SurfaceRefinerOptions {
   float crease = 0.7F;              // second differences beyond this many expected ones count as creases
   int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
   int smallest_window_px = 9;       // and at least this many pixels of a smaller level
-  int steps = 6;                    // warps a level; twice as many at a quarter of the size
+  int steps = 5;                    // warps at full size; one less at half, twice that at a quarter of it
   int solver_steps = 60;            // conjugate-gradient steps a warp
   Result<void> check() const;
 };
