@@ -28,7 +28,7 @@ struct Portrait {
   double camera_mm = 0;                  // from that plane
   Vec3d eyes_mm;                         // midpoint between the eyes, head frame
   Vec2d eyes_px;                         // where it lies in the picture
-  double between_eyes_mm = 0;            // 0 where not all corners of both eyes were found: eyes_mm is then what is typical
+  double between_eyes_mm = 0;            // 0 where the eyes were not found: eyes_mm is then what is typical
   Vec2d right_eye_px, left_eye_px;       // the person's; where both were found
 
   // Where a point of the head falls in the picture.

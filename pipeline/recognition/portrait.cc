@@ -19,17 +19,21 @@ constexpr Vec3d kTypicalEyesMm{0, 34, -30};
 
 struct Eyes { Vec3d right_mm, left_mm; bool found; };
 
+// The middle of each eye from its corners; a corner that was not found is the other side's mirror image.
 Eyes eyes_of(const FaceModel& model) {
-  const auto middle = [&](LandmarkName inner, LandmarkName outer, bool& found) {
-    const Landmark& a = of(model.landmarks, inner);
-    const Landmark& b = of(model.landmarks, outer);
-    found = found && a.found && b.found;
-    return apply(model.head_from_camera, Vec3d{0.5 * static_cast<double>(a.at_mm.x + b.at_mm.x), 0.5 * static_cast<double>(a.at_mm.y + b.at_mm.y),
-                                               0.5 * static_cast<double>(a.at_mm.z + b.at_mm.z)});
-  };
   Eyes eyes{{}, {}, true};
-  eyes.right_mm = middle(LandmarkName::EndocanthionRight, LandmarkName::ExocanthionRight, eyes.found);
-  eyes.left_mm = middle(LandmarkName::EndocanthionLeft, LandmarkName::ExocanthionLeft, eyes.found);
+  const auto corner = [&](LandmarkName name, LandmarkName mirrored) {
+    const bool own = of(model.landmarks, name).found;
+    const Landmark& l = of(model.landmarks, own ? name : mirrored);
+    eyes.found = eyes.found && l.found;
+    Vec3d at = apply(model.head_from_camera, Vec3d{static_cast<double>(l.at_mm.x), static_cast<double>(l.at_mm.y), static_cast<double>(l.at_mm.z)});
+    if (!own) at.x = -at.x;
+    return at;
+  };
+  const auto middle = [](const Vec3d& a, const Vec3d& b) { return Vec3d{0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)}; };
+  using enum LandmarkName;
+  eyes.right_mm = middle(corner(EndocanthionRight, EndocanthionLeft), corner(ExocanthionRight, ExocanthionLeft));
+  eyes.left_mm = middle(corner(EndocanthionLeft, EndocanthionRight), corner(ExocanthionLeft, ExocanthionRight));
   return eyes;
 }
 

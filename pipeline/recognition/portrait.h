@@ -6,9 +6,10 @@
 // upper edge, the head 50 to 75 % of the width and 60 to 90 % of the height, at least 90 pixels between
 // the eyes, the camera 0.7 to 4 m away. Ours: 840 x 1080 pixels of 0.3 mm in the plane of the eyes
 // (252 x 324 mm), eyes in the middle at 45 %, seen from 1.5 m; 62 mm between the eyes are 207 pixels, a
-// head 150 mm wide and 225 mm high takes 60 % and 69 %. An eye's middle is half way between its corners; where
-// corners were not found the eyes' line is a typical face's, some millimetres off. It stands upright and looks straight ahead, however the
-// person stood. Background: an even light grey.
+// head 150 mm wide and 225 mm high takes 60 % and 69 %. An eye's middle is half way between its corners (one
+// that was not found is taken from the other side, mirrored); where both inner or both outer ones are missing the
+// eyes' line is a typical face's, some millimetres off. The head stands upright and looks straight ahead, however
+// the person stood. Background: an even light grey.
 // Throws std::bad_alloc. Thread: any.
 #pragma once
 

@@ -104,8 +104,11 @@ TEST(Portrait, IsLaidOutByTheEyesWhereTheyWereFound) {
   };
   put(LandmarkName::ExocanthionRight, -45, 29, -30);
   put(LandmarkName::EndocanthionRight, -17, 27, -30);
+  EXPECT_NEAR(draw_portrait(model, heap(), heap()).between_eyes_mm, 62, 1e-3) << "the left eye is the right one's mirror image";
+  model.landmarks[static_cast<std::size_t>(LandmarkName::ExocanthionRight)].found = false;
+  EXPECT_EQ(draw_portrait(model, heap(), heap()).between_eyes_mm, 0) << "no outer corner, no eyes";
+  put(LandmarkName::ExocanthionRight, -45, 29, -30);
   put(LandmarkName::EndocanthionLeft, 15, 31, -30);
-  EXPECT_EQ(draw_portrait(model, heap(), heap()).between_eyes_mm, 0) << "three corners are not two eyes";
   put(LandmarkName::ExocanthionLeft, 43, 33, -30);
   const Portrait p = draw_portrait(model, heap(), heap());
   EXPECT_NEAR(p.eyes_mm.x, -1, 1e-3);
