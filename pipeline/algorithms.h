@@ -4,7 +4,7 @@
 // The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
 // command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
 // Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
-// texturer; and NAME.OPTION for every option of every algorithm.
+// completion, texturer; and NAME.OPTION for every option of every algorithm.
 #pragma once
 
 #include <map>
@@ -18,6 +18,7 @@
 #include "pipeline/match/match_constraint.h"
 #include "pipeline/match/matcher.h"
 #include "pipeline/match/preprocessor.h"
+#include "pipeline/mesh/completion/completion.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/outlier_filter.h"
@@ -62,6 +63,7 @@ Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set)
 Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& set);  // null: keep all points
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
+Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set);
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
 
 }  // namespace relievo::pipeline

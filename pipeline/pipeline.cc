@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pipeline.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,13 @@ Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& me
   if (selector.on_lattice() || !mesher.needs_lattice()) return {};
   return Error{Errc::InvalidInput, "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid"}
       .at("selector=" + std::string(selector.name()) + " mesher=" + std::string(mesher.name()));
+}
+
+// From the left camera's centre to the right one's, in the left one's frame.
+Vec3d across(const StereoCalibration& calibration) {
+  const Vec3d centre = inverse(calibration.right_from_left).translation_mm;
+  const double length = std::hypot(centre.x, centre.y, centre.z);
+  return length > 0 ? Vec3d{centre.x / length, centre.y / length, centre.z / length} : Vec3d{1, 0, 0};
 }
 
 }  // namespace
@@ -46,6 +54,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_filter(set));
   RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
   RELIEVO_TRY(check_neighbours(*pipeline.selector_, *pipeline.mesher_));
+  RELIEVO_TRY_ASSIGN(pipeline.completion_, make_completion(set));
   RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
   return pipeline;
 }
@@ -117,7 +126,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
 }
 
 Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, StageContext& context) const {
-  return run_stage(context, [&](StageContext& c) { return mesher_->mesh(cloud, c); });
+  return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
+    RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_->mesh(cloud, c));
+    return completion_->complete(std::move(mesh), across(calibration_), c);
+  });
 }
 
 Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const {

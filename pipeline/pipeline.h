@@ -68,6 +68,7 @@ class Pipeline {
   FaceCropOptions crop_;
   std::shared_ptr<const OutlierFilter> outliers_;  // null: every point is kept
   std::shared_ptr<const Mesher> mesher_;
+  std::shared_ptr<const Completion> completion_;
   std::shared_ptr<const Texturer> texturer_;
 };
 

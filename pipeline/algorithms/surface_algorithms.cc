@@ -8,6 +8,8 @@
 #include "pipeline/mesh/catalogue/marching_cubes_mesher.h"
 #include "pipeline/mesh/catalogue/poisson_mesher.h"
 #include "pipeline/mesh/catalogue/rbf_mesher.h"
+#include "pipeline/mesh/completion/measured_only.h"
+#include "pipeline/mesh/completion/symmetric_completion.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
@@ -42,6 +44,11 @@ constexpr std::array kMeshers{
     with_options<Mesher, BezierMesher, BezierMesherOptions>("bezier"),
 };
 
+constexpr std::array kCompletions{
+    without_options<Completion, MeasuredOnly>("measured-only"),
+    with_options<Completion, SymmetricCompletion, SymmetricCompletionOptions>("symmetric"),
+};
+
 constexpr std::array kTexturers{
     with_options<Texturer, TwoViewTexturer, TwoViewTexturerOptions>("two-view"),
     with_options<Texturer, SingleViewTexturer, SingleViewTexturerOptions>("single-view"),
@@ -54,6 +61,7 @@ std::vector<Kind> surface_kinds() {
       kind_of("triangulator", "inverse-disparity", "how matches become points", kTriangulators),
       kind_of("outliers", "local", "which points are taken for outliers in space", kOutlierFilters),
       kind_of("mesher", "grid", "how points become a surface", kMeshers),
+      kind_of("completion", "measured-only", "what is made of surface that was not seen", kCompletions),
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
   };
   kinds[1].names.emplace_back("none");
@@ -66,6 +74,7 @@ std::vector<OptionDescription> surface_options() {
   describe_options<FaceCropOptions>("face", all);
   describe_table(kOutlierFilters, all);
   describe_table(kMeshers, all);
+  describe_table(kCompletions, all);
   describe_table(kTexturers, all);
   return all;
 }
@@ -86,6 +95,10 @@ Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set) {
 
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set) {
   return make_named<Mesher>(kMeshers, set, set.get("mesher"));
+}
+
+Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set) {
+  return make_named<Completion>(kCompletions, set, set.get("completion"));
 }
 
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set) {

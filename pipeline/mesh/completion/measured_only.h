@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Nothing is added. Thread: any.
+#pragma once
+
+#include <utility>
+
+#include "pipeline/mesh/completion/completion.h"
+
+namespace relievo::pipeline {
+
+class MeasuredOnly final : public Completion {
+ public:
+  std::string_view name() const override { return "measured-only"; }
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d&, StageContext& context) const override {
+    if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
+    return mesh;
+  }
+};
+
+}  // namespace relievo::pipeline

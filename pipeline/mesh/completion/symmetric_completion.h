@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What one side of the face hides, the other side shows: the measured surface is mirrored at the plane of
+// symmetry found in it and laid where nothing was measured, as radii about the head's upright axis. It is
+// moved by what the two differ along their seam, relaxed into the new part (Laplace), so that no step is left,
+// and sewn to the measured border by a constrained Delaunay triangulation of the gap.
+// Its sigma is that of asymmetry: sigma_mm, and sigma_per_mm more for every millimetre from the seam.
+// Memory: the mesh in `output`, the rest in scratch; CGAL's triangulation of the gap takes from the heap.
+// Errors: those of Completion. Thread: any.
+#pragma once
+
+#include "pipeline/mesh/completion/completion.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct SymmetricCompletionOptions {
+  double cell_mm = 1.5;          // between completed vertices
+  double longest_edge_mm = 12;   // wider gaps between both sides' surfaces stay open
+  double sigma_mm = 0.7;
+  double sigma_per_mm = 0.015;
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(SymmetricCompletionOptions& o, Field&& field) {
+  field("cell_mm", o.cell_mm, OptionRange{0.5, 10}, "between completed vertices, mm");
+  field("longest_edge_mm", o.longest_edge_mm, OptionRange{1, 50}, "longer edges join nothing, mm");
+  field("sigma_mm", o.sigma_mm, OptionRange{0, 20}, "standard deviation of a completed place at the seam, mm");
+  field("sigma_per_mm", o.sigma_per_mm, OptionRange{0, 1}, "how much more for each mm from the seam");
+}
+
+class SymmetricCompletion final : public Completion {
+ public:
+  explicit SymmetricCompletion(const SymmetricCompletionOptions& options) : options_(options) {}
+  std::string_view name() const override { return "symmetric"; }
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const override;
+
+ private:
+  SymmetricCompletionOptions options_;
+};
+
+}  // namespace relievo::pipeline
