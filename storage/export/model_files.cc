@@ -11,12 +11,12 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
-#include "storage/export/glb_writer.h"
-#include "storage/export/obj_writer.h"
-#include "storage/export/ply_writer.h"
-#include "storage/export/png_writer.h"
+#include "storage/export/format/glb_writer.h"
+#include "storage/export/format/obj_writer.h"
+#include "storage/export/format/ply_writer.h"
+#include "storage/export/format/png_writer.h"
 #include "storage/export/recognition_files.h"
-#include "storage/export/stl_writer.h"
+#include "storage/export/format/stl_writer.h"
 
 namespace relievo::storage {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "storage/byte_order.h"
-#include "storage/export/number_text.h"
-#include "storage/export/png_writer.h"
+#include "storage/export/format/number_text.h"
+#include "storage/export/format/png_writer.h"
 
 namespace relievo::storage {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "storage/export/png_writer.h"
+#include "storage/export/format/png_writer.h"
 #include "storage/export/recognition_files.h"
 #include "tests/storage/sample.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/seam_split.h"
+#include "storage/export/format/seam_split.h"
 
 #include <bit>
 

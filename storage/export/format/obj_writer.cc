@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/obj_writer.h"
+#include "storage/export/format/obj_writer.h"
 
-#include "storage/export/number_text.h"
-#include "storage/export/seam_split.h"
+#include "storage/export/format/number_text.h"
+#include "storage/export/format/seam_split.h"
 
 namespace relievo::storage {
 namespace {

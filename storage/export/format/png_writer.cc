@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/png_writer.h"
+#include "storage/export/format/png_writer.h"
 
 #include <png.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/stl_writer.h"
+#include "storage/export/format/stl_writer.h"
 
 #include <cmath>
 #include <string>

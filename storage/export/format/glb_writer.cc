@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/glb_writer.h"
+#include "storage/export/format/glb_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "storage/byte_order.h"
-#include "storage/export/number_text.h"
+#include "storage/export/format/number_text.h"
 #include "storage/export/placed_landmarks.h"
-#include "storage/export/seam_split.h"
+#include "storage/export/format/seam_split.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
 // The numbers of the format: glTF 2.0 specification, sections 3.6 (accessors) and 4 (GLB).

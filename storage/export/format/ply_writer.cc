@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/ply_writer.h"
+#include "storage/export/format/ply_writer.h"
 
 #include <string>
 
 #include "storage/byte_order.h"
-#include "storage/export/number_text.h"
+#include "storage/export/format/number_text.h"
 #include "storage/export/placed_landmarks.h"
 
 namespace relievo::storage {

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What two photographs must do together, on a painted plane.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "pipeline/texture/single_view_texturer.h"
+#include "pipeline/texture/two_view_texturer.h"
+#include "tests/pipeline/texture/painted_plane.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using namespace test;  // NOLINT: the painted plane and its numbers
+
+// An offset and a gain of its own in each channel of the right view.
+// Crumbs of completed surface, each smaller than a texel of its chart, on a painted surface: they take its colour.
+TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
+  FaceMesh mesh = plane_mesh();
+  const RectifiedPair pair = photographed_plane();
+  const std::size_t front_triangles = mesh.triangles.size();
+  for (std::uint32_t k = 0; k < 40; ++k) {  // each hangs on a vertex of the front by an edge of 0.3 mm
+    const std::uint32_t at = 400 + 13 * k;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    const Vec3f v = mesh.vertices_mm[at];
+    mesh.vertices_mm.push_back({v.x + 0.3F, v.y, v.z + 0.2F});
+    mesh.vertices_mm.push_back({v.x, v.y + 0.3F, v.z + 0.2F});
+    for (int i = 0; i < 2; ++i) {
+      mesh.normals.push_back({0, 0, 1});
+      mesh.sigma_mm.push_back(1);
+      mesh.measured.push_back(0);
+    }
+    mesh.triangles.push_back({at, first, first + 1});  // turned away
+  }
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t c = 3 * front_triangles; c < atlas->uv.size(); ++c) {
+    const Vec3d seen = look_up(*atlas, atlas->uv[c]);
+    const Vec3f& at = mesh.vertices_mm[mesh.triangles[c / 3][0]];
+    const Vec3d wanted = paint(double(at.x), double(at.y));
+    ASSERT_NEAR(seen.x, wanted.x, 10) << c;
+    ASSERT_NEAR(seen.y, wanted.y, 10) << c;
+  }
+}
+
+TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
+  StageRoom room;
+  const FaceMesh mesh = plane_mesh();
+  RectifiedPair pair = photographed_plane();
+  constexpr double kGain[3] = {0.8, 0.9, 0.7}, kOffset[3] = {12, -8, 20};
+  for (std::size_t k = 0; k < pair.right.rgb.size(); ++k)
+    pair.right.rgb[k] = static_cast<std::uint8_t>(std::lround(kGain[k % 3] * pair.right.rgb[k] + kOffset[k % 3]));
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3d truth = paint(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y));
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v]), truth.x, 4);
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v + 1]), truth.y, 4);
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v + 2]), truth.z, 4);
+  }
+}
+
+// White light added to one view alone is no skin; added to both it may be.
+TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
+  const FaceMesh mesh = plane_mesh();
+  const auto shine = [](RectifiedView& view, const Vec2d& centre, double camera_x, double at_x) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double dx = camera_x + (x - centre.x) / kFocal * kDepth - at_x;
+        const double dy = (y - centre.y) / kFocal * kDepth;
+        const double light = 70 * std::exp(-(dx * dx + dy * dy) / (2 * 5.0 * 5.0));
+        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)];
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::min(255.0, p[c] + light));
+      }
+  };
+  RectifiedPair pair = photographed_plane();
+  shine(pair.left, pair.left_centre_px, 0, -20);   // in the left view alone
+  shine(pair.left, pair.left_centre_px, 0, 20);
+  shine(pair.right, pair.right_centre_px, kBaseline, 20);
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  double worst_alone = 0, kept = 0;
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& p = mesh.vertices_mm[v];
+    const double excess = double(atlas->vertex_rgb[3 * v + 1]) - paint(double(p.x), double(p.y)).y;
+    if (std::hypot(p.x + 20, p.y) < 15) worst_alone = std::max(worst_alone, excess);
+    if (std::hypot(p.x - 20, p.y) < 1.7F) kept = std::max(kept, excess);
+  }
+  EXPECT_LT(worst_alone, 12) << "half of what the level lets pass";
+  EXPECT_GT(kept, 55);
+}
+
+TEST(TwoViewTexturer, AnUnderexposedRightViewLeavesNoTrace) {
+  StageRoom room;
+  const FaceMesh mesh = plane_mesh();
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, photographed_plane(0.7), c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3d truth = paint(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y));
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v]), truth.x, 5);
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v + 2]), truth.z, 5);
+  }
+}
+
+// A board 40 mm in front hides part of the plane from the right camera; there only the left one counts.
+TEST(TwoViewTexturer, WhatTheRightViewCannotSeeIsTakenFromTheLeft) {
+  StageRoom room;
+  FaceMesh mesh = plane_mesh();
+  // The strip x < -60 mm of the lattice stands 60 mm nearer, along its rays.
+  for (Vec3f& v : mesh.vertices_mm)
+    if (v.x > 20) v = {v.x * 0.88F, v.y * 0.88F, v.z * 0.88F};
+  RectifiedPair pair = photographed([](double sx, double camera_x) {
+    const double near = kDepth * 0.88;
+    return camera_x + sx * near > 20 * 0.88 + 1e-9 ? near : kDepth;
+  });
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& p = mesh.vertices_mm[v];
+    if (std::abs(p.x - 18) < 6) continue;  // the edge itself, where a triangle spans the step
+    EXPECT_NEAR(double(atlas->vertex_rgb[3 * v]), paint(double(p.x), 0).x, 12) << p.x << " " << p.y;
+  }
+}
+
+TEST(Texturers, OptionsHaveLimits) {
+  EXPECT_TRUE(TwoViewTexturerOptions{}.check());
+  EXPECT_TRUE(SingleViewTexturerOptions{}.check());
+  TwoViewTexturerOptions two;
+  two.angle_power = -1;
+  EXPECT_FALSE(two.check());
+  SingleViewTexturerOptions one;
+  one.margin_px = 1000;
+  EXPECT_FALSE(one.check());
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
