@@ -18,7 +18,6 @@ namespace {
 
 using namespace test;  // NOLINT: the painted plane and its numbers
 
-// An offset and a gain of its own in each channel of the right view.
 // Crumbs of completed surface, each smaller than a texel of its chart, on a painted surface: they take its colour.
 TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
   FaceMesh mesh = plane_mesh();
@@ -49,6 +48,7 @@ TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
   }
 }
 
+// An offset and a gain of its own in each channel of the right view.
 TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
   StageRoom room;
   const FaceMesh mesh = plane_mesh();
