@@ -24,6 +24,13 @@ TEST(CommandLine, Reconstruct) {
   EXPECT_EQ(args.algorithms.settings, (std::vector<std::string>{"matcher=zmncc", "zmncc.window_px=15"}));
 }
 
+TEST(CommandLine, ALighterModelBesideIt) {
+  const auto reconstruct = parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000"});
+  EXPECT_EQ(std::get<ReconstructArgs>(reconstruct.command).lod, 40'000);
+  const auto exported = parse({"subjects", "export", "Ada", "-o", "out", "--lod", "20000"});
+  EXPECT_EQ(std::get<SubjectsArgs>(exported.command).lod, 20'000);
+}
+
 TEST(CommandLine, Calibrate) {
   const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"});
   const auto& args = std::get<CalibrateArgs>(line.command);
@@ -132,6 +139,7 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"reconstruct", "l.png", "r.png", "-o", "out"},
       {"reconstruct", "l.png", "r.png", "x.png", "--calibration", "rig.yml", "-o", "out"},
       {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--frame", "sideways"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "3"},
       {"calibrate", "dir", "--corners", "10", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--pattern", "circles", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
