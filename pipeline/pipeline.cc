@@ -16,6 +16,8 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr double kReachBeyondCrop = 1.15;  // so that the rough surface's own error cuts nothing off
+
 // Said before the first picture is looked at, not after minutes of matching.
 Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& mesher) {
   if (selector.on_lattice() || !mesher.needs_lattice()) return {};
@@ -65,6 +67,7 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
     if (finder_ != nullptr) {
       RELIEVO_TRY_ASSIGN(const FaceBox box, find_face(*finder_, pair, c));
       RELIEVO_TRY(mark_face_region(pair, box, c));
+      pair.face_reach_mm = kReachBeyondCrop * crop_.radius_mm;
     }
     return pair;
   });

@@ -44,6 +44,7 @@ struct RectifiedPair {
   RectifiedView right;
   Vec2d face_centre_px;                  // where the face was found in the left view, between eyes and mouth
   double face_width_px = 0;              // about 150 mm on a grown-up; 0 where no face was looked for
+  double face_reach_mm = 0;              // what lies further from the tip of its nose is not wanted; 0: everything is
   std::pmr::vector<std::uint8_t> region; // left view: 1 where the face may be; empty means everywhere
 
   double disparity_at_infinity_px() const { return left_centre_px.x - right_centre_px.x; }

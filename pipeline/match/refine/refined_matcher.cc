@@ -7,6 +7,7 @@
 
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/detail_search.h"
+#include "pipeline/match/region/face_reach.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -102,6 +103,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
       RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));
       context.progress.done.store(0.4F, std::memory_order_relaxed);
       RELIEVO_TRY(refine(kFineLevel, field4));
+      keep_within_reach(pair, context, field4);
       densify(field4, field2);
     }
     if (rows.align(field2) < kSearchAgainPx) break;
