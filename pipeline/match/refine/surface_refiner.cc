@@ -17,6 +17,7 @@ constexpr int kBands = 16;
 constexpr int kFarLevel = 2;
 // Of the squared residual: the next warp solves what is left anew. A hundredth of this changes no figure.
 constexpr double kSolved = 1e-4;
+constexpr int kNoiseStep = 1;  // when the fit is close enough for its residuals to be noise
 
 // The node window that holds the domain with a margin, and the pixel window below it.
 struct Extent {
@@ -199,6 +200,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   const double lambda = scene.lambda_px / (spacing * spacing);
   const double expected = options.crease / std::sqrt(lambda);
   const int steps = steps_at(scene.level, options.steps);
+  float hanging = 1;
   for (int k = 0; k < steps; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
     Arena::Mark mark(context.scratch);
@@ -210,8 +212,11 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     form_terms(scene, options, field, extent.pixels, context, terms, last ? &agreed : nullptr);
     gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
     weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
-    for (std::size_t n = 0; n < work.domain.values.size(); ++n)
-      if (work.domain.values[n] == 0) work.system.data.values[n] = work.pull.values[n] = work.agreed.values[n] = 0;
+    if (scene.level == 0 && k == kNoiseStep) hanging = hanging_noise(terms);
+    for (std::size_t n = 0; n < work.domain.values.size(); ++n) {
+      const float share = work.domain.values[n] != 0 ? 1 / hanging : 0;
+      for (Plane<float>* said : {&work.system.data, &work.pull, &work.agreed}) said->values[n] *= share;
+    }
     Plane<float> rolling(&context.scratch, rolling_floats(nodes.width), 1);
     apply_system(work.system, work.d, false, work.system.rhs, 0, nodes.height, rolling.row(0));
     for (std::size_t n = 0; n < work.pull.values.size(); ++n)

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
+constexpr float kLoud = 12;      // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
 constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer and says nothing about the surface
 
 struct Sampled { float value, slope; };
@@ -226,6 +227,42 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
         terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, noise);
       }
   });
+}
+
+float hanging_noise(const WarpTerms& terms) {
+  constexpr int kFurthest = 2;  // shift in pixels
+  constexpr int kEvery = 3;     // rows looked at
+  constexpr float kWhite = 1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
+  constexpr float kMost = 6;
+  const int w = terms.residual.width;
+  const int h = terms.residual.height;
+  double sum = 0;
+  double residual2 = 0;
+  double gradient2 = 0;
+  for (int dy = 0; dy <= kFurthest; ++dy)
+    for (int dx = dy == 0 ? 0 : -kFurthest; dx <= kFurthest; ++dx) {
+      double rr = 0;
+      double gg = 0;
+      double count = 0;
+      for (int y = 0; y + dy < h; y += kEvery) {
+        const float* in = terms.mask.row(y);
+        const float* in_too = terms.mask.row(y + dy) + dx;
+        const float *r = terms.residual.row(y), *r_too = terms.residual.row(y + dy) + dx;
+        const float *g = terms.gradient.row(y), *g_too = terms.gradient.row(y + dy) + dx;
+        for (int x = kFurthest; x < w - kFurthest; ++x) {
+          if (in[x] == 0 || in_too[x] == 0) continue;
+          rr += static_cast<double>(std::clamp(r[x], -kLoud, kLoud) * std::clamp(r_too[x], -kLoud, kLoud));
+          gg += static_cast<double>(std::clamp(g[x], -kLoud, kLoud) * std::clamp(g_too[x], -kLoud, kLoud));
+          count += 1;
+        }
+      }
+      if (!(count > 0)) return 1;
+      if (dx == 0 && dy == 0) residual2 = rr / count, gradient2 = gg / count;
+      if (!(residual2 > 0 && gradient2 > 0)) return 1;
+      const double both = rr / count / residual2 * (gg / count / gradient2);
+      sum += dx == 0 && dy == 0 ? both : 2 * both;  // a shift and its opposite
+    }
+  return std::clamp(static_cast<float>(sum) / kWhite, 1.0F, kMost);
 }
 
 }  // namespace relievo::pipeline
