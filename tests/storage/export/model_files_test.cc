@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 #include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
@@ -28,16 +29,29 @@ namespace {
 using relievo::test::TemporaryFolder;
 using test::sample_model;
 
+// Those that were found: name, place in the frame of the file, sigma.
+std::string landmark_lines(const pipeline::FaceModel& model) {
+  std::ostringstream lines;
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = model.landmarks[k];
+    if (!l.found) continue;
+    lines << "comment landmark " << word(static_cast<pipeline::LandmarkName>(k)) << ' ' << l.at_mm.x << ' ' << l.at_mm.y
+          << ' ' << l.at_mm.z << ' ' << l.sigma_mm << '\n';
+  }
+  return lines.str();
+}
+
 TEST(PlyWriter, HeaderAndFirstVertexAreAsPromised) {
   const auto model = sample_model(4);
   const auto mesh = make_export_mesh(model, ExportFrame::Camera);
   ASSERT_TRUE(mesh);
   const auto bytes = ply_bytes(*mesh);
-  const std::string header =
+  const std::string header = std::string() +
       "ply\n"
       "format binary_little_endian 1.0\n"
       "comment Relievo face model, millimetres\n"
-      "comment frame camera: the left camera, x right, y down, z forward\n"
+      "comment frame camera: the left camera, x right, y down, z forward\n" +
+      landmark_lines(model) +
       "element vertex 16\n"
       "property float x\nproperty float y\nproperty float z\n"
       "property float nx\nproperty float ny\nproperty float nz\n"
