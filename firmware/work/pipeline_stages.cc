@@ -38,7 +38,7 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
                                  StageRecord& record) {
   Result<void> done = run_stage_of(stage, products, context, record);
   if (done || !may_be_the_pictures(done.error().code) || !products.frame) return done;
-  if (std::optional<Error> cause = pipeline_.explain(*products.frame, done.error().code, context)) return std::move(*cause);
+  if (std::optional<Error> cause = pipeline_.explain(*products.frame, done.error().code, context)) return *cause;
   return done;
 }
 

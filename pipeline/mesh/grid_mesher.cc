@@ -130,12 +130,12 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
 
   // What the outline's cut takes is known once it is done; in the rare case that it leaves more than it
   // found, a thinner lattice fits.
-  for (double triangles = options_.max_triangles;; triangles *= 0.98) {
+  for (int triangles = options_.max_triangles;; triangles -= triangles / 50) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
     PointLattice lattice = make_lattice(cloud, &context.scratch);
     context.progress.done.store(0.2F, std::memory_order_relaxed);
-    const CutSurface surface = make_surface(std::move(lattice), triangles, options_, context.scratch);
+    const CutSurface surface = make_surface(std::move(lattice), static_cast<double>(triangles), options_, context.scratch);
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;

@@ -55,14 +55,14 @@ bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
   const auto width = static_cast<std::size_t>(frame.left.width_px);
   std::pmr::vector<float> left(width, memory), right(width, memory);
   double sum = 0;
-  double count = 0;
+  std::size_t count = 0;
   for (int y = 0; y < frame.left.height_px; y += kEvery) {
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(y) * frame.left.width_px;
     grey_rows(frame.left, left.data() - back, frame.left.width_px, y, y + 1);
     grey_rows(frame.right, right.data() - back, frame.left.width_px, y, y + 1);
     for (std::size_t x = 0; x < width; ++x, ++count) sum += static_cast<double>(std::abs(left[x] - right[x]));
   }
-  return count > 0 && sum / count < kSame;
+  return count > 0 && sum / static_cast<double>(count) < kSame;
 }
 
 int reduction(const RectifiedPair& pair) { return std::max(1, pair.width_px / kReducedWidth); }

@@ -62,7 +62,6 @@ struct Work {
 // Adds what every pixel says to the nodes around it.
 void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, Work& work, ThreadPool& pool) {
   BendingSystem& system = work.system;
-  constexpr float kTent[3] = {0.5F, 1, 0.5F};
   pool.for_each_band(system.height(), kBands, [&](int begin, int end, int) {
     for (int j = begin; j < end; ++j)
       for (int i = 0; i < system.width(); ++i) {
@@ -74,7 +73,7 @@ void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, W
             const int x = i * step + dx;
             const int y = j * step + dy;
             if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
-            const float tent = step == 1 ? 1.0F : kTent[dx + 1] * kTent[dy + 1];
+            const float tent = (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);  // of step 1 only the middle
             const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
             a += wg * terms.gradient.row(y)[x];
             b += wg * terms.residual.row(y)[x];
