@@ -22,7 +22,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 
-constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 
 bool usable(const CloudPoint& p) {
   return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
@@ -79,28 +78,6 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
   return triangles;
 }
 
-FaceMesh pack(const PointCloud& cloud, const std::pmr::vector<Triangle>& triangles, StageContext& context) {
-  std::pmr::vector<std::uint32_t> place(cloud.points.size(), kUnused, &context.scratch);
-  std::uint32_t used = 0;
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) place[v] = 0;
-  for (std::uint32_t& p : place)
-    if (p != kUnused) p = used++;
-  FaceMesh mesh(&context.output);
-  mesh.vertices_mm.reserve(used);
-  mesh.normals.reserve(used);
-  mesh.sigma_mm.reserve(used);
-  mesh.measured.assign(used, 1);
-  mesh.triangles.reserve(triangles.size());
-  for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    if (place[k] == kUnused) continue;
-    mesh.vertices_mm.push_back(cloud.points[k].at_mm);
-    mesh.sigma_mm.push_back(cloud.points[k].sigma_mm);
-  }
-  for (const Triangle& t : triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  return mesh;
-}
-
 }  // namespace
 
 Result<void> DelaunayMesherOptions::check() const {
@@ -117,10 +94,9 @@ Result<void> DelaunayMesherOptions::check() const {
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  const Error no_surface{Errc::PoorGeometry, "the points form no surface of a face's size: look straight into the cameras and try again"};
   RELIEVO_TRY(options_.check());
   if (context.stop()) return stopped;
-  if (cloud.points.size() < 3) return no_surface;
+  if (cloud.points.size() < 3) return no_surface();
   std::pmr::vector<Triangle> triangles = triangulate(cloud, options_.max_triangles, context.scratch);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   if (context.stop()) return stopped;
@@ -134,9 +110,9 @@ Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& con
   std::erase_if(triangles, [&](const Triangle& t) { return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine); });
   keep_one_surface(at, triangles, {options_.ear_passes}, &context.scratch);
   if (context.stop()) return stopped;
-  if (triangles.empty() || area_mm2(at, triangles) < options_.min_area_mm2) return no_surface;
+  if (triangles.empty() || area_mm2(at, triangles) < options_.min_area_mm2) return no_surface();
 
-  FaceMesh mesh = pack(cloud, triangles, context);
+  FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) { return PackedVertex{at[v], cloud.points[v].sigma_mm, 1}; });
   compute_normals(mesh, options_.normal_passes, &context.scratch);
   turn_sigma_perpendicular(mesh);
   context.progress.done.store(1, std::memory_order_relaxed);

@@ -18,32 +18,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 constexpr double kThinnerStep = 1.003;  // where the triangles at hand are exceeded by a few
-
-FaceMesh pack(const CutSurface& surface, float measured_sigma_mm, StageContext& context) {
-  std::pmr::vector<std::uint32_t> place(surface.at_mm.size(), kUnused, &context.scratch);
-  std::uint32_t used = 0;
-  for (const Triangle& t : surface.triangles)
-    for (const std::uint32_t v : t) place[v] = 0;
-  for (std::uint32_t& p : place)
-    if (p != kUnused) p = used++;
-
-  FaceMesh mesh(&context.output);
-  mesh.vertices_mm.reserve(used);
-  mesh.normals.reserve(used);
-  mesh.sigma_mm.reserve(used);
-  mesh.measured.reserve(used);
-  mesh.triangles.reserve(surface.triangles.size());
-  for (std::size_t k = 0; k < place.size(); ++k) {
-    if (place[k] == kUnused) continue;
-    mesh.vertices_mm.push_back(surface.at_mm[k]);
-    mesh.sigma_mm.push_back(surface.sigma_mm[k]);
-    mesh.measured.push_back(surface.sigma_mm[k] <= measured_sigma_mm ? surface.measured[k] : std::uint8_t{0});
-  }
-  for (const Triangle& t : surface.triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  return mesh;
-}
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
 
@@ -121,10 +96,9 @@ Result<void> GridMesherOptions::check() const {
 
 Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  const Error no_surface{Errc::PoorGeometry, "the points form no surface of a face's size: look straight into the cameras and try again"};
   RELIEVO_TRY(options_.check());
   if (context.stop()) return stopped;
-  if (cloud.points.empty()) return no_surface;
+  if (cloud.points.empty()) return no_surface();
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported, "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
 
@@ -138,9 +112,12 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     const CutSurface surface = make_surface(std::move(lattice), static_cast<double>(triangles), options_, context.scratch);
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
-    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface;
+    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface();
     if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) continue;
-    FaceMesh mesh = pack(surface, static_cast<float>(options_.measured_sigma_mm), context);
+    FaceMesh mesh = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
+      const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
+      return PackedVertex{surface.at_mm[v], surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
+    });
     compute_normals(mesh, options_.normal_passes, &context.scratch);
     turn_sigma_perpendicular(mesh);
     context.progress.done.store(1, std::memory_order_relaxed);

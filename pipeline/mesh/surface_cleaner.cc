@@ -183,6 +183,10 @@ class Soup {
 
 }  // namespace
 
+Error no_surface() {
+  return {Errc::PoorGeometry, "the points form no surface of a face's size: look straight into the cameras and try again"};
+}
+
 double area_mm2(std::span<const Vec3f> vertices, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const Triangle& t : triangles) sum += triangle_area(vertices, t);

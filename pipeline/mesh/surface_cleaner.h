@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/result.h"
 #include "pipeline/model/face_mesh.h"
+#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 
@@ -33,6 +35,44 @@ void compute_normals(FaceMesh& mesh, int passes, std::pmr::memory_resource* scra
 
 // sigma_mm holds sigmas along the line of sight from the left camera; turns them perpendicular.
 void turn_sigma_perpendicular(FaceMesh& mesh);
+
+// A vertex as it goes into the finished mesh.
+struct PackedVertex {
+  Vec3f at_mm;
+  float sigma_mm = 0;
+  std::uint8_t measured = 0;
+};
+
+// The mesh, in `context.output`, of those of `count` vertices that a triangle uses, in their order; `vertex(v)` says what
+// the v-th is. Room for normals is reserved, none are written. Throws std::bad_alloc when memory is used up.
+template <typename Vertex>
+FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, StageContext& context, Vertex&& vertex) {
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
+  std::pmr::vector<std::uint32_t> place(count, kUnused, &context.scratch);
+  std::uint32_t used = 0;
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) place[v] = 0;
+  for (std::uint32_t& p : place)
+    if (p != kUnused) p = used++;
+  FaceMesh mesh(&context.output);
+  mesh.vertices_mm.reserve(used);
+  mesh.normals.reserve(used);
+  mesh.sigma_mm.reserve(used);
+  mesh.measured.reserve(used);
+  mesh.triangles.reserve(triangles.size());
+  for (std::size_t v = 0; v < count; ++v) {
+    if (place[v] == kUnused) continue;
+    const PackedVertex packed = vertex(v);
+    mesh.vertices_mm.push_back(packed.at_mm);
+    mesh.sigma_mm.push_back(packed.sigma_mm);
+    mesh.measured.push_back(packed.measured);
+  }
+  for (const Triangle& t : triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  return mesh;
+}
+
+// What every mesher says of points that are no face.
+Error no_surface();
 
 double area_mm2(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles);
 

@@ -26,12 +26,20 @@ constexpr int kRowsApart = 1;            // reduced pixels; what is less matchin
 
 enum class Light : std::uint8_t { Good, Dark, Overexposed, Blank };
 
+// Row y alone.
+void read_row(const ImageView& picture, int y, std::pmr::vector<float>& to) {
+  ImageView row = picture;
+  row.bytes += static_cast<std::ptrdiff_t>(y) * picture.stride_bytes;
+  row.height_px = 1;
+  grey_rows(row, to.data(), picture.width_px, 0, 1);
+}
+
 Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
   std::array<long, 256> histogram{};
   std::pmr::vector<float> row(static_cast<std::size_t>(picture.width_px), memory);
   long all = 0;
   for (int y = 0; y < picture.height_px; y += kEvery) {
-    grey_rows(picture, row.data() - static_cast<std::ptrdiff_t>(y) * picture.width_px, picture.width_px, y, y + 1);
+    read_row(picture, y, row);
     for (int x = 0; x < picture.width_px; x += kEvery, ++all) ++histogram[static_cast<std::size_t>(std::clamp(row[static_cast<std::size_t>(x)], 0.0F, 255.0F))];
   }
   const auto level = [&](double share) {
@@ -57,9 +65,8 @@ bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
   double sum = 0;
   std::size_t count = 0;
   for (int y = 0; y < frame.left.height_px; y += kEvery) {
-    const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(y) * frame.left.width_px;
-    grey_rows(frame.left, left.data() - back, frame.left.width_px, y, y + 1);
-    grey_rows(frame.right, right.data() - back, frame.left.width_px, y, y + 1);
+    read_row(frame.left, y, left);
+    read_row(frame.right, y, right);
     for (std::size_t x = 0; x < width; ++x, ++count) sum += static_cast<double>(std::abs(left[x] - right[x]));
   }
   return count > 0 && sum / static_cast<double>(count) < kSame;

@@ -67,6 +67,27 @@ bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
   return true;
 }
 
+// What the field says at the keypoints.
+void read_matches(const SurfaceField& field, const Keypoints& keypoints, const RowMotion& motion, float sigma_limit_px, MatchSet& set) {
+  const auto read = [&](const Keypoint& keypoint, Match& match) {
+    match.left_px = keypoint.at_px;
+    return read_field(field, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= sigma_limit_px;
+  };
+  // Counted first: hardly half the keypoints of a region lie on the face.
+  set.matches.reserve(static_cast<std::size_t>(std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
+    Match match;
+    return read(keypoint, match);
+  })));
+  for (const Keypoint& keypoint : keypoints.points) {
+    Match match;
+    if (!read(keypoint, match)) continue;
+    // What moved across the rows moved along them as well, for all we know.
+    const double moved = motion.at(static_cast<double>(match.left_px.x - match.disparity_px), static_cast<double>(match.left_px.y));
+    match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));
+    set.matches.push_back(match);
+  }
+}
+
 }  // namespace
 
 Result<void> RefinedMatcherOptions::check() const {
@@ -115,23 +136,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   RELIEVO_TRY(refine(0, field2));
   set.epipolar_shift = rows.measure_linear(field2);
   set.motion_px = rows.motion().rms_px;
-  const auto read = [&](const Keypoint& keypoint, Match& match) {
-    match.left_px = keypoint.at_px;
-    return read_field(field2, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= options_.sigma_limit_px;
-  };
-  // Counted first: hardly half the keypoints of a region lie on the face.
-  set.matches.reserve(static_cast<std::size_t>(std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
-    Match match;
-    return read(keypoint, match);
-  })));
-  for (const Keypoint& keypoint : keypoints.points) {
-    Match match;
-    if (!read(keypoint, match)) continue;
-    // What moved across the rows moved along them as well, for all we know.
-    const double moved = rows.motion().at(static_cast<double>(match.left_px.x - match.disparity_px), static_cast<double>(match.left_px.y));
-    match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));
-    set.matches.push_back(match);
-  }
+  read_matches(field2, keypoints, rows.motion(), options_.sigma_limit_px, set);
   if (set.matches.size() < 100)
     return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
   return set;

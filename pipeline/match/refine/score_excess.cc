@@ -21,7 +21,6 @@ constexpr int kMeanRadius = 6;   // over which the blocks' variance is taken
 float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.95F)); }
 
 constexpr float kLeastExcess = 0.5F;  // calmer by more is chance. Cut off at 1, the mean would be too large.
-constexpr float kLeastReal = 0.03F;  // share of what seems to be information that at least is
 
 // Tents overlap by half: a block of them counts the pixels along its edges in part.
 float tent_share(int step) {

@@ -129,14 +129,12 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
-constexpr double kLeastReal = 0.06;  // share of what seems to be information; less is lost in the noise of this very estimate
-
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
 // with A the information that the gradients seem to carry, noise in them included, and a what both views'
 // gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A.
 float posterior_sigma(double seeming, double agreed, double bend) {
-  const double real = std::clamp(agreed, kLeastReal * seeming, seeming);
+  const double real = std::clamp(agreed, static_cast<double>(kLeastReal) * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
   return static_cast<float>(std::sqrt(variance));
 }

@@ -9,11 +9,24 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kMiddle = 0.25;      // of the face's width, as for the crop
-constexpr double kNearest = 0.02;     // share of the middle that is taken for the tip of the nose
+constexpr double kNearest = 0.01;
 constexpr std::size_t kLeast = 50;    // nodes in the middle; of fewer nothing can be said
 
 }  // namespace
+
+Vec3d nearest_tip(std::span<Vec3d> middle) {
+  const auto count = std::max<std::size_t>(10, static_cast<std::size_t>(kNearest * static_cast<double>(middle.size())));
+  const std::span<Vec3d> nearest = middle.first(std::min(count, middle.size()));
+  std::nth_element(middle.begin(), middle.begin() + static_cast<std::ptrdiff_t>(nearest.size() - 1), middle.end(),
+                   [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+  Vec3d tip;
+  for (const Vec3d& p : nearest) {
+    tip.x += p.x / static_cast<double>(nearest.size());
+    tip.y += p.y / static_cast<double>(nearest.size());
+    tip.z += p.z / static_cast<double>(nearest.size());
+  }
+  return tip;
+}
 
 void keep_within_reach(const RectifiedPair& pair, StageContext& context, SurfaceField& field) {
   if (!(pair.face_reach_mm > 0 && pair.face_width_px > 0)) return;
@@ -27,17 +40,10 @@ void keep_within_reach(const RectifiedPair& pair, StageContext& context, Surface
   middle.reserve(field.domain.values.size());
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i)
-      if (field.domain.row(j)[i] != 0 && std::hypot(i * field.step_px - pair.face_centre_px.x, j * field.step_px - pair.face_centre_px.y) < kMiddle * pair.face_width_px)
+      if (field.domain.row(j)[i] != 0 && std::hypot(i * field.step_px - pair.face_centre_px.x, j * field.step_px - pair.face_centre_px.y) < kNoseReach * pair.face_width_px)
         middle.push_back(point(i, j));
   if (middle.size() < kLeast) return;
-  const auto share = std::max<std::ptrdiff_t>(5, static_cast<std::ptrdiff_t>(kNearest * static_cast<double>(middle.size())));
-  std::nth_element(middle.begin(), middle.begin() + share, middle.end(), [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
-  Vec3d tip;
-  for (auto p = middle.begin(); p != middle.begin() + share; ++p) {
-    tip.x += p->x / static_cast<double>(share);
-    tip.y += p->y / static_cast<double>(share);
-    tip.z += p->z / static_cast<double>(share);
-  }
+  const Vec3d tip = nearest_tip(middle);
   const double reach2 = pair.face_reach_mm * pair.face_reach_mm;
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i) {

@@ -16,7 +16,6 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 constexpr float kMeasuredEdges = 1.5F;   // so many usual edges from a measured point a vertex counts as measured
 constexpr float kAnySlope = 1e6F;
 constexpr float kBeyondEdges = 0.3F;     // and so many beyond the border it may lie
@@ -61,34 +60,7 @@ Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const 
   return carried;
 }
 
-FaceMesh pack(std::span<const Vec3f> vertices, const std::pmr::vector<Triangle>& triangles, const Carried& carried, StageContext& context) {
-  std::pmr::vector<std::uint32_t> place(vertices.size(), kUnused, &context.scratch);
-  std::uint32_t used = 0;
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) place[v] = 0;
-  for (std::uint32_t& p : place)
-    if (p != kUnused) p = used++;
-  FaceMesh mesh(&context.output);
-  mesh.vertices_mm.reserve(used);
-  mesh.normals.reserve(used);
-  mesh.sigma_mm.reserve(used);
-  mesh.measured.reserve(used);
-  mesh.triangles.reserve(triangles.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    mesh.vertices_mm.push_back(vertices[v]);
-    mesh.sigma_mm.push_back(carried.sigma_mm[v]);
-    mesh.measured.push_back(carried.measured[v]);
-  }
-  for (const Triangle& t : triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  return mesh;
-}
-
 }  // namespace
-
-Error no_surface() {
-  return {Errc::PoorGeometry, "the points form no surface of a face's size: look straight into the cameras and try again"};
-}
 
 Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context) {
   StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
@@ -159,7 +131,9 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   // What cannot be simplified that far is more than a kiosk can hold.
   if (triangles.size() > most || triangles.empty() || area_mm2(vertices, triangles) < options.min_area_mm2) return no_surface();
-  FaceMesh mesh = pack(vertices, triangles, carried, context);
+  FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) {
+    return PackedVertex{vertices[v], carried.sigma_mm[v], carried.measured[v]};
+  });
   compute_normals(mesh, 1, &context.scratch);
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;

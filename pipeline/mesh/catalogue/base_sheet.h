@@ -56,6 +56,4 @@ void describe_finish(FinishOptions& o, Field&& field) {
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles,
                                 const FinishOptions& options, StageContext& context);
 
-Error no_surface();
-
 }  // namespace relievo::pipeline
