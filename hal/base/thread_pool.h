@@ -4,12 +4,15 @@
 // ThreadPool: a fixed set of threads, made at boot. for_each_band() cuts [0, count) into bands and
 // calls the work once per band; it returns when all are done. The bands depend on `count` and
 // `bands` only, never on the number of threads, so results do not either.
+// A stage calls it a thousand times for a fraction of a millisecond each, and to wake a sleeping thread costs
+// tens of microseconds: who waits looks again for a moment (kLooks) before it sleeps.
 // Errors: the first exception thrown inside a band is rethrown in the caller.
 // Thread: one caller at a time (the worker).
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
-#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -33,17 +36,24 @@ class ThreadPool {
 
  private:
   void serve();
-  void work_off(std::unique_lock<std::mutex>& lock);
+  // Works bands off until none is left to begin.
+  void work_off();
+  bool take_band(int& band);
+  bool anything_to_begin() const;
+  void run_band(int band);
 
-  std::mutex mutex_;
+  // The round in the upper half, the bands left to begin in the lower: a band is taken by one exchange, and a
+  // thread that comes late finds none left, whatever the next round has already written beside it.
+  std::atomic<std::uint64_t> cursor_{0};
+  std::atomic<const Band*> work_{nullptr};
+  std::atomic<int> count_{0};
+  std::atomic<int> bands_{0};
+  std::atomic<int> open_{0};
+  std::atomic<int> asleep_{0};
+  std::atomic<bool> stopping_{false};
+  std::mutex mutex_;  // of the sleepers and of failure_
   std::condition_variable wake_;
   std::condition_variable done_;
-  const Band* work_ = nullptr;
-  int count_ = 0;
-  int bands_ = 0;
-  int next_ = 0;
-  int open_ = 0;
-  bool stopping_ = false;
   std::exception_ptr failure_;
   std::vector<std::thread> threads_;
 };

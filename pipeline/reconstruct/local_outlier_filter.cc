@@ -12,6 +12,8 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr int kBands = 32;
+
 enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
 
 // Depth along the sight of the centre and the place across it: the frame in which support and planes
@@ -40,11 +42,11 @@ class Filter {
 
   // Points without a cell were not finite; they stay unsupported.
   bool judge(StageContext& context) {
-    for (int r = 0; r < near_.rows(); ++r) {
-      if (context.stop()) return false;
-      for (int c = 0; c < near_.columns(); ++c)
-        for (const std::uint32_t i : near_.cell(c, r)) verdict_[i] = judge_point(i, c, r);
-    }
+    context.pool.for_each_band(near_.rows(), kBands, [&](int begin, int end, int) {
+      for (int r = begin; r < end && !context.stop(); ++r)
+        for (int c = 0; c < near_.columns(); ++c)
+          for (const std::uint32_t i : near_.cell(c, r)) verdict_[i] = judge_point(i, c, r);
+    });
     return !context.stop();
   }
 

@@ -35,8 +35,8 @@ Result<void> match_down(const RectifiedPair& pair, const Pyramids& pyramids, con
     }
     RELIEVO_TRY(match_both(from, to, candidates, costs, context, both));
     cross_check(both.left, both.right, ladder.cross_check_px);
-    median3(both.left, context.scratch);
-    median3(both.right, context.scratch);
+    median3(both.left, context);
+    median3(both.right, context);
     std::copy(both.left.values.begin(), both.left.values.end(), next_left.values.begin());
     std::copy(both.right.values.begin(), both.right.values.end(), next_right.values.begin());
     left = std::move(next_left);

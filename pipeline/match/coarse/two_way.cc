@@ -50,20 +50,52 @@ void predict(const Plane<float>& coarse, int band, int whole_first, int whole_la
   }
 }
 
-void median3(Plane<float>& field, std::pmr::memory_resource& scratch) {
-  Plane<float> copy(&scratch, field.width, field.height);
-  copy.values = field.values;
-  for (int y = 1; y < field.height - 1; ++y)
-    for (int x = 1; x < field.width - 1; ++x) {
-      float near[9];
-      int n = 0;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-          if (copy.row(y + j)[x + i] != kNoDisparity) near[n++] = copy.row(y + j)[x + i];
-      if (n == 0 || (copy.row(y)[x] == kNoDisparity && n < 5)) continue;
-      std::nth_element(near, near + n / 2, near + n);
-      field.row(y)[x] = near[n / 2];
+namespace {
+
+void order(float& a, float& b) {
+  const float least = std::min(a, b);
+  b = std::max(a, b);
+  a = least;
+}
+
+// The median of nine by nineteen exchanges (Paeth, Median finding on a 3x3 grid, Graphics Gems, 1990).
+float median_of_nine(float* v) {
+  order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
+  order(v[0], v[1]), order(v[3], v[4]), order(v[6], v[7]);
+  order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
+  order(v[0], v[3]), order(v[5], v[8]), order(v[4], v[7]);
+  order(v[3], v[6]), order(v[1], v[4]), order(v[2], v[5]);
+  order(v[4], v[7]), order(v[4], v[2]), order(v[6], v[4]);
+  order(v[4], v[2]);
+  return v[4];
+}
+
+void median_row(const Plane<float>& from, int y, float* to) {
+  for (int x = 1; x < from.width - 1; ++x) {
+    float near[9];
+    int n = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (from.row(y + j)[x + i] != kNoDisparity) near[n++] = from.row(y + j)[x + i];
+    if (n == 0 || (from.row(y)[x] == kNoDisparity && n < 5)) continue;
+    if (n == 9) {
+      to[x] = median_of_nine(near);
+      continue;
     }
+    std::nth_element(near, near + n / 2, near + n);
+    to[x] = near[n / 2];
+  }
+}
+
+}  // namespace
+
+void median3(Plane<float>& field, StageContext& context) {
+  Arena::Mark mark(context.scratch);
+  Plane<float> copy(&context.scratch, field.width, field.height);
+  copy.values = field.values;
+  context.pool.for_each_band(field.height, 16, [&](int begin, int end, int) {
+    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y) median_row(copy, y, field.row(y));
+  });
 }
 
 }  // namespace relievo::pipeline

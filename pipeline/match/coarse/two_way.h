@@ -29,6 +29,6 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
 void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last, Plane<std::int16_t>& first);
 
 // A 3 x 3 median over what is known; closes single holes.
-void median3(Plane<float>& field, std::pmr::memory_resource& scratch);
+void median3(Plane<float>& field, StageContext& context);
 
 }  // namespace relievo::pipeline

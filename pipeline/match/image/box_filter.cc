@@ -11,15 +11,35 @@ namespace {
 
 constexpr int kBands = 8;
 
-void sum_row(const float* from, int radius, int w, float* to) {
-  // Double, because a running sum in single precision drifts along a row of large squares.
-  double sum = 0;
-  for (int x = 0; x < std::min(radius, w); ++x) sum += from[x];
-  for (int x = 0; x < w; ++x) {
-    if (x + radius < w) sum += from[x + radius];
-    if (x - radius - 1 >= 0) sum -= from[x - radius - 1];
-    to[x] = static_cast<float>(sum);
+constexpr int kTogether = 4;  // rows: a running sum waits for itself, four of them do not wait for each other
+
+// Rows y to y + rows, at most kTogether of them.
+void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float>& to) {
+  const int w = from.width;
+  const float* in[kTogether];
+  float* out[kTogether];
+  for (int k = 0; k < kTogether; ++k) {
+    in[k] = from.row(y + std::min(k, rows - 1));
+    out[k] = to.row(y + std::min(k, rows - 1));
   }
+  // Double, because a running sum in single precision drifts along a row of large squares.
+  double sum[kTogether] = {};
+  const auto slide = [&](int begin, int end, bool enters, bool leaves) {
+    for (int x = begin; x < end; ++x)
+      for (int k = 0; k < kTogether; ++k) {
+        if (enters) sum[k] += in[k][x + radius];
+        if (leaves) sum[k] -= in[k][x - radius - 1];
+        out[k][x] = static_cast<float>(sum[k]);
+      }
+  };
+  for (int x = 0; x < std::min(radius, w); ++x)
+    for (int k = 0; k < kTogether; ++k) sum[k] += in[k][x];
+  const int full = std::min(radius + 1, w);        // from here a pixel leaves the window
+  const int last = std::max(w - radius, 0);        // from here none enters
+  slide(0, std::min(full, last), true, false);
+  slide(std::min(full, last), full, false, false);
+  slide(full, std::max(full, last), true, true);
+  slide(std::max(full, last), w, false, true);
 }
 
 RELIEVO_SIMD void add_row(const float* from, int begin, int end, float* to) {
@@ -35,7 +55,7 @@ void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float
   const int w = from.width;
   const int h = from.height;
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) sum_row(from.row(y), radius, w, across.row(y));
+    for (int y = begin; y < end; y += kTogether) sum_rows(from, y, std::min(kTogether, end - y), radius, across);
   });
   // Bands of rows, each started afresh: rounding does not travel down the whole picture.
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/rectify/grey_rows.h"
 #include "pipeline/match/rectify/rectified_geometry.h"
@@ -17,7 +18,16 @@ namespace {
 // lenses that is within a thousandth of a pixel, and five times cheaper.
 constexpr int kKnotPx = 16;
 
-void cubic_weights(float t, float* w) {
+// Where the pixels between two knots come from, kKnotPx of them at once so that the weights need no branches.
+struct Span {
+  std::array<int, kKnotPx> x, y;      // the pixel to the upper left
+  std::array<float, kKnotPx> tx, ty;  // how far beyond it
+  std::array<float, kKnotPx> grey;
+};
+
+// Cubic convolution (Keys 1981, a = -1/2).
+inline float cubic(const float* p, const float* w) { return w[0] * p[0] + w[1] * p[1] + w[2] * p[2] + w[3] * p[3]; }
+inline void cubic_weights(float t, float* w) {
   const float t2 = t * t;
   const float t3 = t2 * t;
   w[0] = -0.5F * t3 + t2 - 0.5F * t;
@@ -26,17 +36,17 @@ void cubic_weights(float t, float* w) {
   w[3] = 0.5F * t3 - 0.5F * t2;
 }
 
-float sample_grey(const Plane<float>& grey, int ix, int iy, float tx, float ty) {
-  float wx[4];
-  float wy[4];
-  cubic_weights(tx, wx);
-  cubic_weights(ty, wy);
-  float sum = 0;
-  for (int j = 0; j < 4; ++j) {
-    const float* p = grey.row(iy - 1 + j) + ix - 1;
-    sum += wy[j] * (wx[0] * p[0] + wx[1] * p[1] + wx[2] * p[2] + wx[3] * p[3]);
+RELIEVO_SIMD void sample_grey(const float* grey, int stride, int count, Span& span) {
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    float wx[4];
+    float wy[4];
+    cubic_weights(span.tx[at], wx);
+    cubic_weights(span.ty[at], wy);
+    const float* p = grey + static_cast<std::ptrdiff_t>(span.y[at] - 1) * stride + span.x[at] - 1;
+    span.grey[at] = wy[0] * cubic(p, wx) + wy[1] * cubic(p + stride, wx) + wy[2] * cubic(p + 2 * stride, wx) +
+                    wy[3] * cubic(p + 3 * stride, wx);
   }
-  return sum;
 }
 
 void sample_rgb(const ImageView& image, int ix, int iy, float tx, float ty, std::uint8_t* to) {
@@ -86,18 +96,27 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
       const Vec2d to = edge(x0 + kKnotPx);
       const double dx = (to.x - from.x) / kKnotPx;
       const double dy = (to.y - from.y) / kKnotPx;
-      for (int x = x0; x < std::min(width, x0 + kKnotPx); ++x) {
-        const double sx = from.x + dx * (x - x0);
-        const double sy = from.y + dy * (x - x0);
+      // The source runs along a line, so the pixels of it that the picture holds are a run.
+      Span span;
+      int first = 0;
+      int count = 0;
+      for (int i = 0; i < std::min(width - x0, kKnotPx); ++i) {
+        const double sx = from.x + dx * i;
+        const double sy = from.y + dy * i;
         if (!(sx >= 1 && sy >= 1 && sx < image.width_px - 2 && sy < image.height_px - 2)) continue;
-        const int ix = static_cast<int>(sx);
-        const int iy = static_cast<int>(sy);
-        const auto fx = static_cast<float>(sx - ix);
-        const auto fy = static_cast<float>(sy - iy);
-        const std::size_t k = row + static_cast<std::size_t>(x);
-        view.grey[k] = sample_grey(grey, ix, iy, fx, fy);
-        sample_rgb(image, ix, iy, fx, fy, &view.rgb[3 * k]);
-        view.valid[k] = 1;
+        if (count == 0) first = i;
+        const auto at = static_cast<std::size_t>(count++);
+        span.x[at] = static_cast<int>(sx);
+        span.y[at] = static_cast<int>(sy);
+        span.tx[at] = static_cast<float>(sx - span.x[at]);
+        span.ty[at] = static_cast<float>(sy - span.y[at]);
+      }
+      sample_grey(grey.row(0), grey.width, count, span);
+      const std::size_t k = row + static_cast<std::size_t>(x0 + first);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        view.grey[k + i] = span.grey[i];
+        sample_rgb(image, span.x[i], span.y[i], span.tx[i], span.ty[i], &view.rgb[3 * (k + i)]);
+        view.valid[k + i] = 1;
       }
       from = to;
     }

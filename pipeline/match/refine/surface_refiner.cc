@@ -209,7 +209,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     form_terms(scene, options, field, extent.pixels, context, terms, last ? &agreed : nullptr);
     gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
     weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
-    if (scene.level == 0 && k == kNoiseStep) hanging = hanging_noise(terms);
+    if (scene.level == 0 && k == kNoiseStep) hanging = hanging_noise(terms, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n) {
       const float share = work.domain.values[n] != 0 ? 1 / hanging : 0;
       for (Plane<float>* said : {&work.system.data, &work.pull, &work.agreed}) said->values[n] *= share;

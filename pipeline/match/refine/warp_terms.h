@@ -36,6 +36,6 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
 // (interpolated colours, compression) shakes the fit by the sum over all shifts of the residual's and the
 // gradient's autocorrelation. 1 for a sensor's own pixels, about 3 for photographs stored as JPEG. What the
 // fit has not followed yet is no part of it: it is small beside the noise, pixel by pixel.
-float hanging_noise(const WarpTerms& terms);
+float hanging_noise(const WarpTerms& terms, ThreadPool& pool);
 
 }  // namespace relievo::pipeline

@@ -113,6 +113,21 @@ TEST(ThreadPool, BandsDoNotDependOnTheThreads) {
   EXPECT_EQ(edges(1), edges(3));
 }
 
+// Rounds so short that threads arrive late, and pauses so long that they fall asleep between two.
+TEST(ThreadPool, LateAndSleepingThreadsTakeNoBandTwice) {
+  for (const int threads : {2, 4}) {
+    ThreadPool pool(threads);
+    for (int round = 0; round < 2000; ++round) {
+      std::vector<int> hits(static_cast<std::size_t>(1 + round % 23));
+      pool.for_each_band(static_cast<int>(hits.size()), 1 + round % 11, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) ++hits[static_cast<std::size_t>(i)];
+      });
+      for (const int h : hits) ASSERT_EQ(h, 1) << "round " << round << ", " << threads << " threads";
+      if (round % 500 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+}
+
 TEST(ThreadPool, RethrowsAndStaysUsable) {
   ThreadPool pool(2);
   EXPECT_THROW(pool.for_each_band(8, 8, [](int begin, int, int) { if (begin == 5) throw std::runtime_error("x"); }), std::runtime_error);

@@ -31,7 +31,7 @@ float hanging(int box, float grey, bool masked = false) {
   if (box > 0) smooth(terms.residual, box);
   smooth(terms.gradient, 1);
   for (float& m : terms.mask.values) m = masked ? 0.0F : 1.0F;
-  return hanging_noise(terms);
+  return hanging_noise(terms, bench.context.pool);
 }
 
 TEST(HangingNoise, WhiteNoiseStandsAlone) {
