@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware/command/compare/measure/disparity_score.h"
+#include "firmware/command/compare/measure/self_agreement_figures.h"
 #include "firmware/measure/measurement.h"
 #include "pipeline/algorithms.h"
 
@@ -65,6 +66,10 @@ struct Run {
   std::vector<std::uint8_t> rejected_by;  // a pixel each: 0, or 1 + the first rule that took its match
   std::optional<SelectorFigures> selector;  // of scattered places
   std::optional<DisparityScore> score;
+  // What needs no truth.
+  std::optional<LeftRightFigures> left_right;  // of dense sets
+  std::optional<PhotoFigures> photo;           // of models
+  std::optional<double> epipolar_px;           // rms disagreement of the rows, where the matcher measures it
   std::optional<measure::Measurement> model;
 };
 

@@ -53,6 +53,10 @@ Json selector_json(const SelectorFigures& f) {
   return json;
 }
 
+Json left_right_json(const LeftRightFigures& f) {
+  return {{"asked_px", f.asked}, {"answered_px", f.answered}, {"median_px", f.median_px}, {"p95_px", f.p95_px}, {"within_1px", f.within_1px}};
+}
+
 Json run_json(const Comparison& c, const Run& run) {
   Json stages = Json::array();
   for (const StageCost& stage : run.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}, {"arena_peak_bytes", stage.arena_peak_bytes}});
@@ -60,6 +64,9 @@ Json run_json(const Comparison& c, const Run& run) {
             {"match_ms", run.match_ms}, {"arena_peak_bytes", run.arena_peak_bytes}, {"heap_peak_bytes", run.heap_peak_bytes},
             {"matches", matches_json(run.matches)}};
   if (!run.failure.empty()) json["failure"] = run.failure;
+  if (run.left_right) json["left_right"] = left_right_json(*run.left_right);
+  if (run.photo) json["photo_consistency"] = {{"windows", run.photo->asked}, {"median", run.photo->median}, {"p5", run.photo->p5}};
+  if (run.epipolar_px) json["epipolar_residual_px"] = *run.epipolar_px;
   if (run.selector) json["selector"] = selector_json(*run.selector);
   if (run.score) json["disparity"] = score_json(*run.score);
   if (run.model) json["model"] = model_json(*run.model);

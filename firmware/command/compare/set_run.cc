@@ -9,6 +9,7 @@
 #include "firmware/command/compare/measure/peak_memory.h"
 #include "firmware/command/compare/measure/rule_figures.h"
 #include "firmware/command/compare/measure/selector_figures.h"
+#include "firmware/command/compare/measure/self_agreement.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {
@@ -32,6 +33,15 @@ class Bench {
     run_.stages.push_back({name, took.count(), output_.used() + scratch.high_water()});
     return result;
   }
+  // What is looked at beside the reconstruction: neither its time nor its memory counts.
+  template <typename Step>
+  auto beside(Step&& work) {
+    BootMemory memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes);
+    Arena output(memory.output());
+    Arena scratch(memory.scratch());
+    pipeline::StageContext context{output, scratch, pool_, control_.progress, control_.cancelled};
+    return pipeline::run_stage(context, std::forward<Step>(work));
+  }
   std::size_t touched_bytes() const { return output_.high_water() + scratch_peak_; }
 
  private:
@@ -48,7 +58,7 @@ struct Made {
   std::optional<pipeline::RectifiedPair> pair, prepared;
   std::optional<pipeline::Keypoints> keypoints;
   std::optional<pipeline::MatchSet> matches;
-  std::optional<pipeline::FaceMesh> mesh;
+  std::optional<pipeline::FaceModel> model;
 };
 
 Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench, Made& made) {
@@ -94,7 +104,8 @@ Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeli
   auto model = bench.step("texture", [&](pipeline::StageContext& c) { return pipeline.texture(*std::move(mesh), *made.pair, c); });
   if (!model) return model.error();
   if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
-  return order.keep_model ? order.keep_model(*model) : Result<void>{};
+  made.model.emplace(*std::move(model));
+  return order.keep_model ? order.keep_model(*made.model) : Result<void>{};
 }
 
 void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, PairFacts& facts) {
@@ -130,16 +141,35 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
 }
 
 // Of places that are no lattice, which is no choice.
-Result<void> look_at_selector(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made, Run& run) {
-  if (!made.matches || made.keypoints->lattice_step_px > 0) return {};
-  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipeline::RectifiedPair& pair, const PairFacts& facts,
+                              const Made& made, Run& run) {
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
   const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
-  const auto right = bench.step("select in the right view", [&](pipeline::StageContext& c) { return select_in_right(*selector, pair, region, c); });
-  run.stages.pop_back();  // no part of the reconstruction
-  if (!right) return right.error();
-  run.selector = selector_figures(pair, *made.keypoints, *right, *made.matches, facts.truth);
-  return {};
+  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(*selector, pair, region, c));
+    run.selector = selector_figures(pair, *made.keypoints, right, *made.matches, facts.truth);
+    return {};
+  });
+}
+
+// What says how good the matches are without knowing what is true.
+Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made, Run& run) {
+  if (!made.matches) return {};
+  if (made.matches->epipolar_shift.measured()) run.epipolar_px = made.matches->epipolar_shift.residual_px;
+  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+  std::optional<DisparityMap> model;
+  if (made.model) {
+    model = model_view(*made.pair, made.model->mesh);
+    RELIEVO_TRY(bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+      run.photo = photo_figures(*made.pair, *model, c);
+      return {};
+    }));
+  }
+  if (made.keypoints->lattice_step_px == 0) return look_at_selector(order, bench, pair, facts, made, run);
+  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(run.left_right, left_right_figures(pair, order.set.set, run.map, model, c));
+    return {};
+  });
 }
 
 std::string words_of(const Run& run, const Error& error) {
@@ -159,7 +189,7 @@ Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& contro
   run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
   if (!done) run.failure = words_of(run, done.error());
   if (done || done.error().code != Errc::Cancelled)
-    if (const auto looked = look_at_selector(order, bench, facts, made, run); !looked && looked.error().code == Errc::Cancelled) done = looked;
+    if (const auto looked = look_at_matches(order, bench, facts, made, run); !looked && looked.error().code == Errc::Cancelled) done = looked;
   if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
   return {};
 }

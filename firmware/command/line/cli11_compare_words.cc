@@ -50,7 +50,7 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   command->add_option("--bad-px", args.limit_px, "a disparity off by more is bad")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
   each("--sets", args.set_files, "sets of algorithms, a table each", "FILE.toml");
   command->add_option("--set-of", args.set_words, "one set: \"NAME: KEY=VALUE KEY=VALUE\"")->type_name("SET")->take_all()->allow_extra_args(false);
-  command->add_option("--suite", args.suites, "sets that belong together: dissertation, dissertation-face, peers, matchers, constraints, selectors, preprocessors")
+  command->add_option("--suite", args.suites, "sets that belong together: dissertation, dissertation-face, peers, matchers, constraints, selectors, preprocessors, meshers")
       ->type_name("NAME")->take_all()->allow_extra_args(false);
   command->add_flag("--keep-maps", args.keep_maps, "every set's disparities as PFM beside the page");
   command->add_option("-o,--output", args.output, "folder for the page and the figures")->required()->type_name("DIR");

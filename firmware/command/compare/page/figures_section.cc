@@ -59,6 +59,20 @@ std::vector<Column> common_columns() {
           {"time<small>to match, ms</small>", [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less}};
 }
 
+// What needs no truth; columns that no set fills are left out.
+std::vector<Column> own_columns(const std::vector<const Run*>& runs) {
+  using B = Column::Better;
+  std::vector<Column> columns{
+      {"left-right<small>median, px</small>", [](const Run& r) { return r.left_right ? r.left_right->median_px : kNone; }, 3, B::Less},
+      {"agree<small>left and right within 1&nbsp;px, %</small>", [](const Run& r) { return r.left_right ? percent(r.left_right->within_1px) : kNone; }, 1, B::More},
+      {"photo<small>right view predicted through the model, correlation</small>", [](const Run& r) { return r.photo ? r.photo->median : kNone; }, 3, B::More},
+      {"rows<small>disagree by, px</small>", [](const Run& r) { return r.epipolar_px.value_or(kNone); }, 3, B::Less}};
+  std::erase_if(columns, [&runs](const Column& column) {
+    return std::all_of(runs.begin(), runs.end(), [&column](const Run* run) { return std::isnan(column.value(*run)); });
+  });
+  return columns;
+}
+
 double best_of(const std::vector<const Run*>& runs, const Column& column) {
   double best = kNone;
   for (const Run* run : runs) {
@@ -106,6 +120,7 @@ std::string figures(const Comparison& c, std::size_t pair) {
     out += "<h3>The model, against the true surface</h3>\n" + table(c, runs, model_columns(), false) + "<h3 class=\"topic\">The disparities</h3>\n";
   std::vector<Column> columns;
   if (any([](const Run* r) { return r->score.has_value(); })) columns = disparity_columns(pipeline::report::number(c.limit_px, 2));
+  for (Column& column : own_columns(runs)) columns.push_back(std::move(column));
   for (Column& column : common_columns()) columns.push_back(std::move(column));
   return out + table(c, runs, columns, !models);
 }

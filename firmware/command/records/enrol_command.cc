@@ -10,7 +10,7 @@
 #include "firmware/command/interrupt.h"
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
-#include "firmware/command/subject_lookup.h"
+#include "firmware/command/records/subject_lookup.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/pool_size.h"
 #include "pipeline/calibrate/file/calibration_file.h"

@@ -8,7 +8,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/light_model.h"
 #include "firmware/command/output_folder.h"
-#include "firmware/command/subject_lookup.h"
+#include "firmware/command/records/subject_lookup.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/version.h"
 #include "pipeline/recognition/recognition_images.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/subject_lookup.h"
+#include "firmware/command/records/subject_lookup.h"
 
 #include <charconv>
 #include <optional>
