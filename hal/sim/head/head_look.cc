@@ -75,7 +75,7 @@ Surface SkinLook::surface(Vec3 p) const {
   }
   s.colour = c;
   const double oily = 0.5 + 0.5 * bell(q.x, 26, q.y - 40, 28) + 0.7 * bell(q.x, 12, q.y + 20, 26) + 0.25 * value_noise(q * 0.12, t_.seed + 41);
-  s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, t_.skin.x)), 0.5, lip) * (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed)));
+  s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, t_.skin.x)), 0.5, lip) * (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed))) * t_.shine;
   s.roughness = mix(0.48, 0.42, lip);
   s.translucent = 1;
   return s;

@@ -46,7 +46,10 @@ struct HeadTraits {
   double hairline_y = 78;           // trichion above the pupils
   double hair_length = 16, brow_density = 1;
   double hair_part = 0.3;           // side of the parting
+  double shine = 1;                 // 0: powdered
   int shirt = 0;
+  // No person has this: waves along x over the whole face, to see what detail a measurement keeps.
+  double ripple_mm = 0, ripple_wave_mm = 6;
 };
 
 HeadTraits traits_of(std::uint32_t seed);

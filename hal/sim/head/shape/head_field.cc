@@ -23,6 +23,7 @@ double HeadField::distance(Vec3 point) const {
   d = nose.add_to(d, p);
   d = mouth.add_to(d, p);
   d = eye.add_to(d, p);
+  if (traits.ripple_mm != 0) d -= traits.ripple_mm * std::sin(6.283185307179586 * point.x / traits.ripple_wave_mm);
   return ear.add_to(d, p);
 }
 
