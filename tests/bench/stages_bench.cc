@@ -15,55 +15,23 @@
 #include "hal/sim/head/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/workspace.h"
 #include "tests/bench/peer.h"
+#include "tests/support/rig_calibration.h"
 
 namespace relievo::bench {
 namespace {
 
 using namespace pipeline;  // NOLINT: one file of benchmarks
 
-StereoCalibration calibration_of(const hal::sim::SimRig& rig) {
-  const auto camera = [](const hal::sim::SimView& v) {
-    return CameraIntrinsics{{v.fx_px, v.fy_px}, {v.cx_px, v.cy_px}, {v.k1, v.k2, v.p1, v.p2, v.k3}, v.width_px, v.height_px};
-  };
-  StereoCalibration c;
-  c.left = camera(rig.left);
-  c.right = camera(rig.right);
-  const auto pose = [](const hal::sim::SimView& v) {
-    RigidTransform t;
-    for (int column = 0; column < 3; ++column) {
-      const hal::sim::Vec3 axis{column == 0 ? 1.0 : 0.0, column == 1 ? 1.0 : 0.0, column == 2 ? 1.0 : 0.0};
-      const hal::sim::Vec3 to = v.view_from_world * axis;
-      t.rotation.m[column] = to.x;
-      t.rotation.m[3 + column] = to.y;
-      t.rotation.m[6 + column] = to.z;
-    }
-    t.translation_mm = {v.offset_mm.x, v.offset_mm.y, v.offset_mm.z};
-    return t;
-  };
-  const RigidTransform world_from_left = inverse(pose(rig.left));
-  const RigidTransform right_from_world = pose(rig.right);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      double sum = 0;
-      for (int k = 0; k < 3; ++k) sum += right_from_world.rotation.m[3 * row + k] * world_from_left.rotation.m[3 * k + column];
-      c.right_from_left.rotation.m[3 * row + column] = sum;
-    }
-  c.right_from_left.translation_mm = relievo::pipeline::apply(right_from_world, world_from_left.translation_mm);
-  return c;
-}
-
 // The pictures and every stage's product, made once; each benchmark runs its own stage again.
-struct Bench {
-  Bench()
-      : output_block(std::size_t{640} << 20), scratch_block(std::size_t{768} << 20), output(output_block),
-        scratch(scratch_block), pool(static_cast<int>(std::thread::hardware_concurrency())),
-        context{output, scratch, pool, progress, cancelled} {
+struct Bench : Workspace {
+  Bench() : Workspace(static_cast<int>(std::thread::hardware_concurrency()), std::size_t{640} << 20, std::size_t{768} << 20) {
     const hal::sim::SimRig rig = hal::sim::make_rig({});
     const auto head = hal::sim::make_head(hal::sim::traits_of(1), pool);
     const auto scene = hal::sim::make_head_scene(head, {}, pool);
     pictures = hal::sim::render_pair(*scene, rig, {}, 1, pool);
-    auto made = Pipeline::make({}, calibration_of(rig));
+    auto made = Pipeline::make({}, test::true_calibration(rig));
     if (!made) fail(made.error());
     stages.emplace(*std::move(made));
     frame = {pictures.left.view(), pictures.right.view()};
@@ -83,12 +51,6 @@ struct Bench {
     return *std::move(result);
   }
 
-  std::vector<std::byte> output_block, scratch_block;
-  Arena output, scratch;
-  ThreadPool pool;
-  Progress progress;
-  std::atomic<bool> cancelled{false};
-  StageContext context;
   hal::sim::PicturePair pictures;
   StereoFrame frame;
   std::optional<Pipeline> stages;

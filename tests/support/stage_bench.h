@@ -4,28 +4,13 @@
 // StageBench: everything a stage asks for, for tests: arenas of a chosen size, a pool, a switch.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <vector>
-
-#include "pipeline/stage.h"
+#include "pipeline/workspace.h"
 
 namespace relievo::test {
 
-struct StageBench {
-  explicit StageBench(std::size_t output_bytes = std::size_t{256} << 20, std::size_t scratch_bytes = std::size_t{512} << 20,
-                      int threads = 2)
-      : output_block(output_bytes), scratch_block(scratch_bytes), output(output_block), scratch(scratch_block),
-        pool(threads), context{output, scratch, pool, progress, cancelled} {}
-
-  std::vector<std::byte> output_block;
-  std::vector<std::byte> scratch_block;
-  Arena output;
-  Arena scratch;
-  ThreadPool pool;
-  pipeline::Progress progress;
-  std::atomic<bool> cancelled{false};
-  pipeline::StageContext context;
+struct StageBench : pipeline::Workspace {
+  explicit StageBench(std::size_t output_bytes = std::size_t{256} << 20, std::size_t scratch_bytes = std::size_t{512} << 20, int threads = 2)
+      : Workspace(threads, output_bytes, scratch_bytes) {}
 };
 
 }  // namespace relievo::test
