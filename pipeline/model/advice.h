@@ -2,12 +2,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Advice: what the person in front of the cameras can do. Not an error: nothing is broken.
+// One at a time, the first that holds in the order below: the order in which a person can act on it. Behind each
+// stands the component of ISO/IEC 29794-5 (the reference implementation's name, OFIQ) that speaks of the same, where there is one.
 #pragma once
 
 #include <cstdint>
 
 namespace relievo::pipeline {
 
-enum class Advice : std::uint8_t { None, NoFace, TooClose, TooFar, OffCentre, TooDark, TooBright, Blurred, Moved };
+enum class Advice : std::uint8_t {
+  None,
+  NoFace,
+  MoreThanOneFace,  // SingleFacePresent
+  TooClose,         // step back
+  TooFar,           // come closer; InterEyeDistance, HeadSize
+  OffCentre,        // which way, the measures say; the four ...CropOfTheFaceImage
+  TurnedAside,      // HeadPoseYaw
+  LooksUpOrDown,    // HeadPosePitch
+  Tilted,           // HeadPoseRoll: an ear to a shoulder
+  Moved,            // hold still
+  TooDark,          // UnderExposurePrevention, LuminanceMean
+  TooBright,        // OverExposurePrevention, LuminanceMean
+  UnevenLight,      // IlluminationUniformity
+  Highlights,       // the skin mirrors a lamp
+  Blurred,          // Sharpness, while nothing moves: wipe the lens, wait for the focus
+  FaceHidden,       // hair, hand, mask: FaceOcclusionPrevention, MouthOcclusionPrevention
+  EyesHidden,       // EyesVisible
+  EyesClosed,       // EyesOpen
+  GlassesGlare,     // glasses mirror a lamp
+  MouthOpen,        // MouthClosed
+  Background,       // BackgroundUniformity
+};
 
 }  // namespace relievo::pipeline
