@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <new>
+
+#include "hal/base/assert.h"
+#include "hal/raw/raw_colour.h"
+
+namespace relievo::hal {
+namespace {
+
+// OpenCV names a filter by the second and third pixel of the second row.
+int edge_aware(ColourFilter filter) {
+  switch (filter) {
+    case ColourFilter::Rggb: return cv::COLOR_BayerBG2RGB_EA;
+    case ColourFilter::Grbg: return cv::COLOR_BayerGB2RGB_EA;
+    case ColourFilter::Gbrg: return cv::COLOR_BayerGR2RGB_EA;
+    case ColourFilter::Bggr: return cv::COLOR_BayerRG2RGB_EA;
+    case ColourFilter::None: break;
+  }
+  RELIEVO_ASSERT(false && "without a filter there is no mosaic");
+  return 0;
+}
+
+Result<void> convert(const RawImage& raw, int type, int rows, int code, std::byte* rgb) try {
+  // OpenCV has no const Mat over foreign bytes; this one is only read.
+  const cv::Mat from(rows, raw.width_px, type, const_cast<std::byte*>(raw.bytes),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+                     static_cast<std::size_t>(raw.stride_bytes));
+  cv::Mat to(raw.height_px, raw.width_px, CV_8UC3, rgb);
+  const auto* const place = to.data;
+  cv::cvtColor(from, to, code);
+  RELIEVO_ASSERT(to.data == place);  // of the right size and type, so OpenCV has not taken other memory
+  return {};
+} catch (const std::bad_alloc&) {
+  return Error{Errc::OutOfMemory, "no memory to develop a camera's picture"};
+} catch (const cv::Exception&) {
+  return Error{Errc::LibraryFailed, "a camera's picture could not be developed"};
+}
+
+}  // namespace
+
+Result<void> demosaic(const RawImage& raw, std::byte* rgb) {
+  return convert(raw, CV_8UC1, raw.height_px, edge_aware(raw.format.filter), rgb);
+}
+
+Result<void> yuv_to_rgb(const RawImage& raw, std::byte* rgb) {
+  if (raw.format.coding == RawCoding::Yuyv) return convert(raw, CV_8UC2, raw.height_px, cv::COLOR_YUV2RGB_YUYV, rgb);
+  return convert(raw, CV_8UC1, raw.height_px / 2 * 3, cv::COLOR_YUV2RGB_NV12, rgb);
+}
+
+}  // namespace relievo::hal
