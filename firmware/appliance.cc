@@ -53,8 +53,8 @@ Event event_of(ui::Intent intent) {
 
 Appliance::Appliance(Parts parts)
     : board_(parts.board), machine_(parts.board.clock().now()), session_(parts.memory),
-      grabber_(parts.board.left(), parts.board.right(), parts.board.trigger(), parts.board.clock()),
-      open_cameras_(grabber_, parts.board.preferred_mode()),
+      grabber_(parts.board),
+      open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
       grab_(grabber_, session_, parts.board.preferred_mode()),
       stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
       capture_(reports_), worker_(reports_), keeper_(reports_) {

@@ -53,6 +53,8 @@ class Appliance {
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
   // For the technician: what the last face that could tell said against the calibration; else empty.
   std::string_view calibration_note() const { return calibration_note_; }
+  // Is a camera away, and being tried again?
+  CameraWatch cameras() const { return grabber_.watch(); }
   const EnrolmentSession& session() const { return session_; }
   // Of the present or last session; kept until the next begins.
   const std::vector<StageRecord>& records() const { return records_; }

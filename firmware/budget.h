@@ -18,7 +18,8 @@ inline constexpr int kMaxFrameWidthPx = 2448;    // 5 megapixels: the largest se
 inline constexpr int kMaxFrameHeightPx = 2048;
 inline constexpr std::size_t kFrameBytes =
     std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
-inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes;
+// Two pictures, and a byte a pixel to develop one behind a colour filter.
+inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
 inline constexpr std::size_t kStereoSlots = 1;   // the person's own pair, kept until the session closes
 
 // --- memory -------------------------------------------------------------------------------------
@@ -47,7 +48,13 @@ inline constexpr milliseconds kTick{50};                  // the main loop turns
 inline constexpr milliseconds kCancelWithin{100};         // a job has stopped this long after it was asked to
 inline constexpr microseconds kTriggerPulse{100};
 inline constexpr milliseconds kFrameWait{2000};           // from the trigger to both pictures
-inline constexpr microseconds kMaxSkew{1000};             // between the two exposures of a pair
+inline constexpr microseconds kMaxSkew{100};              // between the two exposures of a pair at one trigger
+inline constexpr microseconds kMaxFreeSkew{17'000};       // without a trigger wire: half a frame at 30 a second
+inline constexpr microseconds kStampSlack{1000};          // how much a frame may seem older than its pulse
+inline constexpr int kGrabTries = 3;                      // pulses, until a pair that was refused is an error
+inline constexpr milliseconds kCameraRetryFirst{250};     // after a camera has vanished; doubles with each attempt
+inline constexpr milliseconds kCameraRetryMost{8'000};
+inline constexpr milliseconds kCameraReturn{20'000};      // a self-test waits this long for a camera that was there
 inline constexpr int kCaptureAttempts = 3;                // until a person is asked to come again
 inline constexpr milliseconds kSelfTestLimit{30'000};
 inline constexpr milliseconds kCaptureLimit{30'000};
@@ -57,6 +64,6 @@ inline constexpr milliseconds kStoreLimit{30'000};
 inline constexpr milliseconds kExportLimit{600'000};
 inline constexpr milliseconds kCalibrateLimit{600'000};
 inline constexpr milliseconds kTechnicianLimit{300'000};
-inline constexpr milliseconds kFaultRetry{30'000};        // a fault tests itself again after this
+inline constexpr milliseconds kFaultRetry{5'000};         // a fault tests itself again after this
 
 }  // namespace relievo::firmware::budget

@@ -24,6 +24,8 @@ class Board {
   virtual Camera& left() = 0;                  // left as the cameras see it: the image's left half of the pair
   virtual Camera& right() = 0;
   virtual TriggerLine& trigger() = 0;
+  // Do both cameras expose at the trigger's pulse? If not, they run on their own, or did when recorded.
+  virtual bool exposes_together() const { return true; }
   virtual RemovableMedia& media() = 0;
   virtual Clock& clock() = 0;
   virtual Watchdog& watchdog() = 0;

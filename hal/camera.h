@@ -3,21 +3,22 @@
 //
 // Camera: one image sensor that exposes when the trigger line says so.
 //
-//   Closed --open()--> Idle --start()--> Running --stop()--> Idle
+//   Closed --open()--> Idle --start()--> Running --stop()--> Idle --close()--> Closed
 //                                           |
 //                                       next_frame()
 //
 // The base class checks the state once, for every backend; a call out of turn
 // returns Errc::InvalidState and names both. Backends implement do_*() only.
+// A camera that has vanished is closed and opened again: nothing else brings it back.
 // Thread: capture.
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <string_view>
 
-#include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "hal/clock.h"
+#include "hal/frame.h"
 
 namespace relievo::hal {
 
@@ -27,33 +28,16 @@ struct CaptureMode {
   std::chrono::microseconds exposure{0};
 };
 
-// A borrowed sensor buffer. Returning it (by destruction) queues it again, so
-// holding every Frame of a camera stops that camera.
-class Frame {
- public:
-  using Release = void (*)(void* owner, int slot);
-  Frame(ImageView image, Instant exposed_at, std::uint32_t sequence,
-        Release release, void* owner, int slot)
-      : image_(image), exposed_at_(exposed_at), sequence_(sequence),
-        release_(release), owner_(owner), slot_(slot) {}
-  Frame(Frame&& other) noexcept
-      : image_(other.image_), exposed_at_(other.exposed_at_),
-        sequence_(other.sequence_), release_(std::exchange(other.release_, nullptr)),
-        owner_(other.owner_), slot_(other.slot_) {}
-  Frame& operator=(Frame&&) = delete;
-  ~Frame() { if (release_ != nullptr) release_(owner_, slot_); }
+// How much light the sensor takes: both cameras of a pair get the same. Gain 1 is the sensor's own.
+struct Exposure {
+  std::chrono::microseconds time{0};
+  double gain = 1;
 
-  const ImageView& image() const { return image_; }
-  Instant exposed_at() const { return exposed_at_; }
-  std::uint32_t sequence() const { return sequence_; }
-
- private:
-  ImageView image_;
-  Instant exposed_at_;
-  std::uint32_t sequence_;
-  Release release_;
-  void* owner_;
-  int slot_;
+  friend bool operator==(const Exposure&, const Exposure&) = default;
+};
+struct ExposureLimits {
+  Exposure least;
+  Exposure most;
 };
 
 class Camera {
@@ -82,15 +66,40 @@ class Camera {
     return do_next_frame(deadline);
   }
   void stop() {
-    if (state_ == State::Running) do_stop();
-    if (state_ == State::Running) state_ = State::Idle;
+    if (state_ != State::Running) return;
+    do_stop();
+    state_ = State::Idle;
   }
+  void close() {
+    stop();
+    if (state_ == State::Idle) do_close();
+    state_ = State::Closed;
+  }
+  // From the next exposure on; automatic exposure ends. Unsupported by a camera without the controls,
+  // InvalidInput outside the limits.
+  Result<void> set_exposure(const Exposure& exposure) {
+    if (state_ == State::Closed) return Error{Errc::InvalidState, "set_exposure() needs Idle or Running"};
+    return do_set_exposure(exposure);
+  }
+  Result<ExposureLimits> exposure_limits() const {
+    if (state_ == State::Closed) return Error{Errc::InvalidState, "exposure_limits() needs Idle or Running"};
+    return do_exposure_limits();
+  }
+  // What tells this very camera from all others of its kind; empty where it does not say. After open().
+  virtual std::string_view serial() const { return {}; }
 
  private:
   virtual Result<void> do_open(const CaptureMode& mode) = 0;
   virtual Result<void> do_start() = 0;
   virtual Result<Frame> do_next_frame(Instant deadline) = 0;
   virtual void do_stop() = 0;
+  virtual void do_close() {}
+  virtual Result<void> do_set_exposure(const Exposure&) {
+    return Error{Errc::Unsupported, "this camera's exposure cannot be set"};
+  }
+  virtual Result<ExposureLimits> do_exposure_limits() const {
+    return Error{Errc::Unsupported, "this camera's exposure cannot be set"};
+  }
 
   State state_ = State::Closed;
 };

@@ -1,16 +1,62 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TriggerLine: the wire that makes both sensors expose together.
+// TriggerLine: the wire that makes both sensors expose together, and the lamp's that may flash with it.
+//
+// The base class, not the caller, keeps the light harmless: of pulses with light, the fourth within a
+// second is refused and drives nothing (hal/flash_guard.h); a lamp that hangs on the trigger's own wire
+// counts with every pulse. A pulse that failed counts too: light may have come.
+// Thread: any; pulses wait for one another.
 #pragma once
+
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <mutex>
+
 #include "hal/base/result.h"
+#include "hal/clock.h"
+#include "hal/flash_guard.h"
+
 namespace relievo::hal {
+
+enum class Light : std::uint8_t { Off, Flash };
 
 class TriggerLine {
  public:
+  static constexpr std::chrono::microseconds kLongestPulse{100'000};
+
+  // The clock lives longer than the line.
+  explicit TriggerLine(const Clock& clock) : clock_(clock), guard_(clock.now()) {}
   virtual ~TriggerLine() = default;
+  TriggerLine(const TriggerLine&) = delete;
+  TriggerLine& operator=(const TriggerLine&) = delete;
+
   // Drives the line active for `width`, then inactive; leaves it inactive on error.
-  virtual Result<void> pulse(std::chrono::microseconds width) = 0;
+  // InvalidInput: no width, or one over kLongestPulse. Timeout: the light must rest until flash_allowed_at().
+  Result<void> pulse(std::chrono::microseconds width, Light light = Light::Off) {
+    if (width.count() <= 0 || width > kLongestPulse)
+      return Error{Errc::InvalidInput, "a trigger pulse lasts from 1 microsecond to 0.1 s"};
+    const std::lock_guard lock(mutex_);
+    const bool lit = light == Light::Flash || lights_with_every_pulse();
+    const Instant begin = clock_.now();
+    if (lit && !guard_.allows(begin))
+      return Error{Errc::Timeout, "a fourth flash within one second is refused: it can harm; wait"};
+    const Result<void> done = do_pulse(width, light);
+    if (lit) guard_.flashed(std::max(begin + width, clock_.now()));
+    return done;
+  }
+  Instant flash_allowed_at() const {
+    const std::lock_guard lock(mutex_);
+    return guard_.allowed_at();
+  }
+  virtual bool lights_with_every_pulse() const { return false; }
+
+ private:
+  virtual Result<void> do_pulse(std::chrono::microseconds width, Light light) = 0;
+
+  const Clock& clock_;
+  mutable std::mutex mutex_;
+  FlashGuard guard_;
 };
 }  // namespace relievo::hal

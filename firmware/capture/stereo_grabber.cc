@@ -2,23 +2,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/stereo_grabber.h"
 
-#include <algorithm>
 #include <chrono>
-#include <optional>
-
-#include "firmware/budget.h"
 
 namespace relievo::firmware {
 
-using hal::Camera;
-using hal::Frame;
+using pipeline::StereoFrame;
 
-Result<void> StereoGrabber::start(const hal::CaptureMode& mode) {
-  for (Camera* camera : {&left_, &right_}) {
-    if (camera->state() == Camera::State::Closed) RELIEVO_TRY(camera->open(mode));
-    if (camera->state() == Camera::State::Idle) RELIEVO_TRY(camera->start());
+std::string_view sentence_of(CameraWatch watch) {
+  switch (watch) {
+    case CameraWatch::Well: break;
+    case CameraWatch::LeftGone: return "The left camera does not answer: check its plug. It is tried again by itself.";
+    case CameraWatch::RightGone: return "The right camera does not answer: check its plug. It is tried again by itself.";
+    case CameraWatch::BothGone: return "Neither camera answers: check their plugs and hub. They are tried again by themselves.";
   }
   return {};
+}
+
+GrabberOptions grabber_options(const hal::Board& board) {
+  GrabberOptions options;
+  options.together = board.exposes_together();
+  if (!options.together) options.max_skew = budget::kMaxFreeSkew;
+  return options;
+}
+
+Result<void> StereoGrabber::start(const hal::CaptureMode& mode) {
+  const Result<void> left = left_.start(mode);
+  const Result<void> right = right_.start(mode);
+  return left ? right : left;
 }
 
 void StereoGrabber::stop() {
@@ -26,61 +36,72 @@ void StereoGrabber::stop() {
   right_.stop();
 }
 
-Result<void> StereoGrabber::restart() {
-  stop();
-  RELIEVO_TRY(left_.start());
-  return right_.start();
+CameraWatch StereoGrabber::watch() const {
+  if (left_.gone()) return right_.gone() ? CameraWatch::BothGone : CameraWatch::LeftGone;
+  return right_.gone() ? CameraWatch::RightGone : CameraWatch::Well;
 }
 
-// Waits in short slices, so that a cancelled person does not wait for a camera.
-Result<Frame> StereoGrabber::next(Camera& camera, hal::Instant deadline, const std::atomic<bool>& cancelled) {
-  for (;;) {
-    if (cancelled.load(std::memory_order_relaxed)) return Error{Errc::Cancelled, "the capture was cancelled"};
-    const hal::Instant slice = std::min(deadline, clock_.now() + budget::kTick);
-    Result<Frame> frame = camera.next_frame(slice);
-    if (frame || frame.error().code != Errc::Timeout) return frame;
-    if (clock_.now() >= deadline) return frame;
+Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled, hal::Light light) {
+  const hal::Instant now = clock_.now();
+  Result<StereoFrame> pair = grab_within({slot, now, now + budget::kFrameWait, cancelled}, light);
+  if (!pair && pair.error().code != Errc::Cancelled) {
+    // A restart that fails too changes nothing: the first reason is the one to tell.
+    left_.restart();
+    right_.restart();
+    offset_.reset();
   }
-}
-
-Result<pipeline::StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled) {
-  Result<pipeline::StereoFrame> pair = grab_once(slot, cancelled);
-  // A restart that fails too changes nothing: the first reason is the one to tell.
-  if (!pair && !restart()) stop();
   return pair;
 }
 
-Result<pipeline::StereoFrame> StereoGrabber::grab_once(StereoSlot& slot, const std::atomic<bool>& cancelled) {
-  const hal::Instant deadline = clock_.now() + budget::kFrameWait;
-  RELIEVO_TRY(trigger_.pulse(budget::kTriggerPulse));
-  std::optional<Frame> left;
-  std::optional<Frame> right;
-  std::chrono::nanoseconds skew{0};
+// A new pulse for a pair that was refused; one reason more is not worth a person's wait.
+Result<StereoFrame> StereoGrabber::grab_within(const Shot& shot, hal::Light light) {
+  for (int attempt = 1;; ++attempt) {
+    const hal::Instant asked = clock_.now();
+    RELIEVO_TRY(trigger_.pulse(budget::kTriggerPulse, light));
+    Result<StereoFrame> pair = grab_once({shot.slot, asked, shot.deadline, shot.cancelled});
+    if (pair || attempt == budget::kGrabTries) return pair;
+    const Errc code = pair.error().code;
+    const bool worth_it = code == Errc::IoFailed || (code == Errc::Timeout && clock_.now() < shot.deadline);
+    // A lamp may not be asked again so soon.
+    if (!worth_it || light == hal::Light::Flash) return pair;
+  }
+}
+
+// Copies before the partner is there, so that the driver has its buffer back.
+Result<StereoGrabber::Half> StereoGrabber::take(CameraLink& camera, const Shot& shot) {
+  RELIEVO_TRY_ASSIGN(const hal::Frame frame, camera.next(shot.asked, shot.deadline, shot.cancelled));
+  Half half{{}, frame.exposed_at(), frame.sequence()};
+  RELIEVO_TRY_ASSIGN(half.view, &camera == &left_ ? shot.slot.keep_left(frame.raw()) : shot.slot.keep_right(frame.raw()));
+  return half;
+}
+
+Result<StereoFrame> StereoGrabber::grab_once(const Shot& shot) {
+  RELIEVO_TRY_ASSIGN(Half left, take(left_, shot));
+  RELIEVO_TRY_ASSIGN(Half right, take(right_, shot));
   for (;;) {
-    if (!left) {
-      RELIEVO_TRY_ASSIGN(Frame frame, next(left_, deadline, cancelled));
-      left.emplace(std::move(frame));
-    }
-    if (!right) {
-      RELIEVO_TRY_ASSIGN(Frame frame, next(right_, deadline, cancelled));
-      right.emplace(std::move(frame));
-    }
-    skew = right->exposed_at() - left->exposed_at();
-    if (std::chrono::abs(skew) <= budget::kMaxSkew) break;
-    if (clock_.now() >= deadline) {
+    const auto skew = right.at - left.at;
+    if (std::chrono::abs(skew) <= options_.max_skew) return pair_of(left, right);
+    ++counts_.apart;
+    if (options_.together)
       return Error{Errc::Timeout, "the two cameras did not expose together: check the trigger wire"};
+    if (clock_.now() >= shot.deadline)
+      return Error{Errc::Timeout, "the two cameras run too far apart: join them by a trigger wire"};
+    if (skew.count() > 0) {  // the older one has lost its partner
+      RELIEVO_TRY_ASSIGN(left, take(left_, shot));
+    } else {
+      RELIEVO_TRY_ASSIGN(right, take(right_, shot));
     }
-    (skew.count() > 0 ? left : right).reset();  // the older one has lost its partner
   }
-  if (left->image().width_px != right->image().width_px || left->image().height_px != right->image().height_px) {
+}
+
+Result<StereoFrame> StereoGrabber::pair_of(const Half& left, const Half& right) {
+  if (left.view.width_px != right.view.width_px || left.view.height_px != right.view.height_px)
     return Error{Errc::InvalidInput, "the two cameras give pictures of different sizes: set both to one mode"};
-  }
-  pipeline::StereoFrame pair;
-  RELIEVO_TRY_ASSIGN(pair.left, slot.keep_left(left->image()));
-  RELIEVO_TRY_ASSIGN(pair.right, slot.keep_right(right->image()));
-  pair.sequence = left->sequence();
-  pair.skew_ns = skew.count();
-  return pair;
+  const std::uint32_t offset = right.sequence - left.sequence;
+  if (offset_ && *offset_ != offset) ++counts_.slipped;
+  offset_ = offset;
+  ++counts_.pairs;
+  return StereoFrame{left.view, right.view, left.sequence, (right.at - left.at).count()};
 }
 
 }  // namespace relievo::firmware

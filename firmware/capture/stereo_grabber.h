@@ -3,19 +3,30 @@
 //
 // StereoGrabber: one trigger pulse, one pair of pictures of the same instant.
 //
-//   pulse --> left.next_frame, right.next_frame --> the two exposures within kMaxSkew? --> slot
-//                        ^                                  | no: the older one is dropped
-//                        +----------------------------------+
+//   pulse --> left frame: copied to the slot, given back --> right frame: the same
+//     ^                                                          |
+//     +-- apart, damaged: counted, once more, kGrabTries at most +--> exposed within the limit? --> pair
 //
-// Errors: Timeout (no picture, or none that fits the other), Disconnected, InvalidInput (the views
-// differ in size or do not fit the slot), Cancelled, and what the devices report. After an error
-// the streams are restarted, so that no picture of a failed attempt is taken for a new one.
-// Thread: capture.
+// Without a trigger line the cameras run on their own: the older of two that lie apart is dropped, and
+// the next of its camera tried, until the deadline. Between pulse and pair nothing is allocated, but by
+// the libraries that develop colour (hal/raw/develop.h), and each picture is copied once.
+//
+// Errors: Timeout (no picture, or none that fits the other), Disconnected (the camera is then opened
+// again by start(), see CameraLink), InvalidInput (the views differ in size or do not fit the slot),
+// IoFailed (damaged each time), Cancelled, and what the devices report. After an error the streams are
+// restarted. Thread: capture; watch() any.
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 
+#include "firmware/budget.h"
+#include "firmware/capture/camera_link.h"
+#include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"
+#include "hal/board.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/trigger_line.h"
@@ -23,29 +34,64 @@
 
 namespace relievo::firmware {
 
+// What a screen may say of the cameras.
+enum class CameraWatch : std::uint8_t { Well, LeftGone, RightGone, BothGone };
+std::string_view sentence_of(CameraWatch watch);  // empty when all is well
+
+struct GrabberOptions {
+  // Do both cameras expose at the pulse?
+  bool together = true;
+  // Between the two exposures of a pair.
+  std::chrono::microseconds max_skew = budget::kMaxSkew;
+};
+// The limit a board's cameras can keep: kMaxSkew at one trigger, kMaxFreeSkew without.
+GrabberOptions grabber_options(const hal::Board& board);
+
 class StereoGrabber {
  public:
-  StereoGrabber(hal::Camera& left, hal::Camera& right, hal::TriggerLine& trigger, const hal::Clock& clock)
-      : left_(left), right_(right), trigger_(trigger), clock_(clock) {}
+  StereoGrabber(hal::Camera& left, hal::Camera& right, hal::TriggerLine& trigger, const hal::Clock& clock,
+                const GrabberOptions& options = {})
+      : trigger_(trigger), clock_(clock), options_(options), left_(left, clock, counts_.left), right_(right, clock, counts_.right) {}
+  explicit StereoGrabber(hal::Board& board)
+      : StereoGrabber(board.left(), board.right(), board.trigger(), board.clock(), grabber_options(board)) {}
   ~StereoGrabber() { stop(); }
   StereoGrabber(const StereoGrabber&) = delete;
   StereoGrabber& operator=(const StereoGrabber&) = delete;
 
-  // Opens the cameras where they are closed and starts the streams.
+  // Opens the cameras where they are closed and starts the streams. Both are tried before it fails.
   Result<void> start(const hal::CaptureMode& mode);
   void stop();
-  // The views of the result lie in the slot.
-  Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled);
+  // The views of the result lie in the slot. With Light::Flash the lamp's rest is the caller's to wait
+  // for: hal::TriggerLine::flash_allowed_at().
+  Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled, hal::Light light = hal::Light::Off);
+
+  CameraWatch watch() const;
+  const GrabCounts& counts() const { return counts_; }
 
  private:
-  Result<hal::Frame> next(hal::Camera& camera, hal::Instant deadline, const std::atomic<bool>& cancelled);
-  Result<pipeline::StereoFrame> grab_once(StereoSlot& slot, const std::atomic<bool>& cancelled);
-  Result<void> restart();
+  struct Half {
+    ImageView view;
+    hal::Instant at;
+    std::uint32_t sequence = 0;
+  };
+  struct Shot {
+    StereoSlot& slot;
+    hal::Instant asked;
+    hal::Instant deadline;
+    const std::atomic<bool>& cancelled;
+  };
+  Result<Half> take(CameraLink& camera, const Shot& shot);
+  Result<pipeline::StereoFrame> grab_within(const Shot& shot, hal::Light light);
+  Result<pipeline::StereoFrame> grab_once(const Shot& shot);
+  Result<pipeline::StereoFrame> pair_of(const Half& left, const Half& right);
 
-  hal::Camera& left_;
-  hal::Camera& right_;
   hal::TriggerLine& trigger_;
   const hal::Clock& clock_;
+  GrabberOptions options_;
+  GrabCounts counts_;
+  CameraLink left_;
+  CameraLink right_;
+  std::optional<std::uint32_t> offset_;  // right's number minus left's, of the last pair
 };
 
 }  // namespace relievo::firmware

@@ -3,25 +3,21 @@
 #include "firmware/capture/stereo_slot.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include <string.h>
 
+#include "hal/raw/develop.h"
+
 namespace relievo::firmware {
 
-Result<ImageView> StereoSlot::keep(Plane& plane, const ImageView& image) {
-  if (image.empty()) return Error{Errc::InvalidInput, "the camera gave a picture without pixels: check its cable"};
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(bytes_per_pixel(image.format));
-  const std::size_t bytes = row_bytes * static_cast<std::size_t>(image.height_px);
-  if (bytes > plane.room.size()) {
-    return Error{Errc::InvalidInput, "the picture is larger than budget.h allows: choose a smaller mode"};
+Result<ImageView> StereoSlot::keep(Plane& plane, const hal::RawImage& raw) {
+  // Before it is known whether all goes well: half a developed picture is to be wiped too.
+  if (hal::check_shape(raw)) {
+    const std::size_t pixels = static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px);
+    plane.used = std::max(plane.used, std::min(3 * pixels, plane.room.size()));
+    scratch_used_ = std::max(scratch_used_, std::min(hal::develop_scratch_bytes(raw.format, raw.width_px, raw.height_px), scratch_.size()));
   }
-  for (int y = 0; y < image.height_px; ++y) {
-    std::memcpy(plane.room.data() + static_cast<std::size_t>(y) * row_bytes, image.row(y), row_bytes);
-  }
-  plane.used = std::max(plane.used, bytes);
-  return ImageView{plane.room.data(), image.width_px, image.height_px, static_cast<int>(row_bytes), image.format};
+  return hal::develop(raw, plane.room, scratch_);
 }
 
 void StereoSlot::wipe() {
@@ -29,6 +25,8 @@ void StereoSlot::wipe() {
     explicit_bzero(plane->room.data(), plane->used);
     plane->used = 0;
   }
+  explicit_bzero(scratch_.data(), scratch_used_);
+  scratch_used_ = 0;
 }
 
 }  // namespace relievo::firmware

@@ -36,6 +36,8 @@ ui::ViewState view_of(const Appliance& appliance) {
     view.problem = appliance.problem()->what.view();
     if (appliance.problem()->code == Errc::NoFace) view.advice = pipeline::Advice::NoFace;
   }
+  // What was wrong first counts less than what is wrong now.
+  if (const std::string_view gone = sentence_of(appliance.cameras()); !gone.empty()) view.problem = gone;
   view.calibration_note = appliance.calibration_note();
   if (!appliance.session().is_open()) return view;
   view.subject = appliance.session().subject();

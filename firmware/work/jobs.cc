@@ -2,9 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/work/jobs.h"
 
+#include <thread>
+
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
+
+Result<void> OpenCamerasJob::run(JobControl& control) {
+  const hal::Instant until = clock_.now() + budget::kCameraReturn;
+  for (;;) {
+    Result<void> started = grabber_.start(mode_);
+    if (started || grabber_.watch() == CameraWatch::Well || clock_.now() >= until) return started;
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "the cameras are no longer waited for"};
+    std::this_thread::sleep_for(budget::kTick / 2);
+  }
+}
 
 Result<void> GrabJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(mode_));  // nothing where the streams run already

@@ -16,14 +16,17 @@
 
 namespace relievo::firmware {
 
+// A camera that never answered is an error at once; one that was there and vanished is waited for.
 class OpenCamerasJob final : public Job {
  public:
-  OpenCamerasJob(StereoGrabber& grabber, const hal::CaptureMode& mode) : grabber_(grabber), mode_(mode) {}
-  Result<void> run(JobControl&) override { return grabber_.start(mode_); }
+  OpenCamerasJob(StereoGrabber& grabber, const hal::CaptureMode& mode, const hal::Clock& clock)
+      : grabber_(grabber), mode_(mode), clock_(clock) {}
+  Result<void> run(JobControl& control) override;
 
  private:
   StereoGrabber& grabber_;
   hal::CaptureMode mode_;
+  const hal::Clock& clock_;
 };
 
 class GrabJob final : public Job {

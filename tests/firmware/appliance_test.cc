@@ -21,7 +21,8 @@ using std::chrono::milliseconds;
 
 class StillCamera final : public hal::Camera {
  public:
-  explicit StillCamera(const hal::Clock& clock) : clock_(clock) {}
+  // Exposes when it is pulsed, both cameras at the same moment.
+  explicit StillCamera(const hal::Instant& pulsed_at) : pulsed_at_(pulsed_at) {}
   std::deque<Errc> errors;       // one a call, then pictures
   Result<void> on_start{};
 
@@ -35,32 +36,43 @@ class StillCamera final : public hal::Camera {
       errors.pop_front();
       return Error{code, "as the test says"};
     }
-    // Both cameras expose at the same moment of the clock's second.
-    const auto moment = std::chrono::floor<std::chrono::hours>(clock_.now());
-    return hal::Frame({pixels_, 4, 4, 4, PixelFormat::Grey8}, moment, ++sequence_, [](void*, int) {}, this, 0);
+    return hal::Frame({pixels_, 16, 4, 4, 4, {}}, {pulsed_at_, ++sequence_}, [](void*, int) {}, this, 0);
   }
-  const hal::Clock& clock_;
+  const hal::Instant& pulsed_at_;
   std::byte pixels_[16] = {std::byte{0x5A}};
   std::uint32_t sequence_ = 0;
 };
 
-class TestBoard final : public hal::Board, hal::TriggerLine, hal::RemovableMedia, hal::Watchdog {
+class TestLine final : public hal::TriggerLine {
+ public:
+  explicit TestLine(const hal::Clock& clock) : TriggerLine(clock), clock_(clock) {}
+  hal::Instant pulsed_at;
+
+ private:
+  Result<void> do_pulse(std::chrono::microseconds, hal::Light) override {
+    pulsed_at = clock_.now();
+    return {};
+  }
+  const hal::Clock& clock_;
+};
+
+class TestBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
  public:
   hal::MonotonicClock time;
-  StillCamera left_camera{time};
-  StillCamera right_camera{time};
+  TestLine line{time};
+  StillCamera left_camera{line.pulsed_at};
+  StillCamera right_camera{line.pulsed_at};
   int kicks = 0;
   std::string_view name() const override { return "test"; }
   hal::CaptureMode preferred_mode() const override { return {4, 4, std::chrono::microseconds(1)}; }
   hal::Camera& left() override { return left_camera; }
   hal::Camera& right() override { return right_camera; }
-  hal::TriggerLine& trigger() override { return *this; }
+  hal::TriggerLine& trigger() override { return line; }
   hal::RemovableMedia& media() override { return *this; }
   hal::Clock& clock() override { return time; }
   hal::Watchdog& watchdog() override { return *this; }
 
  private:
-  Result<void> pulse(std::chrono::microseconds) override { return {}; }
   std::optional<hal::Medium> current() override { return std::nullopt; }
   Result<void> flush_and_eject() override { return {}; }
   void kick() override { ++kicks; }
@@ -107,7 +119,7 @@ class ApplianceTest : public testing::Test {
     return true;
   }
   static BootMemory zeroed() {
-    BootMemory made(64, 1 << 16, 1 << 16);
+    BootMemory made(7 * 16, 1 << 16, 1 << 16);
     std::fill(made.frames().begin(), made.frames().end(), std::byte{0});
     std::fill(made.output().begin(), made.output().end(), std::byte{0});
     std::fill(made.scratch().begin(), made.scratch().end(), std::byte{0});
@@ -305,7 +317,7 @@ TEST(ApplianceSelfTest, ACameraThatDoesNotOpenIsAFault) {
   TestBoard board;
   board.left_camera.on_start = Error{Errc::IoFailed, "as the test says"};
   TestStages stages;
-  const BootMemory memory(64, 1 << 16, 1 << 16);
+  const BootMemory memory(7 * 16, 1 << 16, 1 << 16);
   ThreadPool pool(1);
   Appliance appliance({board, stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
   while (appliance.state() == State::SelfTest) appliance.step(milliseconds(1));

@@ -56,7 +56,7 @@ class BoardPairs final : public LivePairs {
       : board_(std::move(board)),
         memory_(budget::kStereoSlotBytes),
         slot_(memory_),
-        grabber_(board_->left(), board_->right(), board_->trigger(), board_->clock()),
+        grabber_(*board_),
         most_(most),
         shown_(shown),
         timed_(timed) {}

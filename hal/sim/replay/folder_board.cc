@@ -55,7 +55,7 @@ Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& fo
   const auto exposure = capture.frames.empty() ? 0 : capture.frames.front().exposure_us;
   const CaptureMode mode{left.width_px, left.height_px, std::chrono::microseconds(exposure)};
   return std::unique_ptr<Board>(std::make_unique<ReplayBoard>(
-      "folder", std::make_unique<FolderSource>(std::move(pairs), std::move(capture)), mode));
+      "folder", std::make_unique<FolderSource>(std::move(pairs), std::move(capture)), mode, false));
 }
 
 }  // namespace relievo::hal

@@ -18,14 +18,16 @@ namespace relievo::hal {
 
 class ReplayBoard final : public Board {
  public:
-  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode)
-      : name_(name), source_(std::move(source)), mode_(mode) {}
+  // together: the pairs were exposed by one trigger.
+  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode, bool together)
+      : name_(name), source_(std::move(source)), mode_(mode), together_(together) {}
 
   std::string_view name() const override { return name_; }
   CaptureMode preferred_mode() const override { return mode_; }
   Camera& left() override { return left_; }
   Camera& right() override { return right_; }
   TriggerLine& trigger() override { return trigger_; }
+  bool exposes_together() const override { return together_; }
   RemovableMedia& media() override { return media_; }
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return watchdog_; }
@@ -35,6 +37,7 @@ class ReplayBoard final : public Board {
   std::string_view name_;
   std::unique_ptr<PairSource> source_;
   CaptureMode mode_;
+  bool together_;
   MonotonicClock clock_;
   SilentTrigger trigger_{clock_};
   FolderMedia media_;

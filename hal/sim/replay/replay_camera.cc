@@ -27,7 +27,7 @@ Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   Buffer& buffer = buffers_[static_cast<std::size_t>(slot)];
   buffer.picture = std::move(exposure.picture);
   buffer.lent = true;
-  return Frame(buffer.picture.view(), pulse.at + exposure.late, pulse.number, &ReplayCamera::give_back, this, slot);
+  return Frame(raw_of(buffer.picture.view()), {pulse.at + exposure.late, pulse.number}, &ReplayCamera::give_back, this, slot);
 }
 
 void ReplayCamera::give_back(void* owner, int slot) {

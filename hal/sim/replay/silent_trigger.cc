@@ -4,8 +4,7 @@
 
 namespace relievo::hal {
 
-Result<void> SilentTrigger::pulse(std::chrono::microseconds width) {
-  if (width.count() <= 0) return Error{Errc::InvalidInput, "a trigger pulse must last longer than nothing"};
+Result<void> SilentTrigger::do_pulse(std::chrono::microseconds, Light) {
   {
     const std::lock_guard lock(mutex_);
     last_ = {last_.number + 1, clock_.now()};

@@ -16,9 +16,7 @@ namespace relievo::hal {
 
 class SilentTrigger final : public TriggerLine {
  public:
-  explicit SilentTrigger(const Clock& clock) : clock_(clock) {}
-
-  Result<void> pulse(std::chrono::microseconds width) override;
+  explicit SilentTrigger(const Clock& clock) : TriggerLine(clock), clock_(clock) {}
 
   struct Pulse {
     std::uint32_t number = 0;        // counts from 1
@@ -29,6 +27,8 @@ class SilentTrigger final : public TriggerLine {
   std::uint32_t count() const;
 
  private:
+  Result<void> do_pulse(std::chrono::microseconds width, Light light) override;
+
   const Clock& clock_;
   mutable std::mutex mutex_;
   std::condition_variable pulsed_;

@@ -56,7 +56,7 @@ Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options) {
     RELIEVO_TRY_ASSIGN(poses, sim::good_board_poses(sim::make_rig(o.rig), o.board, o.board_poses, o.seed, o.pose.distance_mm));
   }
   const CaptureMode mode{o.rig.width_px, o.rig.height_px, std::chrono::microseconds(4000)};
-  auto board = std::make_unique<ReplayBoard>("sim", std::make_unique<RenderedSource>(options, std::move(poses)), mode);
+  auto board = std::make_unique<ReplayBoard>("sim", std::make_unique<RenderedSource>(options, std::move(poses)), mode, true);
   if (options.media_folder) board->folder_media().plug(*options.media_folder);
   return std::unique_ptr<Board>(std::move(board));
 }

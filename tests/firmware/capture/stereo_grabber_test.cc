@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Cameras that fail on purpose: what a person and a technician are told in each case.
+// Cameras that fail on purpose: what a person and a technician are told in each case, and what is counted.
 #include "firmware/capture/stereo_grabber.h"
 
 #include <gtest/gtest.h>
 
-#include <deque>
-#include <vector>
+#include <random>
 
-#include "firmware/budget.h"
+#include "tests/firmware/capture/grabber_fixture.h"
+#include "tests/support/allocation_counter.h"
 
 namespace relievo::firmware {
 namespace {
@@ -17,141 +17,130 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-class HandClock final : public hal::Clock {
- public:
-  hal::Instant time{};
-  hal::Instant now() const override { return time; }
-  std::chrono::system_clock::time_point wall_now() const override { return {}; }
-};
-
-class FakeLine final : public hal::TriggerLine {
- public:
-  int pulses = 0;
-  bool broken = false;
-  Result<void> pulse(std::chrono::microseconds) override {
-    ++pulses;
-    if (broken) return Error{Errc::IoFailed, "the trigger line does not answer"};
-    return {};
-  }
-};
-
-// Plays a list of exposures; afterwards every wait ends in a timeout, which the clock feels.
-class FakeCamera final : public hal::Camera {
- public:
-  struct Shot {
-    microseconds exposed_at{0};
-    std::optional<Errc> error;
-    int width_px = 8;
-  };
-  FakeCamera(HandClock& clock, std::uint8_t shade) : clock_(clock), pixels_(64 * 8, std::byte{shade}) {}
-  std::deque<Shot> shots;
-  int starts = 0;
-  int held = 0;
-
- private:
-  Result<void> do_open(const hal::CaptureMode&) override { return {}; }
-  Result<void> do_start() override {
-    ++starts;
-    return {};
-  }
-  void do_stop() override {}
-  Result<hal::Frame> do_next_frame(hal::Instant deadline) override {
-    if (shots.empty()) {
-      clock_.time = std::max(clock_.time, deadline);
-      return Error{Errc::Timeout, "no picture came"};
-    }
-    const Shot shot = shots.front();
-    shots.pop_front();
-    if (shot.error) return Error{*shot.error, "the camera is gone: check its plug"};
-    ++held;
-    // 64 bytes a row: more than the picture is wide, as sensors pad.
-    return hal::Frame({pixels_.data(), shot.width_px, 8, 64, PixelFormat::Grey8},
-                      hal::Instant{} + shot.exposed_at, ++sequence_,
-                      [](void* owner, int) { --static_cast<FakeCamera*>(owner)->held; }, this, 0);
-  }
-
-  HandClock& clock_;
-  std::vector<std::byte> pixels_;
-  std::uint32_t sequence_ = 0;
-};
-
-class StereoGrabberTest : public testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(grabber.start({8, 8, microseconds(100)})); }
-  Errc error_of_grab() {
-    const auto pair = grabber.grab(slot, cancelled);
-    EXPECT_FALSE(pair);
-    EXPECT_EQ(left.held + right.held, 0) << "a sensor buffer was kept";
-    return pair ? Errc::Unsupported : pair.error().code;
-  }
-
-  HandClock clock;
-  FakeLine line;
-  FakeCamera left{clock, 10};
-  FakeCamera right{clock, 20};
-  std::vector<std::byte> memory = std::vector<std::byte>(2 * 8 * 8);
-  StereoSlot slot{memory};
-  std::atomic<bool> cancelled{false};
-  StereoGrabber grabber{left, right, line, clock};
-};
-
-TEST_F(StereoGrabberTest, CopiesBothPicturesOnceAndReturnsTheBuffers) {
-  left.shots = {{microseconds(1000), {}, 8}};
-  right.shots = {{microseconds(1400), {}, 8}};
+TEST_F(StereoGrabberTest, CopiesEachPictureOnceAndReturnsTheBufferAtOnce) {
+  int held_while_waiting = 0;
+  right.on_wait = [&] { held_while_waiting += left.held; };
   const auto pair = grabber.grab(slot, cancelled);
   ASSERT_TRUE(pair);
+  EXPECT_EQ(held_while_waiting, 0) << "the left driver waits for its buffer while the right camera exposes";
   EXPECT_EQ(line.pulses, 1);
-  EXPECT_EQ(pair->skew_ns, 400'000);
+  EXPECT_EQ(pair->skew_ns, 10'000);
+  EXPECT_EQ(pair->sequence, 1U);
   EXPECT_EQ(pair->left.bytes, memory.data());
   EXPECT_EQ(pair->left.stride_bytes, 8);
-  EXPECT_EQ(pair->left.row(7)[7], 10);
-  EXPECT_EQ(pair->right.row(7)[7], 20);
   EXPECT_EQ(left.held + right.held, 0);
+  EXPECT_EQ(grabber.counts().pairs, 1U);
 }
 
-TEST_F(StereoGrabberTest, DropsAPictureThatHasLostItsPartner) {
-  left.shots = {{microseconds(1000), {}, 8}, {microseconds(34'000), {}, 8}};
-  right.shots = {{microseconds(34'100), {}, 8}};
+TEST_F(StereoGrabberTest, NothingIsAllocatedBetweenTriggerAndHandOver) {
+  ASSERT_TRUE(grabber.grab(slot, cancelled));
+  const AllocationCounter counter;
   const auto pair = grabber.grab(slot, cancelled);
-  ASSERT_TRUE(pair);
-  EXPECT_EQ(pair->sequence, 2U);
-  EXPECT_EQ(pair->skew_ns, 100'000);
+  EXPECT_EQ(counter.made(), 0);
+  EXPECT_TRUE(pair);
 }
 
-TEST_F(StereoGrabberTest, PicturesThatNeverMeetAreATimeout) {
-  for (int i = 0; i < 500; ++i) {
-    left.shots.push_back({milliseconds(33 * i), {}, 8});
-    right.shots.push_back({milliseconds(33 * i + 16), {}, 8});
-  }
+TEST_F(StereoGrabberTest, APairTooFarApartIsRefusedCountedAndTakenAgain) {
+  right.script = {Fault::Apart};
+  expect_pair_of_pulse(2);
+  EXPECT_EQ(grabber.counts().apart, 1U);
+}
+
+TEST_F(StereoGrabberTest, CamerasThatNeverExposeTogetherAreAnError) {
+  right.script.assign(budget::kGrabTries, Fault::Apart);
   EXPECT_EQ(error_of_grab(), Errc::Timeout);
+  EXPECT_EQ(line.pulses, budget::kGrabTries);
+  EXPECT_EQ(grabber.counts().apart, std::uint64_t{budget::kGrabTries});
+  EXPECT_EQ(grabber.counts().pairs, 0U);
+}
+
+TEST_F(StereoGrabberTest, TheLimitIsInclusiveAndConfigurable) {
+  StereoGrabber exact(left, right, line, clock, {true, microseconds(10)});
+  EXPECT_TRUE(exact.grab(slot, cancelled));
+  StereoGrabber strict(left, right, line, clock, {true, microseconds(9)});
+  EXPECT_FALSE(strict.grab(slot, cancelled));
 }
 
 TEST_F(StereoGrabberTest, NoPictureIsATimeoutAndTheStreamsStartAnew) {
-  left.shots = {{microseconds(1000), {}, 8}};
+  left.script = {Fault::Miss};
+  const hal::Instant begin = clock.now();
   EXPECT_EQ(error_of_grab(), Errc::Timeout);
-  EXPECT_GE(clock.time - hal::Instant{}, budget::kFrameWait);
+  EXPECT_GE(clock.now() - begin, budget::kFrameWait);
+  EXPECT_EQ(of_left().missing, 1U);
   EXPECT_EQ(left.starts, 2);
   EXPECT_EQ(right.starts, 2);
-  EXPECT_EQ(left.state(), hal::Camera::State::Running);
+  expect_pair_of_pulse(2);
 }
 
-TEST_F(StereoGrabberTest, APulledPlugIsToldAtOnce) {
-  left.shots = {{microseconds(1000), {}, 8}};
-  right.shots = {{microseconds(0), Errc::Disconnected, 8}};
-  EXPECT_EQ(error_of_grab(), Errc::Disconnected);
-  EXPECT_EQ(clock.time, hal::Instant{});
+TEST_F(StereoGrabberTest, AFrameThatComesAfterTheNextPulseIsNotTakenForIt) {
+  right.script = {Fault::None, Fault::Hold};
+  expect_pair_of_pulse(1);
+  ASSERT_TRUE(line.pulse(microseconds(100)));  // pulse 2: right withholds its frame, left's stays in the queue
+  expect_pair_of_pulse(3);
+  EXPECT_EQ(of_left().late, 1U);
+  EXPECT_EQ(grabber.counts().right.late, 1U);
+}
+
+TEST_F(StereoGrabberTest, ALostFrameIsCountedByItsNumber) {
+  expect_pair_of_pulse(1);
+  left.sequence += 3;  // the driver had no buffer three times
+  right.sequence += 3;
+  expect_pair_of_pulse(2);
+  EXPECT_EQ(of_left().lost, 3U);
+  EXPECT_EQ(grabber.counts().slipped, 0U);
+}
+
+TEST_F(StereoGrabberTest, ACameraThatMissedAPulseIsNoticedByItsNumbers) {
+  expect_pair_of_pulse(1);
+  right.sequence += 1;
+  expect_pair_of_pulse(2);
+  EXPECT_EQ(grabber.counts().slipped, 1U);
+  expect_pair_of_pulse(3);
+  EXPECT_EQ(grabber.counts().slipped, 1U);
+}
+
+TEST_F(StereoGrabberTest, TheSequenceMayWrapAround) {
+  left.sequence = right.sequence = 0xFFFF'FFFE;
+  for (int i = 1; i <= 4; ++i) expect_pair_of_pulse(i);
+  EXPECT_EQ(of_left().lost + of_left().late + of_left().duplicate, 0U);
+}
+
+TEST_F(StereoGrabberTest, AFrameThatComesTwiceIsTakenOnce) {
+  left.script = {Fault::Twice};
+  expect_pair_of_pulse(1);
+  expect_pair_of_pulse(2);
+  EXPECT_EQ(of_left().duplicate, 1U);
+}
+
+TEST_F(StereoGrabberTest, DamagedAndShortFramesAreRefusedAndTakenAgain) {
+  left.script = {Fault::Damage, Fault::Short};
+  expect_pair_of_pulse(3);
+  EXPECT_EQ(of_left().damaged, 1U);
+  EXPECT_EQ(of_left().too_short, 1U);
+  right.script.assign(budget::kGrabTries, Fault::Damage);
+  EXPECT_EQ(error_of_grab(), Errc::IoFailed);
+  expect_pair_of_pulse(7);
+}
+
+TEST_F(StereoGrabberTest, ADriversErrorRestartsTheStreams) {
+  right.script.assign(budget::kGrabTries, Fault::Fail);
+  EXPECT_EQ(error_of_grab(), Errc::IoFailed);
+  EXPECT_EQ(right.starts, 2);
+  expect_pair_of_pulse(budget::kGrabTries + 1);
 }
 
 TEST_F(StereoGrabberTest, ViewsOfDifferentSizesAreRefused) {
-  left.shots = {{microseconds(1000), {}, 8}};
-  right.shots = {{microseconds(1000), {}, 6}};
+  right.width_px = 6;
   EXPECT_EQ(error_of_grab(), Errc::InvalidInput);
 }
 
 TEST_F(StereoGrabberTest, APictureLargerThanItsRoomIsRefused) {
-  left.shots = {{microseconds(1000), {}, 16}};
-  right.shots = {{microseconds(1000), {}, 16}};
-  EXPECT_EQ(error_of_grab(), Errc::InvalidInput);
+  std::vector<std::byte> small(7 * 8 * 2);
+  StereoSlot narrow{small};
+  const auto pair = grabber.grab(narrow, cancelled);
+  ASSERT_FALSE(pair);
+  EXPECT_EQ(pair.error().code, Errc::InvalidInput);
+  EXPECT_EQ(left.held + right.held, 0);
 }
 
 TEST_F(StereoGrabberTest, ABrokenTriggerIsTold) {
@@ -163,17 +152,60 @@ TEST_F(StereoGrabberTest, CancelEndsTheWait) {
   cancelled.store(true);
   EXPECT_EQ(error_of_grab(), Errc::Cancelled);
   cancelled.store(false);
-  left.shots = {{microseconds(1000), {}, 8}};
-  right.shots = {{microseconds(1000), {}, 8}};
-  EXPECT_TRUE(grabber.grab(slot, cancelled));
+  expect_pair_of_pulse(2);
 }
 
 TEST_F(StereoGrabberTest, WipeLeavesNoPixel) {
-  left.shots = {{microseconds(1000), {}, 8}};
-  right.shots = {{microseconds(1000), {}, 8}};
   ASSERT_TRUE(grabber.grab(slot, cancelled));
   slot.wipe();
   for (const std::byte b : memory) ASSERT_EQ(b, std::byte{0});
+}
+
+// Cameras that run on their own, 33 ms a frame, the right one 5 ms behind; their pulse moves time only.
+TEST_F(StereoGrabberTest, WithoutATriggerTheNearestFramesArePaired) {
+  StereoGrabber free(left, right, line, clock, {false, microseconds(6000)});
+  const hal::Instant now = clock.now();
+  left.script.assign(1, Fault::Miss);
+  right.script.assign(1, Fault::Miss);
+  int waits = 0;
+  left.on_wait = [&] {
+    ++waits;
+    if (waits == 1) left.pulse(1, now + milliseconds(30));
+    if (waits == 2) left.pulse(2, now + milliseconds(63));
+  };
+  right.on_wait = [&] { right.pulse(2, now + milliseconds(68)); };
+  const auto pair = free.grab(slot, cancelled);
+  ASSERT_TRUE(pair) << pair.error().what.view();
+  EXPECT_EQ(pair->skew_ns, 5'000'000);
+  EXPECT_EQ(pair->left.row(0)[0], 2);
+  EXPECT_EQ(free.counts().apart, 1U);
+}
+
+// Whatever fails, and in whatever order: no pair of two pulses is ever handed over, and a buffer never kept.
+TEST_F(StereoGrabberTest, OfTwentyThousandPulsesWithFaultsNoPairIsMixed) {
+  std::mt19937 random(1);
+  const auto any_fault = [&] { return random() % 4 == 0 ? static_cast<Fault>(random() % 11) : Fault::None; };
+  std::uint64_t good = 0;
+  while (line.pulses < 20'000) {
+    if (left.script.empty()) left.script.push_back(any_fault());
+    if (right.script.empty()) right.script.push_back(any_fault());
+    const auto pair = grabber.grab(slot, cancelled);
+    ASSERT_EQ(left.held + right.held, 0);
+    if (pair) {
+      ++good;
+      ASSERT_EQ(pair->left.row(3)[3], line.pulses % 256);
+      ASSERT_EQ(pair->right.row(3)[3], line.pulses % 256);
+      ASSERT_LE(std::abs(pair->skew_ns), 100'000);
+      continue;
+    }
+    left.plugged = right.plugged = true;
+    while (!grabber.start(kMode)) clock.time += milliseconds(100);
+  }
+  EXPECT_EQ(grabber.counts().pairs, good);
+  EXPECT_GT(good, 10'000U);
+  for (const CameraCounts* c : {&grabber.counts().left, &grabber.counts().right})
+    for (const std::uint64_t n : {c->late, c->lost, c->duplicate, c->damaged, c->too_short, c->missing, c->vanished}) EXPECT_GT(n, 50U);
+  EXPECT_EQ(grabber.counts().left.vanished, grabber.counts().left.returned);
 }
 
 }  // namespace

@@ -114,6 +114,24 @@ TEST(Camera, ACallOutOfTurnNamesTheStateItNeeds) {
   EXPECT_TRUE(camera.start());
 }
 
+TEST(Camera, AClosedCameraOpensAgain) {
+  const TemporaryFolder folder;
+  put_picture(folder / "left_1.png", 1);
+  put_picture(folder / "right_1.png", 1);
+  auto made = make_folder_board(folder.path());
+  ASSERT_TRUE(made);
+  Board& board = **made;
+  EXPECT_FALSE(board.exposes_together()) << "recordings are as they are";
+  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
+  board.left().close();
+  EXPECT_EQ(board.left().state(), Camera::State::Closed);
+  EXPECT_EQ(board.left().set_exposure({}).error().code, Errc::InvalidState);
+  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
+  EXPECT_EQ(board.left().set_exposure({}).error().code, Errc::Unsupported);
+  ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
+  EXPECT_TRUE(board.left().next_frame(soon(board)));
+}
+
 TEST(Camera, HoldingEveryFrameStopsItUntilOneIsGivenBack) {
   const TemporaryFolder folder;
   put_picture(folder / "left_1.png", 1);
