@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/relief/live_relief.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/gate/relief/small_pair.h"
+#include "pipeline/match/coarse/size_ladder.h"
+#include "pipeline/match/rectify/rectifier.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// The pair is a quarter of the size already: two halvings of it are a sixteenth.
+constexpr int kLevels = 3;
+constexpr int kBand = 12;
+
+void fill_depth(const RectifiedPair& pair, const Plane<float>& disparity, Relief& relief) {
+  relief.width_px = pair.width_px;
+  relief.height_px = pair.height_px;
+  relief.focal_px = pair.focal_px;
+  relief.baseline_mm = pair.baseline_mm;
+  relief.centre_px = pair.left_centre_px;
+  relief.rectified_from_left = pair.rectified_from_left;
+  const std::size_t count = pair.left.grey.size();
+  relief.depth_mm.resize(count);
+  relief.surface.resize(count);
+  relief.grey.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    relief.grey[i] = static_cast<std::uint8_t>(std::clamp(pair.left.grey[i] + 0.5F, 0.0F, 255.0F));
+    const float d = disparity.values[i];
+    if (d == kNoDisparity) continue;
+    const double z = pair.depth_mm(static_cast<double>(d));
+    if (z >= pair.near_mm && z <= pair.far_mm) relief.depth_mm[i] = static_cast<float>(z);
+  }
+}
+
+struct Found {
+  std::uint32_t pixels = 0;
+  double area_mm2 = 0;
+  std::uint16_t name = 0;
+};
+
+// Names in the order of size; specks get none. The first of `found` is no surface.
+int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext& context) {
+  std::pmr::vector<std::uint32_t> order(&context.scratch);
+  order.reserve(found.size());
+  for (std::uint32_t i = 1; i < found.size(); ++i)
+    if (found[i].area_mm2 >= speck_mm2) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b; });
+  const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
+  for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = static_cast<std::uint16_t>(i + 1);
+  return static_cast<int>(kept);
+}
+
+}  // namespace
+
+Result<void> LiveReliefOptions::check() const {
+  if (reduction < 1 || reduction > 16) return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
+  if (!(near_mm > 50 && far_mm > near_mm + 10 && far_mm < 1e5))
+    return Error{Errc::InvalidInput, "the volume must begin beyond 50 mm and be 10 mm deep or more: near_mm < far_mm"}.at("live-relief");
+  if (!(cross_check_px > 0 && step_px > 0) || !(speck_mm2 >= 0))
+    return Error{Errc::InvalidInput, "cross_check_px and step_px must be positive, speck_mm2 not negative"}.at("live-relief");
+  return {};
+}
+
+void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context) {
+  const std::size_t count = relief.depth_mm.size();
+  const auto width = static_cast<std::size_t>(relief.width_px);
+  // Of inverse depth, one pixel of disparity is the same everywhere.
+  const auto step = static_cast<float>(static_cast<double>(step_px) / (relief.focal_px * relief.baseline_mm));
+  std::pmr::vector<std::uint32_t> label(count, 0, &context.scratch), queue(count, 0, &context.scratch);
+  std::pmr::vector<Found> found(1, Found{}, &context.scratch);
+  found.reserve(count + 1);
+  const auto join = [&](std::size_t from, std::size_t to, std::size_t& tail) {
+    if (label[to] != 0 || !(relief.depth_mm[to] > 0)) return;
+    if (std::abs(1 / relief.depth_mm[from] - 1 / relief.depth_mm[to]) > step) return;
+    label[to] = label[from];
+    queue[tail++] = static_cast<std::uint32_t>(to);
+  };
+  for (std::size_t start = 0; start < count; ++start) {
+    if (label[start] != 0 || !(relief.depth_mm[start] > 0)) continue;
+    label[start] = static_cast<std::uint32_t>(found.size());
+    double area = 0;
+    std::size_t tail = 0;
+    queue[tail++] = static_cast<std::uint32_t>(start);
+    for (std::size_t head = 0; head < tail; ++head) {
+      const std::size_t at = queue[head], x = at % width;
+      if (x > 0) join(at, at - 1, tail);
+      if (x + 1 < width) join(at, at + 1, tail);
+      if (at >= width) join(at, at - width, tail);
+      if (at + width < count) join(at, at + width, tail);
+      const double pixel_mm = static_cast<double>(relief.depth_mm[at]) / relief.focal_px;
+      area += pixel_mm * pixel_mm;
+    }
+    found.push_back({static_cast<std::uint32_t>(tail), area, 0});
+  }
+  relief.surfaces = name_by_size(found, speck_mm2, context);
+  for (std::size_t i = 0; i < count; ++i) {
+    relief.surface[i] = found[label[i]].name;
+    if (relief.surface[i] == 0) relief.depth_mm[i] = 0;
+  }
+}
+
+Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibration& calibration, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  if (frame.left.empty() || frame.right.empty()) return Error{Errc::InvalidInput, "a live picture has no pixels: is a camera unplugged?"}.at("live-relief");
+  if (frame.left.width_px != calibration.left.width_px || frame.left.height_px != calibration.left.height_px ||
+      frame.right.width_px != calibration.right.width_px || frame.right.height_px != calibration.right.height_px)
+    return Error{Errc::InvalidInput, "the live picture's size is not the calibration's: calibrate at this size"}.at("live-relief");
+  const StereoFrame small{reduced(frame.left, options_.reduction, context), reduced(frame.right, options_.reduction, context), frame.sequence, frame.skew_ns};
+  // The rectified pair is needed no longer than the matching: it lives on the scratch.
+  StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
+  RectifierOptions volume;
+  volume.near_mm = options_.near_mm;
+  volume.far_mm = options_.far_mm;
+  RELIEVO_TRY_ASSIGN(const RectifiedPair pair, Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
+  const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
+  Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
+  RELIEVO_TRY(match_down(pair, pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px}, options_.costs, inner, 1, disparity));
+  Relief relief(&context.output);
+  fill_depth(pair, disparity, relief);
+  label_surfaces(relief, options_.step_px, options_.speck_mm2, context);
+  if (context.stop()) return Error{Errc::Cancelled, "stopped while looking for surfaces"};
+  return relief;
+}
+
+}  // namespace relievo::pipeline
