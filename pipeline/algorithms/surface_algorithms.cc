@@ -9,6 +9,7 @@
 #include "pipeline/mesh/catalogue/poisson_mesher.h"
 #include "pipeline/mesh/catalogue/rbf_mesher.h"
 #include "pipeline/mesh/completion/measured_only.h"
+#include "pipeline/mesh/completion/generic_head_completion.h"
 #include "pipeline/mesh/completion/symmetric_completion.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/grid_mesher.h"
@@ -47,6 +48,7 @@ constexpr std::array kMeshers{
 constexpr std::array kCompletions{
     without_options<Completion, MeasuredOnly>("measured-only"),
     with_options<Completion, SymmetricCompletion, SymmetricCompletionOptions>("symmetric"),
+    with_options<Completion, GenericHeadCompletion, GenericHeadOptions>("generic-head"),
 };
 
 constexpr std::array kTexturers{

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What one side of the face hides, the other side shows: the measured surface is mirrored at the plane of
-// symmetry found in it and laid where nothing was measured, as radii about the head's upright axis. It is
-// moved by what the two differ along their seam, relaxed into the new part (Laplace), so that no step is left,
-// and sewn to the measured border by a constrained Delaunay triangulation of the gap.
+// symmetry found in it and laid where nothing was measured (unrolled_head.h), moved by what the two differ along
+// their seam, and sewn on (head_sewing.h).
 // Its sigma is that of asymmetry: sigma_mm, and sigma_per_mm more for every millimetre from the seam.
-// Memory: the mesh in `output`, the rest in scratch; CGAL's triangulation of the gap takes from the heap.
 // Errors: those of Completion. Thread: any.
 #pragma once
 

@@ -138,11 +138,13 @@ TEST_P(Completions, StopAndSayWhenMemoryIsUsedUp) {
 INSTANTIATE_TEST_SUITE_P(All, Completions, testing::ValuesIn(relievo::test::names_of("completion")),
                          [](const auto& one) { return relievo::test::test_name(one.param); });
 
+class HiddenFace : public ::testing::TestWithParam<std::string> {};
+
 // The side that is turned away, where the cameras see next to nothing of it.
-TEST(SymmetricCompletion, HiddenFaceLiesWithinTwoMillimetresOfTheHead) {
+TEST_P(HiddenFace, LiesWithinTwoMillimetresOfTheHead) {
   StageRoom room;
   const Turned& t = turned();
-  const auto after = completed("symmetric", t.mesh, room);
+  const auto after = completed(GetParam(), t.mesh, room);
   ASSERT_TRUE(after);
   const RigidTransform head_from_camera = inverse(FieldHead::camera_from_head(t.pose));
   std::vector<double> off;
@@ -163,6 +165,9 @@ TEST(SymmetricCompletion, HiddenFaceLiesWithinTwoMillimetresOfTheHead) {
   EXPECT_LT(off[off.size() * 95 / 100], 6);
   EXPECT_GT(share, 0.5);
 }
+
+INSTANTIATE_TEST_SUITE_P(By, HiddenFace, testing::Values("symmetric", "generic-head"),
+                         [](const auto& one) { return relievo::test::test_name(one.param); });
 
 }  // namespace
 }  // namespace relievo::pipeline
