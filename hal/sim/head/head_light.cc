@@ -18,11 +18,12 @@ Panel panel_at(const Mat3& head_from_world, Vec3 origin, Vec3 centre, Vec3 aim, 
 
 }  // namespace
 
-HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool) {
+HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting) {
   const Mat3 head_from_world = pose.world_from_head().transposed();
   const Vec3 origin = pose.origin_mm(), aim{20, -10, 560};
-  panels_ = {panel_at(head_from_world, origin, {-330, -190, 40}, aim, 130, 0.80), panel_at(head_from_world, origin, {470, -200, 60}, aim, 130, 0.42),
-             panel_at(head_from_world, origin, {80, 420, 60}, aim, 120, 0.10)};
+  panels_ = {panel_at(head_from_world, origin, {-330, -190, 40}, aim, 130, 0.80 * lighting.left),
+             panel_at(head_from_world, origin, {470, -200, 60}, aim, 130, 0.42 * lighting.right),
+             panel_at(head_from_world, origin, {80, 420, 60}, aim, 120, 0.10 * lighting.below)};
   eye_ = head_from_world * (Vec3{70, 0, 0} - origin);
   up_ = head_from_world * Vec3{0, -1, 0};
   for (std::size_t shell = 0; shell < HeadModel::BodyCount; ++shell)

@@ -23,7 +23,7 @@ struct Panel {
 class HeadLight {
  public:
   static constexpr std::size_t kPanels = 3;
-  HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool);
+  HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting);
 
   struct Point {
     Vec3 at, normal, to_eye;          // unit vectors

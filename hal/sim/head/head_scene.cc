@@ -14,9 +14,9 @@ constexpr Vec3 kMiddleOfFace{0, -28, 95};
 
 class HeadScene final : public Scene {
  public:
-  HeadScene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool)
+  HeadScene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting)
       : head_(std::move(head)), world_from_head_(pose.world_from_head()), head_from_world_(world_from_head_.transposed()),
-        origin_(pose.origin_mm()), light_(*head_, pose, pool), skin_(head_->field) {
+        origin_(pose.origin_mm()), light_(*head_, pose, pool, lighting), skin_(head_->field) {
     // Looks between the cameras, as far as eyes turn without the head.
     for (std::size_t k = 0; k < 2; ++k) {
       const Vec3 to = to_head({70, 0, 0}) - head_->eye_centres[k];
@@ -164,8 +164,9 @@ std::shared_ptr<const HeadModel> make_head(const HeadTraits& traits, ThreadPool&
   return std::make_shared<const HeadModel>(traits, pool);
 }
 
-std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool) {
-  return std::make_unique<HeadScene>(std::move(head), pose, pool);
+std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool,
+                                       const HeadLighting& lighting) {
+  return std::make_unique<HeadScene>(std::move(head), pose, pool, lighting);
 }
 
 }  // namespace relievo::hal::sim

@@ -24,10 +24,15 @@ struct HeadPose {
   Vec3 origin_mm() const;         // of the head frame, in world
 };
 
+struct HeadLighting {             // shares of the kiosk's own powers
+  double left = 1, right = 1, below = 1;  // as the cameras see it
+};
+
 class HeadModel;                  // one person's geometry, reusable in any pose
 
 std::shared_ptr<const HeadModel> make_head(const HeadTraits& traits, ThreadPool& pool);
 
-std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool);
+std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool,
+                                       const HeadLighting& lighting = {});
 
 }  // namespace relievo::hal::sim
