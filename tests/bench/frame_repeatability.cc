@@ -3,7 +3,7 @@
 //
 // Is the head's frame the same however the head is turned? Folders of one photograph each (left.png,
 // right.png, rig.yml, head.ply), named PERSON_POSE, as `relievo simulate face --truth` writes them: each is
-// reconstructed, and the frames of one person are compared pair by pair, their true motion undone.
+// reconstructed (once: mesh.bin keeps the surface, remove it to match again), and the frames of one person are compared pair by pair, their true motion undone.
 // Exit code 1 where any two frames of one person are further apart than 0.7 mm or 0.7 degrees.
 //   frame_repeatability FOLDER...
 // A set:  for s in $(seq 1 10); do for p in "front 0 0" "left 25 0" "right -25 0" "down 0 15" "up 0 -15"; do
@@ -16,6 +16,7 @@
 #include "firmware/measure/true_surface.h"
 #include "firmware/measure/vector3.h"
 #include "tests/bench/frame_trial.h"
+#include "tests/bench/recognition/enrolment.h"
 
 namespace relievo::bench {
 namespace {
@@ -25,8 +26,9 @@ constexpr double kBarMm = 0.7, kBarDeg = 0.7;
 Result<Photograph> look_at(const std::filesystem::path& folder, test::StageBench& room) {
   Photograph photo{person_of(folder), pose_of(folder), {}, {}, {}};
   RELIEVO_TRY_ASSIGN(photo.true_surface, firmware::measure::read_true_surface(folder / "head.ply"));
-  RELIEVO_TRY_ASSIGN(const auto mesh, reconstruct_folder(folder, room, photo.across));
-  auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) { return find_head_frame(mesh, {}, c, photo.across); });
+  RELIEVO_TRY_ASSIGN(const SeenSurface seen, surface_of(folder, room));
+  photo.across = seen.across;
+  auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) { return find_head_frame(seen.mesh, {}, c, photo.across); });
   if (!frame) return frame.error();
   photo.frame = *frame;
   return photo;
