@@ -51,6 +51,7 @@ inline constexpr milliseconds kFrameWait{2000};           // from the trigger to
 inline constexpr microseconds kMaxSkew{100};              // between the two exposures of a pair at one trigger
 inline constexpr microseconds kMaxFreeSkew{17'000};       // without a trigger wire: half a frame at 30 a second
 inline constexpr microseconds kStampSlack{1000};          // how much a frame may seem older than its pulse
+inline constexpr microseconds kLongestExposure{8'000};    // a face that moves 25 mm a second smears 0.2 mm
 inline constexpr int kGrabTries = 3;                      // pulses, until a pair that was refused is an error
 inline constexpr milliseconds kCameraRetryFirst{250};     // after a camera has vanished; doubles with each attempt
 inline constexpr milliseconds kCameraRetryMost{8'000};
