@@ -8,6 +8,7 @@
 
 #include "firmware/command/services.h"
 #include "firmware/work/pool_size.h"
+#include "hal/linux/board.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
 #include "hal/sim/photo/held_board.h"
@@ -18,6 +19,15 @@ namespace relievo::firmware {
 namespace {
 
 constexpr std::string_view kFolder = "folder:";
+constexpr std::string_view kLinux = "linux";
+constexpr std::string_view kBoardFile = "/etc/relievo/board.toml";
+
+// "linux", or "linux:FILE" with another file that says what is wired where.
+Result<std::unique_ptr<hal::Board>> open_linux_board(std::string_view board) {
+  const bool named = board.size() > kLinux.size();
+  RELIEVO_TRY_ASSIGN(const auto options, hal::read_linux_board_file(named ? board.substr(kLinux.size() + 1) : kBoardFile));
+  return hal::make_linux_board(options);
+}
 
 Result<std::unique_ptr<hal::Board>> open_board(std::string_view board) {
   if (board == "sim") {
@@ -26,7 +36,8 @@ Result<std::unique_ptr<hal::Board>> open_board(std::string_view board) {
     return hal::make_sim_board(options);
   }
   if (board.substr(0, kFolder.size()) == kFolder) return hal::make_folder_board(board.substr(kFolder.size()));
-  return Error{Errc::InvalidInput, "is no board: use sim, or folder:DIR with recorded pairs"}.at(board);
+  if (board == kLinux || (board.starts_with(kLinux) && board[kLinux.size()] == ':')) return open_linux_board(board);
+  return Error{Errc::InvalidInput, "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}.at(board);
 }
 
 Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write) {

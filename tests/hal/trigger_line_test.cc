@@ -29,7 +29,7 @@ class LampLine final : public TriggerLine {
   struct Flash {
     Instant begin, end;
   };
-  LampLine(ManualClock& clock, bool one_wire = false) : TriggerLine(clock), clock_(clock), one_wire_(one_wire) {}
+  explicit LampLine(ManualClock& clock, bool one_wire = false) : TriggerLine(clock), clock_(clock), one_wire_(one_wire) {}
   std::vector<Flash> flashes;
   int pulses = 0;
   bool broken = false;

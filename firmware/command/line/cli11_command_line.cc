@@ -71,7 +71,7 @@ void add_kind(CLI::App& command, const char* name, BoardArgs& board, const char*
 
 CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
   CLI::Option* live = command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
-  command.add_option("--board", args.cameras, "of --live: sim, with a hand that follows the advice, or folder:DIR")
+  command.add_option("--board", args.cameras, "of --live: sim, with a hand that follows the advice; folder:DIR; linux or linux:FILE")
       ->type_name("BOARD")->needs(live);
   command.add_option("--goal-mm", args.goal_mm, "of --live: the depth error at 560 mm to reach, one standard deviation")
       ->check(within(0.001, 100))->capture_default_str()->needs(live);
@@ -135,7 +135,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
 
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
-  command->add_option("--board", args.board, "sim, or folder:DIR with recorded pairs")->required()->type_name("BOARD");
+  command->add_option("--board", args.board, "sim, folder:DIR with recorded pairs, or linux, linux:FILE: what FILE says is wired where (default /etc/relievo/board.toml)")->required()->type_name("BOARD");
   command->add_option("--subject", args.subject, "who it is")->required()->type_name("NAME");
   command->add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
   add_store(*command, args.store);

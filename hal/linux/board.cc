@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/linux/board.h"
+
+#include "hal/linux/side_by_side.h"
+#include "hal/monotonic_clock.h"
+
+namespace relievo::hal {
+namespace {
+
+// Cameras that run on their own need no pulse.
+class NoLine final : public TriggerLine {
+ public:
+  using TriggerLine::TriggerLine;
+
+ private:
+  Result<void> do_pulse(std::chrono::microseconds, Light light) override {
+    if (light == Light::Flash) return Error{Errc::Unsupported, "this board has no trigger wire, and so no lamp"};
+    return {};
+  }
+};
+
+class NoStick final : public RemovableMedia {
+ public:
+  std::optional<Medium> current() override { return std::nullopt; }
+  Result<void> flush_and_eject() override { return Error{Errc::MediaMissing, "there is no stick"}; }
+};
+
+class NoWatchdog final : public Watchdog {
+ public:
+  void kick() override {}
+};
+
+class LinuxBoard final : public Board {
+ public:
+  LinuxBoard(const LinuxBoardOptions& options, std::unique_ptr<OutputLines> lines, Kernel& kernel)
+      : mode_(options.mode), first_(options.left, kernel, clock_) {
+    if (options.right) second_.emplace(*options.right, kernel, clock_);
+    else halves_.emplace(first_);
+    if (lines) trigger_ = std::make_unique<GpioTriggerLine>(std::move(lines), options.timing, clock_);
+    else trigger_ = std::make_unique<NoLine>(clock_);
+    // One device exposes both views at once, with a wire or without.
+    together_ = options.trigger.has_value() || !options.right;
+  }
+
+  std::string_view name() const override { return "linux"; }
+  CaptureMode preferred_mode() const override { return mode_; }
+  Camera& left() override { return halves_ ? halves_->left() : first_; }
+  Camera& right() override { return halves_ ? halves_->right() : *second_; }
+  TriggerLine& trigger() override { return *trigger_; }
+  bool exposes_together() const override { return together_; }
+  RemovableMedia& media() override { return media_; }
+  Clock& clock() override { return clock_; }
+  Watchdog& watchdog() override { return watchdog_; }
+
+ private:
+  MonotonicClock clock_;
+  CaptureMode mode_;
+  V4l2Camera first_;
+  std::optional<V4l2Camera> second_;
+  std::optional<SideBySide> halves_;
+  std::unique_ptr<TriggerLine> trigger_;
+  bool together_ = true;
+  NoStick media_;
+  NoWatchdog watchdog_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options, Kernel& kernel) {
+  RELIEVO_TRY(options.timing.check());
+  std::unique_ptr<OutputLines> lines;
+  if (options.trigger) {
+    RELIEVO_TRY_ASSIGN(lines, request_gpiod_lines(*options.trigger));
+  }
+  return std::unique_ptr<Board>(std::make_unique<LinuxBoard>(options, std::move(lines), kernel));
+}
+
+}  // namespace relievo::hal

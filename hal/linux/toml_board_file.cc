@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "hal/linux/board.h"
+#include "hal/raw/raw_image.h"
+#include "hal/whole_file.h"
+
+namespace relievo::hal {
+namespace {
+
+constexpr std::size_t kMostBytes = 64 * 1024;
+
+// Reads tables of known words; the first thing wrong is kept, with its place.
+class Words {
+ public:
+  Words(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}
+
+  const toml::table* table(std::string_view name, std::initializer_list<std::string_view> words) {
+    const toml::node* node = root_.get(name);
+    if (node == nullptr) return nullptr;
+    const toml::table* found = node->as_table();
+    if (found == nullptr) {
+      wrong(node, name);
+      return nullptr;
+    }
+    for (const auto& [key, value] : *found)
+      if (std::find(words.begin(), words.end(), key.str()) == words.end()) wrong(&value, key.str());
+    return found;
+  }
+  void only_tables(std::initializer_list<std::string_view> names) {
+    for (const auto& [key, value] : root_)
+      if (std::find(names.begin(), names.end(), key.str()) == names.end()) wrong(&value, key.str());
+  }
+  template <typename T>
+  T get(const toml::table& table, std::string_view word, T otherwise, bool must = false) {
+    const toml::node* node = table.get(word);
+    if (node == nullptr) {
+      if (must) wrong(&table, word);
+      return otherwise;
+    }
+    const auto value = node->value_exact<T>();
+    if (!value) wrong(node, word);
+    return value.value_or(otherwise);
+  }
+  std::int64_t number(const toml::table& table, std::string_view word, std::int64_t least, std::int64_t most, std::int64_t otherwise, bool must = false) {
+    const auto value = get<std::int64_t>(table, word, otherwise, must);
+    if (table.get(word) != nullptr && (value < least || value > most)) wrong(table.get(word), word);
+    return value;
+  }
+  void wrong(const toml::node* node, std::string_view word) {
+    if (problem_) return;
+    const auto line = node == nullptr ? 0 : node->source().begin.line;
+    problem_ = Error{Errc::InvalidInput, "this word is missing, unknown or cannot be used: see hal/linux/README.md"}.at(
+        file_ + (line > 0 ? " line " + std::to_string(line) : std::string()) + ": " + std::string(word));
+  }
+  const std::optional<Error>& problem() const { return problem_; }
+
+ private:
+  const toml::table& root_;
+  std::string file_;
+  std::optional<Error> problem_;
+};
+
+V4l2CameraOptions camera_of(Words& words, const toml::table& table, bool triggered) {
+  V4l2CameraOptions camera;
+  camera.device = words.get<std::string>(table, "device", {}, true);
+  camera.serial = words.get<std::string>(table, "serial", {});
+  camera.triggered = triggered;
+  const auto format = words.get<std::string>(table, "format", {});
+  if (!format.empty() && format.size() != 4) words.wrong(table.get("format"), "format");
+  for (std::size_t i = 0; i < format.size() && i < 4; ++i)
+    camera.fourcc |= static_cast<std::uint32_t>(static_cast<unsigned char>(format[i])) << (8 * i);
+  return camera;
+}
+
+void read_mode(Words& words, CaptureMode& mode) {
+  const toml::table* table = words.table("mode", {"width_px", "height_px", "exposure_us"});
+  if (table == nullptr) return words.wrong(nullptr, "[mode]");
+  mode.width_px = static_cast<int>(words.number(*table, "width_px", 16, kMaxRawSidePx, 0, true));
+  mode.height_px = static_cast<int>(words.number(*table, "height_px", 16, kMaxRawSidePx, 0, true));
+  mode.exposure = std::chrono::microseconds(words.number(*table, "exposure_us", 1, 100'000, 0));
+}
+
+void read_wires(Words& words, LinuxBoardOptions& options) {
+  const std::int64_t longest = TriggerLine::kLongestPulse.count();
+  const toml::table* trigger = words.table("trigger", {"chip", "line", "active_low", "delay_us"});
+  const toml::table* lamp = words.table("lamp", {"line", "lead_us", "time_us", "on_trigger_wire"});
+  if (lamp != nullptr && trigger == nullptr) words.wrong(lamp, "[lamp] without [trigger]");
+  if (trigger == nullptr) return;
+  GpioOptions gpio;
+  gpio.chip = words.get<std::string>(*trigger, "chip", {}, true);
+  gpio.trigger = static_cast<unsigned>(words.number(*trigger, "line", 0, 4095, 0, true));
+  gpio.active_low = words.get<bool>(*trigger, "active_low", false);
+  options.timing.delay = std::chrono::microseconds(words.number(*trigger, "delay_us", 0, longest, 0));
+  if (lamp != nullptr) {
+    options.timing.lamp_on_trigger_wire = words.get<bool>(*lamp, "on_trigger_wire", false);
+    options.timing.lamp_lead = std::chrono::microseconds(words.number(*lamp, "lead_us", 0, longest, 0));
+    options.timing.lamp_time = std::chrono::microseconds(words.number(*lamp, "time_us", 0, longest, 0));
+    if (!options.timing.lamp_on_trigger_wire) gpio.lamp = static_cast<unsigned>(words.number(*lamp, "line", 0, 4095, 0, true));
+  }
+  options.trigger = gpio;
+}
+
+Result<LinuxBoardOptions> options_of(const toml::table& root, const std::string& file) {
+  Words words(root, file);
+  words.only_tables({"mode", "left", "right", "both", "trigger", "lamp"});
+  LinuxBoardOptions options;
+  read_mode(words, options.mode);
+  read_wires(words, options);
+  const toml::table* left = words.table("left", {"device", "serial", "format"});
+  const toml::table* right = words.table("right", {"device", "serial", "format"});
+  const toml::table* both = words.table("both", {"device", "serial", "format"});
+  if (both != nullptr && left == nullptr && right == nullptr) {
+    options.left = camera_of(words, *both, options.trigger.has_value());
+  } else if (both == nullptr && left != nullptr && right != nullptr) {
+    options.left = camera_of(words, *left, options.trigger.has_value());
+    options.right = camera_of(words, *right, options.trigger.has_value());
+    if (options.left.device == options.right->device) words.wrong(right->get("device"), "device: the same as left's");
+  } else {
+    words.wrong(nullptr, "either [left] and [right], or [both]");
+  }
+  if (words.problem()) return *words.problem();
+  return options;
+}
+
+}  // namespace
+
+Result<LinuxBoardOptions> read_linux_board_file(const std::filesystem::path& file) {
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, read_whole_file(file, kMostBytes));
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  try {
+    return options_of(toml::parse(text, file.native()), file.native());
+  } catch (const toml::parse_error& error) {
+    return Error{Errc::InvalidInput, "this is not valid TOML: see hal/linux/README.md"}.at(
+        file.native() + " line " + std::to_string(error.source().begin.line));
+  }
+}
+
+}  // namespace relievo::hal

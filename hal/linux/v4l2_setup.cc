@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/linux/v4l2_setup.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <vector>
+
+#include <linux/videodev2.h>
+
+#include "hal/linux/v4l2_formats.h"
+
+namespace relievo::hal {
+namespace {
+
+constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+constexpr std::uint32_t kShortestPerSecond = 60;
+constexpr std::uint32_t kMostEntries = 512;  // of a driver's list: one that never ends is not believed
+
+bool has_no_such_call(int result) { return result == -ENOTTY || result == -EINVAL || result == -ENODATA; }
+
+Result<void> check_capabilities(Kernel& kernel, int file) {
+  v4l2_capability can{};
+  if (const int r = call(kernel, file, VIDIOC_QUERYCAP, &can); r < 0)
+    return device_error(r, {Errc::Unsupported, "this is no camera: name a /dev/v4l/by-path/ device"});
+  const std::uint32_t caps = (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
+  if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0 && (caps & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0)
+    return Error{Errc::Unsupported, "this camera gives its pictures in several planes, which is not supported"};
+  if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0)
+    return Error{Errc::Unsupported, "this device takes no pictures: name the camera's capture node (often -index0)"};
+  if ((caps & V4L2_CAP_STREAMING) == 0) return Error{Errc::Unsupported, "this camera's driver cannot stream"};
+  return {};
+}
+
+const Error kInterlaced{Errc::Unsupported, "this camera gives interlaced fields, between which a face moves: set a progressive mode"};
+
+// HDMI and its kin: what the cable carries is what the input must be told.
+Result<void> follow_signal(Kernel& kernel, int file) {
+  v4l2_dv_timings timings{};
+  const int r = call(kernel, file, VIDIOC_QUERY_DV_TIMINGS, &timings);
+  if (r == -ENOLINK) return Error{Errc::Timeout, "the camera's input has no signal: check the cable"};
+  if (r == -ENOLCK) return Error{Errc::Timeout, "the camera's signal is not steady: check the cable"};
+  if (r == -ERANGE) return Error{Errc::Unsupported, "the camera's signal has timings its input cannot take"};
+  if (has_no_such_call(r)) return {};  // timings are set from outside
+  if (r < 0) return device_error(r, {Errc::IoFailed, "the camera's input does not tell its timings"});
+  if (timings.bt.interlaced != V4L2_DV_PROGRESSIVE) return kInterlaced;
+  if (const int set = call(kernel, file, VIDIOC_S_DV_TIMINGS, &timings); set < 0)
+    return device_error(set, {Errc::IoFailed, "the camera's input does not take its signal's timings"});
+  return {};
+}
+
+// Inputs have frame intervals, or timings, or neither; which, they say themselves.
+Result<bool> has_timings(Kernel& kernel, int file) {
+  int index = 0;
+  int r = call(kernel, file, VIDIOC_G_INPUT, &index);
+  if (has_no_such_call(r)) return false;
+  if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its input"});
+  v4l2_input input{};
+  input.index = static_cast<std::uint32_t>(index);
+  r = call(kernel, file, VIDIOC_ENUMINPUT, &input);
+  if (has_no_such_call(r)) return false;
+  if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its input"});
+  if ((input.status & (V4L2_IN_ST_NO_POWER | V4L2_IN_ST_NO_SIGNAL)) != 0)
+    return Error{Errc::Timeout, "the camera's input has no signal: check the cable"};
+  return (input.capabilities & V4L2_IN_CAP_DV_TIMINGS) != 0;
+}
+
+// The shortest interval that the driver takes; without a choice it stays as it is.
+Result<void> set_interval(Kernel& kernel, int file) {
+  v4l2_streamparm parameters{};
+  parameters.type = kCapture;
+  int r = call(kernel, file, VIDIOC_G_PARM, &parameters);
+  if (has_no_such_call(r) || (r == 0 && (parameters.parm.capture.capability & V4L2_CAP_TIMEPERFRAME) == 0)) return {};
+  if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its frame interval"});
+  parameters.parm.capture.timeperframe = {1, kShortestPerSecond};
+  r = call(kernel, file, VIDIOC_S_PARM, &parameters);
+  if (r < 0 && !has_no_such_call(r)) return device_error(r, {Errc::IoFailed, "the camera does not take a frame interval"});
+  return {};
+}
+
+Result<std::vector<std::uint32_t>> formats_of(Kernel& kernel, int file) {
+  std::vector<std::uint32_t> formats;
+  for (std::uint32_t i = 0; i < kMostEntries; ++i) {
+    v4l2_fmtdesc format{};
+    format.index = i;
+    format.type = kCapture;
+    const int r = call(kernel, file, VIDIOC_ENUM_FMT, &format);
+    if (r == -EINVAL || r == -ENOTTY) break;
+    if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not list its formats"});
+    formats.push_back(format.pixelformat);
+  }
+  return formats;
+}
+
+// Nothing, where the driver answers with another size or format than it was asked for.
+Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const CaptureMode& mode, const V4l2Format& wanted) {
+  v4l2_format format{};
+  format.type = kCapture;
+  v4l2_pix_format& pix = format.fmt.pix;
+  pix.width = static_cast<std::uint32_t>(mode.width_px);
+  pix.height = static_cast<std::uint32_t>(mode.height_px);
+  pix.pixelformat = wanted.fourcc;
+  pix.field = V4L2_FIELD_NONE;
+  const int r = call(kernel, file, VIDIOC_S_FMT, &format);
+  if (r == -EINVAL) return std::optional<V4l2Stream>();
+  if (r == -EBUSY) return Error{Errc::IoFailed, "another program uses this camera: close it"};
+  if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not take a format"});
+  if (pix.pixelformat != wanted.fourcc || pix.width != static_cast<std::uint32_t>(mode.width_px) ||
+      pix.height != static_cast<std::uint32_t>(mode.height_px))
+    return std::optional<V4l2Stream>();
+  if (pix.field != V4L2_FIELD_NONE && pix.field != V4L2_FIELD_ANY) return kInterlaced;
+  V4l2Stream stream{wanted.raw, mode.width_px, mode.height_px, 0};
+  if (wanted.raw.coding != RawCoding::Mjpeg)
+    stream.stride_bytes = static_cast<int>(std::max<std::size_t>(pix.bytesperline, raw_row_bytes(wanted.raw.coding, mode.width_px)));
+  return std::optional<V4l2Stream>(stream);
+}
+
+}  // namespace
+
+Result<V4l2Stream> set_up_stream(Kernel& kernel, int file, const CaptureMode& mode, std::uint32_t fourcc) {
+  RELIEVO_TRY(check_capabilities(kernel, file));
+  RELIEVO_TRY_ASSIGN(const bool timings, has_timings(kernel, file));
+  if (timings) RELIEVO_TRY(follow_signal(kernel, file));
+  RELIEVO_TRY_ASSIGN(const auto offered, formats_of(kernel, file));
+  for (const V4l2Format& wanted : v4l2_formats()) {
+    if (fourcc != 0 && wanted.fourcc != fourcc) continue;
+    if (std::find(offered.begin(), offered.end(), wanted.fourcc) == offered.end()) continue;
+    RELIEVO_TRY_ASSIGN(const auto stream, try_format(kernel, file, mode, wanted));
+    if (!stream) continue;
+    if (!timings) RELIEVO_TRY(set_interval(kernel, file));
+    return *stream;
+  }
+  return Error{Errc::Unsupported, "the camera gives no picture of this size in a format that can be read: choose another mode"};
+}
+
+}  // namespace relievo::hal

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// libgpiod changed every name between 1.6 (Debian 12) and 2 (Debian 13): RELIEVO_GPIOD_2 says which.
+#include <gpiod.h>
+
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+#include "hal/linux/wire/last_will.h"
+#include "hal/linux/wire/output_lines.h"
+
+namespace relievo::hal {
+namespace {
+
+constexpr const char* kConsumer = "relievo";
+
+Error chip_error(int number) {
+  switch (number) {
+    case ENOENT:
+    case ENXIO:
+    case ENODEV:
+    case ENOTTY: return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
+    case EACCES:
+    case EPERM: return Error{Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio", number};
+    default: return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
+  }
+}
+
+Error line_error(int number) {
+  switch (number) {
+    case EINVAL:
+    case ENOENT: return Error{Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo", number};
+    case EBUSY: return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
+    default: return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
+  }
+}
+
+Error set_error(int number) {
+  if (number == ENODEV) return Error{Errc::Disconnected, "the GPIO chip is gone: check its plug", number};
+  return Error{Errc::IoFailed, "the GPIO line does not answer", number};
+}
+
+#ifdef RELIEVO_GPIOD_2
+
+// The lines of one chip, requested together.
+class Lines {
+ public:
+  static Result<Lines> request(const GpioOptions& options) {
+    gpiod_chip* const chip = gpiod_chip_open(options.chip.c_str());
+    if (chip == nullptr) return chip_error(errno);
+    Lines lines;
+    lines.offsets_.push_back(options.trigger);
+    if (options.lamp) lines.offsets_.push_back(*options.lamp);
+    gpiod_line_settings* const settings = gpiod_line_settings_new();
+    gpiod_line_config* const config = gpiod_line_config_new();
+    gpiod_request_config* const request = gpiod_request_config_new();
+    if (settings != nullptr && config != nullptr && request != nullptr) {
+      gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_OUTPUT);
+      gpiod_line_settings_set_output_value(settings, GPIOD_LINE_VALUE_INACTIVE);
+      gpiod_line_settings_set_active_low(settings, options.active_low);
+      gpiod_line_config_add_line_settings(config, lines.offsets_.data(), lines.offsets_.size(), settings);
+      gpiod_request_config_set_consumer(request, kConsumer);
+      lines.request_ = gpiod_chip_request_lines(chip, request, config);
+    }
+    const int number = errno;
+    gpiod_request_config_free(request);
+    gpiod_line_config_free(config);
+    gpiod_line_settings_free(settings);
+    gpiod_chip_close(chip);
+    if (lines.request_ == nullptr) return line_error(number);
+    return lines;
+  }
+  ~Lines() {
+    if (request_ != nullptr) gpiod_line_request_release(request_);
+  }
+  Lines(Lines&& other) noexcept : offsets_(std::move(other.offsets_)), request_(std::exchange(other.request_, nullptr)) {}
+  Lines& operator=(Lines&&) = delete;
+  std::size_t count() const { return offsets_.size(); }
+  bool set(std::size_t line, bool active) {
+    return gpiod_line_request_set_value(request_, offsets_[line], active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE) == 0;
+  }
+
+ private:
+  Lines() = default;
+  std::vector<unsigned> offsets_;
+  gpiod_line_request* request_ = nullptr;
+};
+
+#else
+
+class Lines {
+ public:
+  static Result<Lines> request(const GpioOptions& options) {
+    Lines lines;
+    lines.chip_ = gpiod_chip_open(options.chip.c_str());
+    if (lines.chip_ == nullptr) return chip_error(errno);
+    std::vector<unsigned> offsets{options.trigger};
+    if (options.lamp) offsets.push_back(*options.lamp);
+    for (const unsigned offset : offsets) {
+      gpiod_line* const line = gpiod_chip_get_line(lines.chip_, offset);
+      if (line == nullptr) return line_error(errno);
+      const int flags = options.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
+      if (gpiod_line_request_output_flags(line, kConsumer, flags, 0) != 0) return line_error(errno);
+      lines.lines_.push_back(line);
+    }
+    return lines;
+  }
+  ~Lines() {
+    if (chip_ != nullptr) gpiod_chip_close(chip_);  // releases its lines
+  }
+  Lines(Lines&& other) noexcept : chip_(std::exchange(other.chip_, nullptr)), lines_(std::move(other.lines_)) {}
+  Lines& operator=(Lines&&) = delete;
+  std::size_t count() const { return lines_.size(); }
+  bool set(std::size_t line, bool active) { return gpiod_line_set_value(lines_[line], active ? 1 : 0) == 0; }
+
+ private:
+  Lines() = default;
+  gpiod_chip* chip_ = nullptr;
+  std::vector<gpiod_line*> lines_;
+};
+
+#endif
+
+void set_all_inactive(Lines& lines) {
+  for (std::size_t i = 0; i < lines.count(); ++i) (void)lines.set(i, false);
+}
+
+class GpiodOutputLines final : public OutputLines {
+ public:
+  GpiodOutputLines(Lines lines, LastWill will) : lines_(std::move(lines)), will_(std::move(will)) {}
+  ~GpiodOutputLines() override { set_all_inactive(lines_); }
+  GpiodOutputLines(const GpiodOutputLines&) = delete;
+  GpiodOutputLines& operator=(const GpiodOutputLines&) = delete;
+
+  Result<void> set(Wire wire, bool active) override {
+    const std::size_t line = wire == Wire::Trigger ? 0 : 1;
+    if (line >= lines_.count()) return {};  // no lamp
+    if (!lines_.set(line, active)) return set_error(errno);
+    return {};
+  }
+
+ private:
+  Lines lines_;
+  LastWill will_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<OutputLines>> request_gpiod_lines(const GpioOptions& options) {
+  auto lines = Lines::request(options);
+  if (!lines) return lines.error().at(options.chip);
+  // The child shares the requested lines, so that the kernel does not give them free before it has set them.
+  RELIEVO_TRY_ASSIGN(LastWill will, LastWill::make([&lines] { set_all_inactive(*lines); }));
+  return std::unique_ptr<OutputLines>(std::make_unique<GpiodOutputLines>(*std::move(lines), std::move(will)));
+}
+
+}  // namespace relievo::hal

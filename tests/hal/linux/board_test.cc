@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/linux/board.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "tests/hal/temporary_folder.h"
+#include "tests/support/v4l2_fake_kernel.h"
+
+namespace relievo::hal {
+namespace {
+
+constexpr const char* kMode = "[mode]\nwidth_px = 32\nheight_px = 48\nexposure_us = 4000\n";
+constexpr const char* kTwo = "[left]\ndevice = \"/dev/a\"\nserial = \"L\"\n[right]\ndevice = \"/dev/b\"\nformat = \"GREY\"\n";
+constexpr const char* kWires = "[trigger]\nchip = \"/dev/gpiochip0\"\nline = 17\ndelay_us = 20\n[lamp]\nline = 18\nlead_us = 200\n";
+
+Result<LinuxBoardOptions> read(const std::string& text) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "board.toml") << text;
+  return read_linux_board_file(folder / "board.toml");
+}
+
+TEST(LinuxBoardFile, SaysWhatIsWiredWhere) {
+  const auto options = read(std::string(kMode) + kTwo + kWires);
+  ASSERT_TRUE(options) << options.error().where();
+  EXPECT_EQ(options->mode.width_px, 32);
+  EXPECT_EQ(options->mode.exposure, std::chrono::microseconds(4000));
+  EXPECT_EQ(options->left.device, "/dev/a");
+  EXPECT_EQ(options->left.serial, "L");
+  EXPECT_TRUE(options->left.triggered);
+  ASSERT_TRUE(options->right && options->trigger);
+  EXPECT_EQ(options->right->fourcc, 0x59455247U);
+  EXPECT_EQ(options->trigger->trigger, 17U);
+  EXPECT_EQ(options->trigger->lamp, 18U);
+  EXPECT_EQ(options->timing.delay, std::chrono::microseconds(20));
+  EXPECT_EQ(options->timing.lamp_lead, std::chrono::microseconds(200));
+}
+
+TEST(LinuxBoardFile, WithoutATriggerTheCamerasRunFree) {
+  const auto options = read(std::string(kMode) + kTwo);
+  ASSERT_TRUE(options);
+  EXPECT_FALSE(options->trigger);
+  EXPECT_FALSE(options->left.triggered);
+}
+
+TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
+  const std::string good = std::string(kMode) + kTwo;
+  const std::pair<std::string, const char*> cases[] = {
+      {"[mode\n", "line 1"},
+      {kTwo, "[mode]"},
+      {kMode, "[left]"},
+      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n", "[both]"},
+      {good + "[both]\ndevice = \"/dev/c\"\n", "[both]"},
+      {good + "[flash]\nline = 1\n", "flash"},
+      {good + "[lamp]\nline = 1\n", "[trigger]"},
+      {good + "[trigger]\nchip = \"x\"\n", "line 11: line"},
+      {good + "[trigger]\nchip = 3\nline = 1\n", "chip"},
+      {good + "[trigger]\nchip = \"x\"\nline = -1\n", "line"},
+      {good + "[trigger]\nchip = \"x\"\nline = 1\ndelay_us = 999999\n", "delay_us"},
+      {"[mode]\nwidth_px = 3\nheight_px = 48\n" + std::string(kTwo), "width_px"},
+      {"[mode]\nwidth_px = 32.5\nheight_px = 48\n" + std::string(kTwo), "width_px"},
+      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n[right]\ndevice = \"/dev/a\"\n", "same"},
+      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\nformat = \"MONO12\"\n[right]\ndevice = \"/dev/b\"\n", "format"},
+      {"mode = 3\n" + std::string(kTwo), "mode"},
+  };
+  for (const auto& [text, word] : cases) {
+    const auto options = read(text);
+    ASSERT_FALSE(options) << text;
+    EXPECT_EQ(options.error().code, Errc::InvalidInput);
+    EXPECT_NE(options.error().where().find(word), std::string_view::npos) << options.error().where() << " | " << word;
+  }
+  EXPECT_EQ(read_linux_board_file("/nowhere/board.toml").error().code, Errc::NotFound);
+}
+
+TEST(LinuxBoard, ATriggerThatIsNotThereIsToldBeforeACameraOpens) {
+  FakeKernel kernel;
+  auto options = read(std::string(kMode) + kTwo + kWires);
+  ASSERT_TRUE(options);
+  options->trigger->chip = "/nowhere/gpiochip9";
+  EXPECT_EQ(make_linux_board(*options, kernel).error().code, Errc::NotFound);
+  EXPECT_EQ(kernel.calls(KernelCall::Open), 0);
+}
+
+TEST(LinuxBoard, OneDeviceGivesBothViewsTogetherWithoutAWire) {
+  FakeKernel kernel;
+  const auto options = read(std::string(kMode) + "[both]\ndevice = \"/dev/c\"\n");
+  ASSERT_TRUE(options) << options.error().where();
+  const auto made = make_linux_board(*options, kernel);
+  ASSERT_TRUE(made);
+  Board& board = **made;
+  EXPECT_EQ(board.name(), "linux");
+  EXPECT_TRUE(board.exposes_together());
+  EXPECT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
+  for (Camera* camera : {&board.left(), &board.right()}) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  EXPECT_EQ(kernel.open_files, 1);
+  kernel.expose({3});
+  const Instant soon = board.clock().now() + std::chrono::seconds(5);
+  const auto left = board.left().next_frame(soon);
+  const auto right = board.right().next_frame(soon);
+  ASSERT_TRUE(left && right);
+  EXPECT_EQ(left->image().width_px, 32);
+}
+
+TEST(LinuxBoard, TwoCamerasWithoutAWireDoNotExposeTogether) {
+  FakeKernel kernel;
+  const auto made = make_linux_board(*read(std::string(kMode) + kTwo), kernel);
+  ASSERT_TRUE(made);
+  EXPECT_FALSE((*made)->exposes_together());
+  EXPECT_NE(&(*made)->left(), &(*made)->right());
+  EXPECT_FALSE((*made)->media().current());
+  (*made)->watchdog().kick();
+}
+
+}  // namespace
+}  // namespace relievo::hal
