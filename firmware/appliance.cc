@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/appliance.h"
 
+#include <string.h>
+
 #include <utility>
 
 #include "firmware/budget.h"
@@ -37,10 +39,12 @@ bool is_fault(Errc code) {
 
 Event event_of(ui::Intent intent) {
   switch (intent) {
+    case ui::Intent::Pose: return Event::PoseAsked;
     case ui::Intent::Begin: return Event::Begin;
     case ui::Intent::Accept: return Event::Accept;
     case ui::Intent::Retake: return Event::Retake;
     case ui::Intent::Cancel: return Event::Cancel;
+    case ui::Intent::StillHere: break;  // no event: it only gives time
     case ui::Intent::OpenTechnician: return Event::TechnicianIn;
     case ui::Intent::LeaveTechnician: return Event::TechnicianOut;
     case ui::Intent::Calibrate: return Event::CalibrateAsked;
@@ -55,6 +59,7 @@ Appliance::Appliance(Parts parts)
     : board_(parts.board), machine_(parts.board.clock().now()), session_(parts.memory),
       grabber_(parts.board),
       open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
+      pose_(grabber_, session_, parts.board.preferred_mode(), parts.guide, parts.board.clock()),
       grab_(grabber_, session_, parts.board.preferred_mode()),
       stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
       capture_(reports_), worker_(reports_), keeper_(reports_) {
@@ -66,7 +71,15 @@ Appliance::~Appliance() { stop_job(); }
 
 float Appliance::progress() const { return running_ != nullptr ? running_->progress() : 0; }
 
-void Appliance::ask(ui::Intent intent) { handle(event_of(intent)); }
+void Appliance::ask(ui::Intent intent) {
+  if (intent == ui::Intent::StillHere) return machine_.renew(board_.clock().now());
+  handle(event_of(intent));
+}
+
+void Appliance::forget_subject() {
+  explicit_bzero(next_subject_.data(), next_subject_.size());
+  next_subject_.clear();
+}
 
 void Appliance::step(std::chrono::milliseconds wait) {
   if (const auto report = reports_.take_for(wait)) heard(*report);
@@ -101,7 +114,8 @@ void Appliance::heard(const JobReport& report) {
   if (state == State::Match && session_.products().drift) note(*session_.products().drift);
   if (report.error) {
     note(*report.error);
-    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : Event::StageFailed);
+    const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
+    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : advise ? Event::AdviceGiven : Event::StageFailed);
   } else {
     handle(state == State::SelfTest ? Event::Passed : state == State::Capture ? Event::Triggered : Event::StageDone);
   }
@@ -122,18 +136,43 @@ void Appliance::stop_job() {
   job_ = 0;
 }
 
+bool Appliance::open_session() {
+  attempt_ = 0;
+  problem_.reset();
+  drift_.reset();
+  records_.clear();
+  const Result<void> opened = session_.open(next_subject_);
+  if (opened) return true;
+  note(opened.error());
+  handle(Event::Cancel);
+  return false;
+}
+
+// The live picture. False when there is none to show; the machine has then moved on.
+bool Appliance::enter_position(const Change& change) {
+  attended_ = true;
+  if (change.from == State::Idle) {
+    if (!open_session()) return false;
+  } else {
+    session_.retake();
+  }
+  if (change.from == State::Review) {
+    attempt_ = 0;
+    problem_.reset();
+  }
+  if (attempt_ >= budget::kCaptureAttempts) {
+    handle(Event::Cancel);
+    return false;
+  }
+  start(capture_, pose_);
+  return true;
+}
+
 // False when there is no capture to begin; the machine has then moved on.
 bool Appliance::enter_capture(const Change& change) {
   if (change.from == State::Idle) {
-    attempt_ = 0;
-    problem_.reset();
-    drift_.reset();
-    records_.clear();
-    if (const Result<void> opened = session_.open(next_subject_); !opened) {
-      note(opened.error());
-      handle(Event::Cancel);
-      return false;
-    }
+    attended_ = false;
+    if (!open_session()) return false;
   } else {
     session_.retake();
   }
@@ -150,6 +189,9 @@ void Appliance::entered(const Change& change) {
   stop_job();
   switch (change.to) {
     case State::SelfTest: start(capture_, open_cameras_); break;
+    case State::Position:
+      if (!enter_position(change)) return;
+      break;
     case State::Capture:
       if (!enter_capture(change)) return;
       break;

@@ -33,6 +33,7 @@ class Appliance {
     const BootMemory& memory;
     ThreadPool& pool;
     Keep keep;
+    PositionGuide* guide = nullptr;  // advice for a person at the screen; without one the picture alone is shown
   };
   explicit Appliance(Parts parts);
   ~Appliance();
@@ -41,6 +42,8 @@ class Appliance {
 
   // Whom the next Begin enrols.
   void set_subject(std::string_view name) { next_subject_ = name; }
+  // Nobody's name is remembered longer than a session.
+  void forget_subject();
   void ask(ui::Intent intent);
   // Waits at most `wait` for something to happen, and deals with it.
   void step(std::chrono::milliseconds wait);
@@ -56,6 +59,8 @@ class Appliance {
   // Is a camera away, and being tried again?
   CameraWatch cameras() const { return grabber_.watch(); }
   const EnrolmentSession& session() const { return session_; }
+  // For the live picture, which is handed over on reading.
+  LiveFeed& live() { return session_.live(); }
   // Of the present or last session; kept until the next begins.
   const std::vector<StageRecord>& records() const { return records_; }
   // Called after every change of state, when what it starts has started.
@@ -64,7 +69,9 @@ class Appliance {
  private:
   void handle(Event event);
   void entered(const Change& change);
+  bool enter_position(const Change& change);
   bool enter_capture(const Change& change);
+  bool open_session();
   void start(JobThread& thread, Job& job);
   void stop_job();
   void heard(const JobReport& report);
@@ -76,11 +83,13 @@ class Appliance {
   EnrolmentSession session_;
   StereoGrabber grabber_;
   OpenCamerasJob open_cameras_;
+  PoseJob pose_;
   GrabJob grab_;
   StageJob stage_;
   KeepJob keep_;
   std::string next_subject_;
   int attempt_ = 0;
+  bool attended_ = false;        // a person is at the screen: advice instead of another try
   std::optional<Error> problem_;
   std::optional<pipeline::DriftJudgement> drift_;
   std::string calibration_note_;

@@ -20,6 +20,8 @@ inline constexpr std::size_t kFrameBytes =
     std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
 // Two pictures, and a byte a pixel to develop one behind a colour filter.
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
+inline constexpr int kLiveSidePx = 640;           // longer side of the live picture on the screen
+inline constexpr int kStagePictureSidePx = 400;   // of a stage's picture, a square
 inline constexpr std::size_t kStereoSlots = 1;   // the person's own pair, kept until the session closes
 
 // --- memory -------------------------------------------------------------------------------------
@@ -46,6 +48,7 @@ using std::chrono::milliseconds;
 using std::chrono::microseconds;
 inline constexpr milliseconds kTick{50};                  // the main loop turns at least this often
 inline constexpr milliseconds kCancelWithin{100};         // a job has stopped this long after it was asked to
+inline constexpr milliseconds kLivePause{30};             // between two live pictures: others need the processor, too
 inline constexpr microseconds kTriggerPulse{100};
 inline constexpr milliseconds kFrameWait{2000};           // from the trigger to both pictures
 inline constexpr microseconds kMaxSkew{100};              // between the two exposures of a pair at one trigger
@@ -58,6 +61,7 @@ inline constexpr milliseconds kCameraRetryMost{8'000};
 inline constexpr milliseconds kCameraReturn{20'000};      // a self-test waits this long for a camera that was there
 inline constexpr int kCaptureAttempts = 3;                // until a person is asked to come again
 inline constexpr milliseconds kSelfTestLimit{30'000};
+inline constexpr milliseconds kPositionLimit{120'000};    // nobody touches the screen: nothing is photographed
 inline constexpr milliseconds kCaptureLimit{30'000};
 inline constexpr milliseconds kStageLimit{60'000};        // a stage that runs longer is stopped
 inline constexpr milliseconds kReviewLimit{60'000};       // nobody answers: nothing is kept

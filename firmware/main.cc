@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The one file that names implementations: which board, which store, which simulation.
+#include <stdlib.h>
+
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,7 +16,9 @@
 #include "hal/sim/board.h"
 #include "hal/sim/photo/held_board.h"
 #include "hal/sim/target/target_photo.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "ui/platform/sdl_display.h"
 
 namespace relievo::firmware {
 namespace {
@@ -121,10 +126,28 @@ Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {
 }  // namespace
 }  // namespace relievo::firmware
 
+namespace relievo::firmware {
+namespace {
+
+// The rig writes what other tools read; the product reads it as it would anybody's.
+Result<pipeline::StereoCalibration> simulated_calibration() {
+  std::string folder = (std::filesystem::temp_directory_path() / "relievo-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) return Error{Errc::IoFailed, "no temporary folder can be made: check TMPDIR"};
+  const Path file = Path(folder) / "rig.yml";
+  const Result<void> written = hal::sim::write_rig(file, hal::sim::make_rig({}));
+  Result<pipeline::StereoCalibration> read = written ? pipeline::read_calibration(file) : Result<pipeline::StereoCalibration>(written.error());
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  return read;
+}
+
+}  // namespace
+}  // namespace relievo::firmware
+
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, console, clock};
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

@@ -46,6 +46,8 @@ void EnrolmentSession::wipe() {
   std::destroy_at(products_);
   products_ = nullptr;
   slot_.wipe();
+  live_.wipe();
+  stage_pictures_.wipe();
   output_.wipe();
   explicit_bzero(scratch_block_.data(), scratch_touched_);
   scratch_touched_ = 0;

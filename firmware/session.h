@@ -17,7 +17,9 @@
 #include <string_view>
 
 #include "firmware/boot_memory.h"
+#include "firmware/capture/live_feed.h"
 #include "firmware/capture/stereo_slot.h"
+#include "firmware/work/stage_pictures.h"
 #include "hal/base/arena.h"
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/model/face_model.h"
@@ -56,6 +58,10 @@ class EnrolmentSession {
   std::string_view subject() const { return {subject_.data()}; }
   Products& products() const;
   StereoSlot& slot() { return slot_; }
+  // Small pictures for the screen: of the person, and of what the stages made.
+  LiveFeed& live() { return live_; }
+  StagePictures& stage_pictures() { return stage_pictures_; }
+  const StagePictures& stage_pictures() const { return stage_pictures_; }
   Arena& output() { return output_; }
   // A scratch arena of one stage's own, so that its peak can be told; what it touched the session wipes.
   class Scratch {
@@ -76,6 +82,8 @@ class EnrolmentSession {
   void wipe();
 
   StereoSlot slot_;
+  LiveFeed live_;
+  StagePictures stage_pictures_;
   Arena output_;
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;

@@ -46,6 +46,8 @@ LIBRARIES = {
     r"hb.*\.h$|harfbuzz/": "harfbuzz_",
     r"cairo(-[a-z]+)?\.h$": "cairo_",
     r"CLI/": "cli11_",
+    r"pango/": "pango_",
+    r"libintl\.h$": "gettext_",
     r"toml\+\+/|toml\.hpp$": "toml_",
     r"nlohmann/": "json_",
     r"tiny_gltf\.h$|stb_": "gltf_",

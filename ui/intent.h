@@ -4,13 +4,26 @@
 // Intent: what a person at the screen asks for. The machine decides whether it listens.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <string_view>
 
 namespace relievo::ui {
 
 enum class Intent : std::uint8_t {
-  Begin, Accept, Retake, Cancel,
+  Pose,      // stand before the cameras: the live picture begins (a person who has agreed, with a name)
+  Begin,     // take the picture
+  Accept, Retake, Cancel,
+  StillHere, // somebody is there: a state that waits for a person waits longer
   OpenTechnician, LeaveTechnician, Calibrate, Export
+};
+
+// Who stands there, and what they have agreed to; goes with Intent::Pose. Borrowed for the call.
+struct Wish {
+  std::string_view name;
+  std::string_view wording;    // which consent text was shown
+  std::string_view language;   // in which language, BCP 47
+  std::chrono::system_clock::time_point agreed_at;
 };
 
 }  // namespace relievo::ui

@@ -9,6 +9,7 @@ std::string_view name_of(Screen screen) {
     case Screen::SelfTest: return "SelfTest";
     case Screen::Idle: return "Idle";
     case Screen::Calibrate: return "Calibrate";
+    case Screen::Position: return "Position";
     case Screen::Capture: return "Capture";
     case Screen::Match: return "Match";
     case Screen::Reconstruct: return "Reconstruct";

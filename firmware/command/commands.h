@@ -20,6 +20,7 @@ Result<void> run_subjects(const SubjectsArgs& args, Services& services);
 Result<void> run_simulate(const SimulateArgs& args, Services& services);
 Result<void> run_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);
+Result<void> run_kiosk(const KioskArgs& args, Services& services);
 Result<void> run_memory(const MemoryArgs& args, Services& services);
 Result<void> run_version(const VersionArgs& args, Services& services);
 

@@ -18,6 +18,7 @@ Result<void> run(const EnrolArgs& args, Services& services) { return run_enrol(a
 Result<void> run(const SubjectsArgs& args, Services& services) { return run_subjects(args, services); }
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
 Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
+Result<void> run(const KioskArgs& args, Services& services) { return run_kiosk(args, services); }
 Result<void> run(const MemoryArgs& args, Services& services) { return run_memory(args, services); }
 Result<void> run(const VersionArgs& args, Services& services) { return run_version(args, services); }
 

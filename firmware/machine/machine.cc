@@ -9,6 +9,7 @@ namespace relievo::firmware {
 std::optional<std::chrono::milliseconds> limit_of(State state) {
   switch (state) {
     case State::SelfTest: return budget::kSelfTestLimit;
+    case State::Position: return budget::kPositionLimit;
     case State::Capture: return budget::kCaptureLimit;
     case State::Match:
     case State::Reconstruct:
@@ -33,6 +34,10 @@ std::optional<Change> Machine::handle(Event event, hal::Instant now) {
   state_ = *to;
   entered_ = now;
   return change;
+}
+
+void Machine::renew(hal::Instant now) {
+  if (state_ == State::Position || state_ == State::Review || state_ == State::Technician) entered_ = now;
 }
 
 std::optional<Change> Machine::tick(hal::Instant now) {

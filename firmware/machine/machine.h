@@ -32,6 +32,8 @@ class Machine {
 
   // Entering a state, also the same one again, starts its time anew.
   std::optional<Change> handle(Event event, hal::Instant now);
+  // Somebody is there: a state that waits for a person waits its whole time again.
+  void renew(hal::Instant now);
   // Handles Timeout when the state's time is over.
   std::optional<Change> tick(hal::Instant now);
 

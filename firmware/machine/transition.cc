@@ -9,6 +9,7 @@ std::string_view name_of(State state) {
     case State::SelfTest: return "SelfTest";
     case State::Idle: return "Idle";
     case State::Calibrate: return "Calibrate";
+    case State::Position: return "Position";
     case State::Capture: return "Capture";
     case State::Match: return "Match";
     case State::Reconstruct: return "Reconstruct";
@@ -28,10 +29,12 @@ std::string_view name_of(Event event) {
   switch (event) {
     case Event::Passed: return "Passed";
     case Event::Failed: return "Failed";
+    case Event::PoseAsked: return "PoseAsked";
     case Event::Begin: return "Begin";
     case Event::Triggered: return "Triggered";
     case Event::StageDone: return "StageDone";
     case Event::StageFailed: return "StageFailed";
+    case Event::AdviceGiven: return "AdviceGiven";
     case Event::Accept: return "Accept";
     case Event::Retake: return "Retake";
     case Event::Cancel: return "Cancel";

@@ -3,9 +3,11 @@
 //
 // The whole life of the appliance, as one table.
 //
-//   SelfTest -> Idle -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store -> Idle
-//                |                                                    |
-//                +-> Technician -> Calibrate | Export                  +-> Capture (Retake)
+//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store -> Idle
+//                |                                                                |
+//                +-> Technician -> Calibrate | Export                              +-> Capture or Position (again)
+// A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
+// A person at the screen finds their place first, with a live picture, and goes back there for advice.
 //   Fault is entered when the machine cannot; it tests itself again.
 //
 // The compiler proves the table: one event leads one way, every state can be reached, every state
@@ -21,17 +23,19 @@
 namespace relievo::firmware {
 
 enum class State : std::uint8_t {
-  SelfTest, Idle, Calibrate, Capture, Match, Reconstruct, Mesh, Texture, Review, Store, Export,
+  SelfTest, Idle, Calibrate, Position, Capture, Match, Reconstruct, Mesh, Texture, Review, Store, Export,
   Technician, Fault, Count
 };
 
 enum class Event : std::uint8_t {
   Passed,          // the self test found everything in place
   Failed,          // the machine cannot: a camera gone, a library at its end
-  Begin,           // a person wants to start
+  PoseAsked,       // a person wants to see where to stand
+  Begin,           // take the picture
   Triggered,       // both pictures are here
   StageDone,       // the job of the present state is done
-  StageFailed,     // it could not, and the person can help or try again
+  StageFailed,     // it could not, and another try may help
+  AdviceGiven,     // it could not, and the person in front of the screen is told why
   Accept, Retake,  // the person's answer to the model
   Cancel,
   Timeout,         // the state lasted longer than budget.h allows
@@ -51,42 +55,55 @@ inline constexpr std::array kTransitions{
     Transition{State::SelfTest, Event::Failed, State::Fault},
     Transition{State::SelfTest, Event::Timeout, State::Fault},
 
+    Transition{State::Idle, Event::PoseAsked, State::Position},
     Transition{State::Idle, Event::Begin, State::Capture},
     Transition{State::Idle, Event::TechnicianIn, State::Technician},
     Transition{State::Idle, Event::Failed, State::Fault},
 
+    Transition{State::Position, Event::Begin, State::Capture},
+    Transition{State::Position, Event::StageFailed, State::Idle},  // the cameras are silent
+    Transition{State::Position, Event::Cancel, State::Idle},
+    Transition{State::Position, Event::Timeout, State::Idle},
+    Transition{State::Position, Event::Failed, State::Fault},
+
     Transition{State::Capture, Event::Triggered, State::Match},
     Transition{State::Capture, Event::StageFailed, State::Capture},  // advice is shown, another try
+    Transition{State::Capture, Event::AdviceGiven, State::Position},
     Transition{State::Capture, Event::Cancel, State::Idle},
     Transition{State::Capture, Event::Timeout, State::Idle},
     Transition{State::Capture, Event::Failed, State::Fault},
 
     Transition{State::Match, Event::StageDone, State::Reconstruct},
     Transition{State::Match, Event::StageFailed, State::Capture},
+    Transition{State::Match, Event::AdviceGiven, State::Position},
     Transition{State::Match, Event::Cancel, State::Idle},
     Transition{State::Match, Event::Timeout, State::Idle},
     Transition{State::Match, Event::Failed, State::Fault},
 
     Transition{State::Reconstruct, Event::StageDone, State::Mesh},
     Transition{State::Reconstruct, Event::StageFailed, State::Capture},
+    Transition{State::Reconstruct, Event::AdviceGiven, State::Position},
     Transition{State::Reconstruct, Event::Cancel, State::Idle},
     Transition{State::Reconstruct, Event::Timeout, State::Idle},
     Transition{State::Reconstruct, Event::Failed, State::Fault},
 
     Transition{State::Mesh, Event::StageDone, State::Texture},
     Transition{State::Mesh, Event::StageFailed, State::Capture},
+    Transition{State::Mesh, Event::AdviceGiven, State::Position},
     Transition{State::Mesh, Event::Cancel, State::Idle},
     Transition{State::Mesh, Event::Timeout, State::Idle},
     Transition{State::Mesh, Event::Failed, State::Fault},
 
     Transition{State::Texture, Event::StageDone, State::Review},
     Transition{State::Texture, Event::StageFailed, State::Capture},
+    Transition{State::Texture, Event::AdviceGiven, State::Position},
     Transition{State::Texture, Event::Cancel, State::Idle},
     Transition{State::Texture, Event::Timeout, State::Idle},
     Transition{State::Texture, Event::Failed, State::Fault},
 
     Transition{State::Review, Event::Accept, State::Store},
     Transition{State::Review, Event::Retake, State::Capture},
+    Transition{State::Review, Event::PoseAsked, State::Position},
     Transition{State::Review, Event::Cancel, State::Idle},
     Transition{State::Review, Event::Timeout, State::Idle},  // no answer is no consent
     Transition{State::Review, Event::Failed, State::Fault},

@@ -10,6 +10,6 @@
 
 namespace relievo::firmware {
 
-ui::ViewState view_of(const Appliance& appliance);
+ui::ViewState view_of(Appliance& appliance);
 
 }  // namespace relievo::firmware

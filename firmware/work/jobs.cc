@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "firmware/work/stage_picture.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
@@ -16,6 +17,23 @@ Result<void> OpenCamerasJob::run(JobControl& control) {
     if (control.cancelled.load()) return Error{Errc::Cancelled, "the cameras are no longer waited for"};
     std::this_thread::sleep_for(budget::kTick / 2);
   }
+}
+
+Result<void> PoseJob::run(JobControl& control) {
+  RELIEVO_TRY(grabber_.start(mode_));
+  if (guide_ != nullptr) guide_->begin();
+  while (!control.cancelled.load(std::memory_order_relaxed)) {
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
+    LiveFeed& live = session_.live();
+    const ImageView small = live.fill(frame.left);
+    Guidance guidance;
+    if (guide_ != nullptr) {
+      RELIEVO_TRY_ASSIGN(guidance, guide_->look(small, frame.left.width_px, clock_.now(), &control.cancelled));
+    }
+    live.publish(guidance);
+    std::this_thread::sleep_for(budget::kLivePause);
+  }
+  return Error{Errc::Cancelled, "nobody looks at the live picture any more"};
 }
 
 Result<void> GrabJob::run(JobControl& control) {
@@ -33,6 +51,7 @@ Result<void> StageJob::run(JobControl& control) {
   const hal::Instant begin = clock_.now();
   const Result<void> result = runner_.run(stage_, session_.products(), context, record_);
   record_.took = clock_.now() - begin;
+  if (result) draw_stage_picture(stage_, session_.products(), session_.stage_pictures());
   record_.arena_peak_bytes = output.used() + scratch.arena().high_water();
   return result;
 }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The jobs of the three threads. Each is made once, with the appliance, and started many times.
-//   capture: OpenCamerasJob, GrabJob    worker: StageJob    keeper: KeepJob
+//   capture: OpenCamerasJob, PoseJob, GrabJob    worker: StageJob    keeper: KeepJob
 #pragma once
 
 #include <functional>
 
+#include "firmware/capture/position_guide.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/session.h"
 #include "firmware/work/job_thread.h"
@@ -26,6 +27,21 @@ class OpenCamerasJob final : public Job {
  private:
   StereoGrabber& grabber_;
   hal::CaptureMode mode_;
+  const hal::Clock& clock_;
+};
+
+// Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small.
+class PoseJob final : public Job {
+ public:
+  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode, PositionGuide* guide, const hal::Clock& clock)
+      : grabber_(grabber), session_(session), mode_(mode), guide_(guide), clock_(clock) {}
+  Result<void> run(JobControl& control) override;
+
+ private:
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::CaptureMode mode_;
+  PositionGuide* guide_;
   const hal::Clock& clock_;
 };
 

@@ -52,6 +52,7 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
+    case State::Position:
     case State::Capture:
     case State::Review:
     case State::Store:

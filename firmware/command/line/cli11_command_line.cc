@@ -223,7 +223,23 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
   command->callback([&] { chosen = args; });
 }
 
+// Words before any command: they are the kiosk's.
+void add_kiosk(CLI::App& app, KioskArgs& args) {
+  app.add_option("--board", args.board, "the kiosk's cameras: sim, or folder:DIR")->type_name("BOARD")->capture_default_str();
+  app.add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
+  add_store(app, args.store);
+  app.add_option_function<std::string>(
+         "--windowed", [&args](const std::string& size) {
+           if (std::sscanf(size.c_str(), "%dx%d", &args.width_px, &args.height_px) != 2 || args.width_px < 640 || args.height_px < 480)
+             throw CLI::ValidationError("--windowed", "give a size such as 1280x800, of 640x480 or more");
+         }, "a window instead of the whole screen")->type_name("WxH");
+  app.add_option("--screenshots", args.screenshots, "pictures of all screens in all languages, as files")->type_name("DIR");
+  app.add_option("--only", args.only, "of those, the sheets with this in their name, as 1280x800_100_de")->type_name("TEXT");
+  app.add_flag("--showpiece", args.write_showpiece, "with --screenshots: only the head of the page that invites")->group("");
+}
+
 struct AllArgs {
+  KioskArgs kiosk;
   CalibrateArgs calibrate;
   CalibrateLiveArgs calibrate_live;
   CalibrationArgs calibration;
@@ -239,9 +255,10 @@ struct AllArgs {
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Relievo: two cameras, one face, a textured 3D model.", "relievo");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   CommandLine line;
   AllArgs args;
+  add_kiosk(app, args.kiosk);
   add_calibrate(app, line.command, args.calibrate, args.calibrate_live);
   add_calibration(app, line.command, args.calibration);
   add_reconstruct(app, line.command, args.reconstruct);
@@ -254,6 +271,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) line.command = args.kiosk;
   } catch (const CLI::CallForHelp&) {
     for (const CLI::App* at = &app; at != nullptr;) {  // help of the innermost command that was named
       const auto deeper = at->get_subcommands();

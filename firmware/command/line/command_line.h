@@ -140,12 +140,23 @@ struct SelfTestArgs {
   unsigned seed = 1;              // the simulated rig and its noise
   double scale = 1;               // of its pictures
 };
+// Without a command: the kiosk.
+struct KioskArgs {
+  std::string board = "sim";
+  Path calibration;               // empty: the one in the store; of the simulated rig, its own
+  Path store;
+  int width_px = 0, height_px = 0;  // of the window; 0: the whole screen
+  Path screenshots;               // take pictures of all screens into this folder, and end
+  std::string only;               // of those, only the sheets whose name has this in it
+  bool write_showpiece = false;   // make the head of the page that invites, instead
+  AlgorithmArgs algorithms;
+};
 struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
 using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
-                                 SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs>;
+                                 SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;

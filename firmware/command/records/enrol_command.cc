@@ -72,6 +72,7 @@ Result<void> drive(Appliance& appliance, Console& console) {
       case State::Mesh:
       case State::Texture:
       case State::Store: console.progress(name_of(appliance.state()), appliance.progress()); break;
+      case State::Position:
       case State::Calibrate:
       case State::Export:
       case State::Technician:

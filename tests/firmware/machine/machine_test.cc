@@ -52,6 +52,28 @@ TEST(Machine, RetakeAndAdviceLeadBackToCapture) {
         {ms(12), E::StageDone, S::Review}, {ms(13), E::Retake, S::Capture}});
 }
 
+TEST(Machine, APersonAtTheScreenFindsTheirPlaceFirst) {
+  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::PoseAsked, S::Position}, {ms(2), E::Begin, S::Capture},
+        {ms(3), E::Triggered, S::Match}, {ms(4), E::AdviceGiven, S::Position}, {ms(5), E::Begin, S::Capture},
+        {ms(6), E::AdviceGiven, S::Position}, {ms(7), E::Begin, S::Capture}, {ms(8), E::Triggered, S::Match},
+        {ms(9), E::StageDone, S::Reconstruct}, {ms(10), E::AdviceGiven, S::Position}, {ms(11), E::StageFailed, S::Idle}});
+}
+
+TEST(Machine, WhoIsStillThereGetsTheWholeTimeAgain) {
+  const hal::Instant boot{};
+  Machine machine(boot);
+  (void)machine.handle(E::Passed, boot);
+  (void)machine.handle(E::PoseAsked, boot);
+  const milliseconds most = budget::kPositionLimit - ms(1);
+  machine.renew(boot + most);
+  EXPECT_FALSE(machine.tick(boot + most + most));
+  EXPECT_TRUE(machine.tick(boot + most + budget::kPositionLimit));
+  (void)machine.handle(E::PoseAsked, boot);
+  (void)machine.handle(E::Begin, boot);
+  machine.renew(boot + budget::kCaptureLimit);  // a machine's own work gets no more time for that
+  EXPECT_TRUE(machine.tick(boot + budget::kCaptureLimit));
+}
+
 TEST(Machine, AFullDiskLeadsBackToReview) {
   play({{ms(0), E::Passed, S::Idle}, {ms(1), E::Begin, S::Capture}, {ms(2), E::Triggered, S::Match},
         {ms(3), E::StageDone, S::Reconstruct}, {ms(4), E::StageDone, S::Mesh}, {ms(5), E::StageDone, S::Texture},
@@ -89,6 +111,7 @@ struct Answer {
 TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
   const std::vector<Answer> answers{
       {S::SelfTest, S::SelfTest, S::Fault, S::Fault},      {S::Idle, S::Idle, S::Idle, S::Fault},
+      {S::Position, S::Idle, S::Idle, S::Fault},
       {S::Capture, S::Idle, S::Idle, S::Fault},            {S::Match, S::Idle, S::Idle, S::Fault},
       {S::Reconstruct, S::Idle, S::Idle, S::Fault},        {S::Mesh, S::Idle, S::Idle, S::Fault},
       {S::Texture, S::Idle, S::Idle, S::Fault},            {S::Review, S::Idle, S::Idle, S::Fault},

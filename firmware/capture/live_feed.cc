@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/capture/live_feed.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware/budget.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr auto kSide = static_cast<std::size_t>(budget::kLiveSidePx);
+
+// Means over step x step pixels.
+void shrink(const ImageView& from, int step, int width, int height, std::uint8_t* to) {
+  const int bytes = bytes_per_pixel(from.format);
+  const unsigned count = static_cast<unsigned>(step) * static_cast<unsigned>(step);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, to += 3) {
+      unsigned sum[3] = {0, 0, 0};
+      for (int v = 0; v < step; ++v) {
+        const std::uint8_t* at = from.row(y * step + v) + static_cast<std::ptrdiff_t>(x) * step * bytes;
+        for (int u = 0; u < step; ++u, at += bytes) {
+          // Of 16 bits the upper ones: the second byte.
+          for (int c = 0; c < 3; ++c) sum[c] += from.format == PixelFormat::Rgb8 ? at[c] : at[from.format == PixelFormat::Grey16 ? 1 : 0];
+        }
+      }
+      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(sum[c] / count);
+    }
+  }
+}
+
+}  // namespace
+
+LiveFeed::LiveFeed() {
+  for (Slot& slot : slots_) slot.rgb.resize(kSide * kSide * 3);
+}
+
+ImageView LiveFeed::fill(const ImageView& picture) {
+  Slot& slot = slots_[filling_];
+  const int longer = std::max(picture.width_px, picture.height_px);
+  const int step = (longer + budget::kLiveSidePx - 1) / budget::kLiveSidePx;
+  const int width = picture.width_px / step, height = picture.height_px / step;
+  shrink(picture, step, width, height, slot.rgb.data());
+  slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width, PixelFormat::Rgb8};
+  return slot.live.picture;
+}
+
+void LiveFeed::publish(const Guidance& guidance) {
+  slots_[filling_].live.guidance = guidance;
+  slots_[filling_].live.number = ++count_;
+  const std::lock_guard lock(mutex_);
+  std::swap(filling_, newest_);
+  fresh_ = true;
+}
+
+LivePicture LiveFeed::newest() {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(fresh_, false)) std::swap(shown_, newest_);
+  return slots_[shown_].live;
+}
+
+void LiveFeed::wipe() {
+  const std::lock_guard lock(mutex_);
+  for (Slot& slot : slots_) {
+    if (slot.live.picture.empty()) continue;
+    explicit_bzero(slot.rgb.data(), slot.rgb.size());
+    slot.live = {};
+  }
+  fresh_ = false;
+}
+
+}  // namespace relievo::firmware

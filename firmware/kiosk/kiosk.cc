@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/kiosk.h"
+
+#include <string.h>
+
+#include <cmath>
+
+#include "firmware/command/commands.h"
+#include "firmware/command/line/algorithm_choice.h"
+#include "firmware/command/reconstruct/report.h"
+#include "firmware/kiosk/receipt.h"
+#include "firmware/view/view_of.h"
+#include "firmware/work/pool_size.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Where the two cameras' axes come nearest to each other: there a face is seen best.
+double best_distance_mm(const pipeline::StereoCalibration& c) {
+  const double sine = std::hypot(c.right_from_left.rotation.m[2], c.right_from_left.rotation.m[5]);
+  const auto& t = c.right_from_left.translation_mm;
+  const double baseline = std::hypot(t.x, t.y, t.z);
+  return sine > 0.05 ? std::clamp(baseline / sine, 450.0, 650.0) : 560.0;
+}
+
+void wipe(std::string& text) {
+  explicit_bzero(text.data(), text.size());
+  text.clear();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& services) {
+  std::unique_ptr<Kiosk> kiosk(new Kiosk);
+  RELIEVO_TRY(kiosk->prepare(args, services));
+  return kiosk;
+}
+
+Kiosk::~Kiosk() {
+  appliance_.reset();
+  wipe(receipt_);
+}
+
+Result<pipeline::StereoCalibration> Kiosk::find_calibration(const KioskArgs& args, Services& services) {
+  const hal::CaptureMode mode = board_->preferred_mode();
+  if (!args.calibration.empty()) return pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
+  Result<pipeline::StereoCalibration> stored = store_->active_calibration();
+  if (stored) revision_ = stored->revision;
+  if (stored || stored.error().code != Errc::NotCalibrated || args.board != "sim") return stored;
+  return services.simulated_calibration();
+}
+
+Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
+  RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
+  ui_ = std::make_unique<ui::Ui>(std::move(text));
+  RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(board_, services.open_board(args.board));
+  RELIEVO_TRY_ASSIGN(const pipeline::StereoCalibration calibration, find_calibration(args, services));
+  if (revision_ == 0) {
+    RELIEVO_TRY_ASSIGN(revision_, store_->know_calibration(calibration, args.calibration.empty() ? "of the simulated rig" : args.calibration.filename().string()));
+  }
+  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibration));
+  RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
+  guide_ = std::make_unique<PositionGuide>(std::move(finder), calibration.left.focal_px.x, best_distance_mm(calibration));
+  stages_ = std::make_unique<PipelineStages>(std::move(pipeline));
+  memory_ = std::make_unique<BootMemory>();
+  pool_ = std::make_unique<ThreadPool>(pool_size());
+  if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
+  else services.console.fail(piece.error());  // a page without its head is still a page
+  const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
+  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, guide_.get()});
+  look();
+  return {};
+}
+
+// On the keeper, while the main thread only draws.
+Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& model) {
+  Report report{"store revision " + std::to_string(revision_), stages_->pipeline().algorithms().to_text(), appliance_->records(), {}, peak_rss_bytes(),
+                model.quality, appliance_->drift(), {}, model.landmarks, model.head_from_camera};
+  for (const StageRecord& stage : report.stages) report.total += stage.took;
+  const std::string json = report_json(report), algorithms = report.algorithms;
+  const storage::Consent consent{consented_.wording, consented_.language, std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
+  // Every visit is somebody new: that two people have one name must mix nothing up.
+  RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id, store_->add_enrolment(storage::NewSubject{std::string(subject)}, {model, consent, revision_, algorithms, json}));
+  RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
+  receipt_ = receipt_of(stored.subject);
+  return {};
+}
+
+void Kiosk::look() {
+  view_ = view_of(*appliance_);
+  view_.now = board_->clock().now();
+  view_.wall_now = board_->clock().wall_now();
+  if (appliance_->state() != State::Store) view_.receipt = receipt_;
+  if (showpiece_) view_.showpiece = &showpiece_->model();
+}
+
+void Kiosk::ask(ui::Intent intent) {
+  if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
+    const ui::Wish wish = ui_->wish();
+    consented_ = {std::string(wish.wording), std::string(wish.language), wish.agreed_at};
+    appliance_->set_subject(wish.name);
+  }
+  appliance_->ask(intent);
+  appliance_->forget_subject();  // the session has it
+}
+
+void Kiosk::turn() {
+  appliance_->step(std::chrono::milliseconds(0));
+  look();
+  ui_->frame(view_);
+  // What was asked for may have wiped what the frame shows: then it is made again.
+  while (const auto intent = ui_->take_intent()) {
+    ask(*intent);
+    look();
+    ui_->frame(view_);
+  }
+  if (ui_->take_forgotten()) {
+    wipe(receipt_);
+    consented_ = {};
+    forgotten_ = true;
+  }
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Kiosk: the whole appliance behind the whole screen, without the screen's glass: fingers go in, a
+// DrawList comes out. Window, device and tests turn the same Kiosk.
+//
+//   feed(Input) ... turn() -> ui().draw_list()
+//
+// Thread: main; the jobs have threads of their own and turn() never waits for them.
+// Errors of open(): NotCalibrated, those of board, store, fonts, words and algorithms.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware/appliance.h"
+#include "firmware/command/services.h"
+#include "firmware/kiosk/showpiece.h"
+#include "firmware/work/pipeline_stages.h"
+#include "ui/ui.h"
+
+namespace relievo::firmware {
+
+class Kiosk {
+ public:
+  static Result<std::unique_ptr<Kiosk>> open(const KioskArgs& args, Services& services);
+  ~Kiosk();
+  Kiosk(const Kiosk&) = delete;
+  Kiosk& operator=(const Kiosk&) = delete;
+
+  void feed(const ui::Input& input) { ui_->feed(input, view_); }
+  // One turn of the main loop: hears what has happened, makes the next frame.
+  void turn();
+  // A visit has ended: what the renderer keeps of it must go.
+  bool take_forgotten() { return std::exchange(forgotten_, false); }
+
+  ui::Ui& ui() { return *ui_; }
+  const ui::ViewState& view() const { return view_; }
+  const Appliance& appliance() const { return *appliance_; }
+  const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
+
+ private:
+  struct Consented {
+    std::string wording, language;
+    std::chrono::system_clock::time_point at;
+  };
+  Kiosk() = default;
+  Result<void> prepare(const KioskArgs& args, Services& services);
+  Result<pipeline::StereoCalibration> find_calibration(const KioskArgs& args, Services& services);
+  Result<void> keep(std::string_view subject, const pipeline::FaceModel& model);
+  void look();
+  void ask(ui::Intent intent);
+
+  std::unique_ptr<hal::Board> board_;
+  std::unique_ptr<storage::Store> store_;
+  std::unique_ptr<BootMemory> memory_;
+  std::unique_ptr<ThreadPool> pool_;
+  std::unique_ptr<PipelineStages> stages_;
+  std::unique_ptr<PositionGuide> guide_;
+  std::unique_ptr<Showpiece> showpiece_;
+  std::unique_ptr<ui::Ui> ui_;
+  std::uint32_t revision_ = 0;
+  Consented consented_;
+  std::string receipt_;         // written by the keeper while the state is Store
+  ui::ViewState view_;
+  bool forgotten_ = false;
+  std::unique_ptr<Appliance> appliance_;  // last: its threads use everything above
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every screen in every language, size and text size: nothing is cut, nothing overlaps, everything can
+// be touched, spoken and read. No GL.
+#include "firmware/kiosk/gallery.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <set>
+#include <string>
+
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr float kTouchDp = 72;
+
+struct Shown {
+  int width_px, height_px;
+};
+constexpr Shown kScreens[] = {{1280, 800}, {1920, 1080}, {1080, 1920}};
+
+bool in_a_scroller(const ui::Tree& tree, const ui::Node& node) {
+  for (std::int32_t at = node.parent; at >= 0; at = tree.nodes()[static_cast<std::size_t>(at)].parent) {
+    if (tree.nodes()[static_cast<std::size_t>(at)].box.scroll) return true;
+  }
+  return false;
+}
+
+bool overlap(const ui::Rect& a, const ui::Rect& b) {
+  return a.x + 1 < b.right() && b.x + 1 < a.right() && a.y + 1 < b.bottom() && b.y + 1 < a.bottom();
+}
+
+class GalleryTest : public testing::TestWithParam<ui::Language> {
+ protected:
+  static void SetUpTestSuite() {
+    ASSERT_TRUE(ui::prepare_languages().has_value());
+    auto text = ui::TextEngine::make();
+    ASSERT_TRUE(text.has_value());
+    screen_ = new ui::Ui(std::move(*text));
+  }
+  static void TearDownTestSuite() { delete screen_; }
+
+  template <typename Look>
+  void over_all(Look look) {
+    for (const Shown shown : kScreens) {
+      for (std::size_t text = 0; text < ui::kTextPercents.size(); ++text) {
+        for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), text, false)) {
+          screen_->resize(shown.width_px, shown.height_px);
+          screen_->show(exhibit.view, exhibit.visit);
+          SCOPED_TRACE(std::string(exhibit.name) + " " + std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px) + " " +
+                       std::to_string(ui::kTextPercents[text]) + " %");
+          look(screen_->tree(), ui::Rect{0, 0, static_cast<float>(shown.width_px), static_cast<float>(shown.height_px)});
+        }
+      }
+    }
+  }
+  static ui::Ui* screen_;
+};
+ui::Ui* GalleryTest::screen_ = nullptr;
+
+TEST_P(GalleryTest, EverythingLiesOnTheScreenOrCanBeScrolledTo) {
+  over_all([](const ui::Tree& tree, const ui::Rect& screen) {
+    for (const ui::Node& node : tree.nodes()) {
+      if (in_a_scroller(tree, node)) continue;
+      EXPECT_GE(node.rect.x, -1) << node.id << " " << node.text;
+      EXPECT_GE(node.rect.y, -1) << node.id << " " << node.text;
+      EXPECT_LE(node.rect.right(), screen.w + 1) << node.id << " " << node.text;
+      EXPECT_LE(node.rect.bottom(), screen.h + 1) << node.id << " " << node.text;
+    }
+  });
+}
+
+TEST_P(GalleryTest, EveryTextHasItsRoom) {
+  over_all([this](const ui::Tree& tree, const ui::Rect&) {
+    for (const ui::Node& node : tree.nodes()) {
+      if (node.text.empty()) continue;
+      const ui::TextLabel& label = screen_->text().label(node.text, node.style, std::max(1.0F, node.rect.w - 2 * node.box.pad_x));
+      EXPECT_EQ(label.missing, 0) << node.text;
+      EXPECT_LE(label.size.height_px, node.rect.h + 2) << node.text;
+      EXPECT_LE(label.size.width_px, node.rect.w + 2) << node.text;
+    }
+  });
+}
+
+TEST_P(GalleryTest, ButtonsAreLargeEnoughApartAndNamed) {
+  over_all([](const ui::Tree& tree, const ui::Rect& screen) {
+    const float unit = ui::unit_of(screen);
+    std::set<std::string> ids;
+    std::vector<const ui::Node*> buttons;
+    for (const ui::Node& node : tree.nodes()) {
+      if (node.action.kind == ui::ActionKind::None || node.action.kind == ui::ActionKind::TurnFace) continue;
+      EXPECT_GE(node.rect.h, kTouchDp * unit - 1) << node.id;
+      EXPECT_GE(node.rect.w, (node.role == ui::Role::Key ? 44 : kTouchDp) * unit - 1) << node.id;
+      EXPECT_FALSE(node.name.empty() && node.text.empty()) << node.id << " says nothing";
+      buttons.push_back(&node);
+    }
+    const bool modal = tree.find("veil") != nullptr;
+    if (modal) return;
+    for (std::size_t i = 0; i < buttons.size(); ++i) {
+      EXPECT_TRUE(ids.insert(std::string(buttons[i]->id)).second) << buttons[i]->id << " twice";
+      for (std::size_t k = i + 1; k < buttons.size(); ++k) EXPECT_FALSE(overlap(buttons[i]->rect, buttons[k]->rect)) << buttons[i]->id << " " << buttons[k]->id;
+    }
+  });
+}
+
+TEST_P(GalleryTest, TheKeypadReachesEveryButton) {
+  over_all([](const ui::Tree& tree, const ui::Rect&) {
+    std::set<std::string> reached;
+    const ui::Node* at = tree.after("", 1);
+    while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at->id, 1);
+    const bool modal = tree.find("veil") != nullptr;
+    for (const ui::Node& node : tree.nodes()) {
+      const bool wanted = node.action.kind != ui::ActionKind::None && node.action.kind != ui::ActionKind::TurnFace && !modal;
+      EXPECT_TRUE(!wanted || reached.count(std::string(node.id)) == 1) << node.id;
+    }
+    EXPECT_FALSE(modal && reached.empty());
+  });
+}
+
+TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
+  const auto exhibits = gallery(ui::ViewState{}, GetParam(), 0, false);
+  screen_->resize(1280, 800);
+  for (const Exhibit& exhibit : exhibits) {
+    if (exhibit.name != "consent") continue;
+    screen_->show(exhibit.view, exhibit.visit);
+    const bool back_is_right = screen_->tree().find("back")->rect.x > 640;
+    EXPECT_EQ(back_is_right, ui::info_of(GetParam()).right_to_left);
+  }
+}
+
+std::string name(const testing::TestParamInfo<ui::Language>& info) { return ui::info_of(info.param).code; }
+INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, testing::Values(ui::Language::English, ui::Language::German, ui::Language::Arabic), name);
+
+}  // namespace
+}  // namespace relievo::firmware

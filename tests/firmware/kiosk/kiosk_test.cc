@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A whole enrolment by synthetic fingers, from the page that invites to a row in the store, on the
+// simulated rig; and who leaves in the middle.
+#include "firmware/kiosk/kiosk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "firmware/kiosk/receipt.h"
+#include "hal/monotonic_clock.h"
+#include "hal/sim/board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kScale = 0.5;  // of the rig's pictures: a light test
+
+hal::sim::RigOptions small_rig() {
+  hal::sim::RigOptions rig;
+  rig.width_px = static_cast<int>(rig.width_px * kScale);
+  rig.height_px = static_cast<int>(rig.height_px * kScale);
+  return rig;
+}
+
+class KioskTest : public testing::Test {
+ protected:
+  KioskTest() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    args.store = folder.path() / "store";
+    services.open_board = [](std::string_view) {
+      hal::SimBoardOptions options;
+      options.simulation.rig = small_rig();
+      return hal::make_sim_board(options);
+    };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
+      const Path file = folder.path() / "rig.yml";
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(small_rig())));
+      return pipeline::read_calibration(file);
+    };
+    auto opened = Kiosk::open(args, services);
+    EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+
+  void tap(std::string_view id) {
+    const ui::Node* node = kiosk->ui().tree().find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
+    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+    kiosk->turn();
+  }
+  // Minutes are "never".
+  bool reach(ui::Step step) {
+    for (int turn = 0; turn < 100'000 && kiosk->ui().visit().step != step; ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return kiosk->ui().visit().step == step;
+  }
+  void to_position() {
+    ASSERT_TRUE(reach(ui::Step::Attract));
+    tap("start");
+    tap("agree");
+    for (const char* key : {"key A", "key d", "key a"}) tap(key);
+    EXPECT_EQ(kiosk->ui().visit().name(), "Ada");
+    EXPECT_EQ(kiosk->appliance().state(), State::Idle) << "no camera runs yet";
+    tap("done");
+    ASSERT_TRUE(reach(ui::Step::Position));
+  }
+
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  KioskArgs args;
+  std::unique_ptr<Kiosk> kiosk;
+};
+
+TEST_F(KioskTest, FromTheFirstTouchToARowInTheStore) {
+  to_position();
+  // Nobody touches the screen: the face stands still, and the picture is taken by itself.
+  ASSERT_TRUE(reach(ui::Step::Working)) << "advice " << static_cast<int>(kiosk->view().live.advice);
+  ASSERT_TRUE(reach(ui::Step::Review)) << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view() : "");
+  kiosk->turn();
+  EXPECT_NE(kiosk->ui().draw_list().face, nullptr);
+  for (const ui::StageView& stage : kiosk->view().stages) EXPECT_FALSE(stage.picture.empty()) << "a stage has no picture";
+  // Turned with a finger.
+  const ui::Rect face = kiosk->ui().tree().find("face")->rect;
+  kiosk->feed({ui::Input::Kind::Down, 1, face.x + 200, face.y + 200});
+  kiosk->feed({ui::Input::Kind::Move, 1, face.x + 300, face.y + 200});
+  kiosk->feed({ui::Input::Kind::Up, 1, face.x + 300, face.y + 200});
+  EXPECT_GT(kiosk->ui().visit().look.yaw_deg, 10);
+  tap("accept");
+  ASSERT_TRUE(reach(ui::Step::Thanks));
+  kiosk->turn();
+  const std::string code(kiosk->view().receipt);
+  EXPECT_LE(kiosk->ui().visit().touches, 6);
+  tap("finish");
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract);
+  kiosk->turn();
+  EXPECT_EQ(kiosk->view().receipt, "");
+  EXPECT_TRUE(kiosk->take_forgotten());
+  kiosk.reset();
+
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  ASSERT_TRUE(subject_of_receipt(code)) << code;
+  const auto subject = (*store)->subject(*subject_of_receipt(code));
+  ASSERT_TRUE(subject.has_value());
+  EXPECT_EQ(subject->name, "Ada");
+  const auto enrolments = (*store)->enrolments(subject->id);
+  ASSERT_TRUE(enrolments.has_value());
+  ASSERT_EQ(enrolments->size(), 1U);
+  EXPECT_EQ(enrolments->front().consent.wording, ui::kConsentWording);
+  EXPECT_EQ(enrolments->front().consent.language, "en");
+  EXPECT_LT(enrolments->front().consent.given_at, enrolments->front().created_at);
+}
+
+TEST_F(KioskTest, WhoLeavesBeforeTheCamerasLeavesNothing) {
+  to_position();
+  while (kiosk->view().live.number == 0) {
+    kiosk->turn();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_FALSE(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
+  tap("leave");
+  tap("answer_quiet");
+  kiosk->turn();
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract);
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+  EXPECT_TRUE(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
+  EXPECT_TRUE(kiosk->take_forgotten());
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  EXPECT_TRUE((*store)->subjects({})->empty());
+}
+
+}  // namespace
+}  // namespace relievo::firmware

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/text/text_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace relievo::ui {
+namespace {
+
+class TextEngineTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = TextEngine::make();
+    ASSERT_TRUE(made.has_value()) << made.error().what.view();
+    engine = std::move(*made);
+  }
+  // Where the ink of a label is densest, left to right, 0 to 1.
+  double ink_middle(const TextLabel& label) const {
+    double sum = 0, weighted = 0;
+    for (int y = 0; y < static_cast<int>(label.atlas.h); ++y) {
+      const std::uint8_t* row = engine->atlas().row(static_cast<int>(label.atlas.x), static_cast<int>(label.atlas.y) + y);
+      for (int x = 0; x < static_cast<int>(label.atlas.w); ++x) sum += row[x], weighted += row[x] * (x + 0.5);
+    }
+    return sum > 0 ? weighted / sum / label.atlas.w : -1;
+  }
+  std::unique_ptr<TextEngine> engine;
+};
+
+TEST_F(TextEngineTest, EveryScriptHasItsLetters) {
+  for (const char* text : {"Grüße, ẞ", "العربية ١٢٣", "עברית", "简体中文", "日本語", "Ελληνικά"}) {
+    const TextLabel& label = engine->label(text, {}, 800);
+    EXPECT_EQ(label.missing, 0) << text;
+    EXPECT_GT(ink_middle(label), 0) << text;
+  }
+  EXPECT_GT(engine->label("\U000F1234", {}, 800).missing, 0) << "a letter nobody has";
+}
+
+TEST_F(TextEngineTest, ArabicIsJoinedNotSpelt) {
+  const float whole = engine->measure("سلام", {}, 800).width_px;
+  float spelt = 0;
+  for (const char* letter : {"س", "ل", "ا", "م"}) spelt += engine->measure(letter, {}, 800).width_px;
+  EXPECT_LT(whole, 0.8F * spelt);
+}
+
+TEST_F(TextEngineTest, NoWordStandsAlone) {
+  const TextStyle style;
+  const std::string text = "Two cameras look at you for a moment and then a word";
+  for (float width = 200; width < 700; width += 37) {
+    const TextSize size = engine->measure(text, style, width);
+    EXPECT_LE(size.width_px, width + 1);
+    if (size.lines > 1) {
+      EXPECT_GT(size.width_px * static_cast<float>(size.lines), 0.9F * engine->measure(text, style, 5000).width_px);
+      // Even lines: the box is not much wider than its share.
+      EXPECT_LT(size.width_px, 1.45F * engine->measure(text, style, 5000).width_px / static_cast<float>(size.lines)) << width;
+    }
+  }
+}
+
+TEST_F(TextEngineTest, InkLiesInsideTheBox) {
+  for (const bool right_to_left : {false, true}) {
+    for (const TextAlign align : {TextAlign::Start, TextAlign::Centre}) {
+      TextStyle style;
+      style.right_to_left = right_to_left;
+      style.align = align;
+      const TextLabel& label = engine->label(right_to_left ? "يستغرق ذلك حوالي دقيقة واحدة. نصنع صورة" : "It takes about a minute. We make a picture", style, 260);
+      EXPECT_GT(label.size.lines, 1);
+      EXPECT_GE(label.ink.x, -3) << right_to_left;
+      EXPECT_LE(label.ink.right(), label.size.width_px + 4) << right_to_left;
+      EXPECT_LE(label.ink.bottom(), label.size.height_px + 4);
+    }
+  }
+}
+
+// "148 220" stays "148 220" in a line of Arabic: isolated, its digits keep their order.
+TEST_F(TextEngineTest, NumbersKeepTheirOrderInArabic) {
+  TextStyle style;
+  style.right_to_left = true;
+  const TextLabel in_order = engine->label("\u2068111\u00a0888\u2069", style, 800);
+  const double heavy_right = ink_middle(in_order);
+  const TextLabel reversed = engine->label("\u2068888\u00a0111\u2069", style, 800);
+  EXPECT_GT(heavy_right, ink_middle(reversed) + 0.1) << "888 has more ink than 111";
+}
+
+TEST_F(TextEngineTest, AFullAtlasStartsAnew) {
+  const std::uint32_t before = engine->atlas().generation();
+  TextStyle style;
+  style.size_px = 90;
+  for (int i = 0; i < 200; ++i) (void)engine->label("number " + std::to_string(i), style, 2000);
+  EXPECT_GT(engine->atlas().generation(), before);
+  EXPECT_GT(ink_middle(engine->label("number 3", style, 2000)), 0.1) << "written again";
+}
+
+TEST_F(TextEngineTest, ForgettingLeavesNoInk) {
+  (void)engine->label("Ada Lovelace", {}, 800);
+  engine->forget();
+  const std::uint8_t* all = engine->atlas().texels();
+  const std::size_t count = static_cast<std::size_t>(engine->atlas().side_px()) * static_cast<std::size_t>(engine->atlas().side_px());
+  EXPECT_TRUE(std::all_of(all, all + count, [](std::uint8_t v) { return v == 0; }));
+}
+
+}  // namespace
+}  // namespace relievo::ui

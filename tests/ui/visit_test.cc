@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The way through the screens, without a screen: actions and time go in, intents come out.
+#include "ui/visit.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace relievo::ui {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class VisitTest : public testing::Test {
+ protected:
+  VisitTest() {
+    view.now = hal::Instant(seconds(1000));
+    view.wall_now = std::chrono::system_clock::time_point(seconds(5000));
+    machine(Screen::Idle);
+  }
+  std::optional<Intent> act(ActionKind kind, int value = 0) {
+    visit.touched(view.now);
+    return visit.act({kind, value}, view);
+  }
+  std::optional<Intent> machine(Screen screen) {
+    view.screen = screen;
+    return visit.follow(view);
+  }
+  std::optional<Intent> pass(milliseconds time) {
+    view.now += time;
+    return visit.follow(view);
+  }
+  void to_position() {
+    act(ActionKind::Start);
+    act(ActionKind::Agree);
+    visit.type("Z");
+    ASSERT_EQ(act(ActionKind::Done), Intent::Pose);
+    machine(Screen::Position);
+    ASSERT_EQ(visit.step, Step::Position);
+  }
+  void to_review() {
+    to_position();
+    act(ActionKind::TakePicture);
+    for (const Screen s : {Screen::Capture, Screen::Match, Screen::Reconstruct, Screen::Mesh, Screen::Texture, Screen::Review}) machine(s);
+    ASSERT_EQ(visit.step, Step::Review);
+  }
+
+  ViewState view;
+  Visit visit;
+};
+
+TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
+  EXPECT_EQ(visit.step, Step::Attract);
+  EXPECT_EQ(act(ActionKind::Start), std::nullopt);
+  EXPECT_EQ(visit.step, Step::Consent);
+  EXPECT_EQ(act(ActionKind::Done), std::nullopt) << "without a name";
+  EXPECT_EQ(act(ActionKind::Agree), std::nullopt);
+  EXPECT_EQ(visit.agreed_at(), view.wall_now);
+  EXPECT_EQ(act(ActionKind::Done), std::nullopt) << "without a name";
+  visit.type("A");
+  EXPECT_EQ(act(ActionKind::Done), Intent::Pose);
+}
+
+TEST_F(VisitTest, WhoSaysNoIsForgotten) {
+  act(ActionKind::Start);
+  EXPECT_EQ(act(ActionKind::Decline), std::nullopt);
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
+TEST_F(VisitTest, AWholeVisitTakesFewTouches) {
+  to_review();
+  EXPECT_EQ(act(ActionKind::Accept), Intent::Accept);
+  machine(Screen::Store);
+  machine(Screen::Idle);
+  EXPECT_EQ(visit.step, Step::Thanks);
+  EXPECT_LE(visit.touches, 6);
+  act(ActionKind::Finish);
+  EXPECT_EQ(visit.step, Step::Attract);
+  EXPECT_EQ(visit.name(), "");
+}
+
+TEST_F(VisitTest, NobodyThereIsAskedThenWiped) {
+  for (const bool review : {false, true}) {
+    if (review) to_review();
+    else act(ActionKind::Start);
+    EXPECT_EQ(pass(kPatience), std::nullopt);
+    EXPECT_EQ(visit.overlay, Overlay::None);
+    pass(seconds(1));
+    EXPECT_EQ(visit.overlay, Overlay::StillThere);
+    EXPECT_EQ(visit.seconds_left(view.now), 14);
+    visit.touched(view.now);
+    EXPECT_EQ(visit.overlay, Overlay::None) << "a touch is an answer";
+    EXPECT_EQ(pass(kPatience + kLastCall + seconds(1)), Intent::Cancel);
+    EXPECT_EQ(visit.step, Step::Attract);
+    EXPECT_EQ(visit.name(), "");
+    machine(Screen::Idle);
+    EXPECT_EQ(visit.step, Step::Attract);
+  }
+}
+
+TEST_F(VisitTest, ThePictureIsTakenByItselfWhenAllIsRight) {
+  to_position();
+  view.live.advice = pipeline::Advice::None;
+  view.live.steady_s = kSteadyFor / 2;
+  EXPECT_FALSE(visit.countdown(view.live));
+  view.live.steady_s = kSteadyFor + 0.5F;
+  ASSERT_TRUE(visit.countdown(view.live));
+  EXPECT_NEAR(*visit.countdown(view.live), kCountdown - 0.5F, 1e-5);
+  EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
+  view.live.steady_s = kSteadyFor + kCountdown;
+  EXPECT_EQ(pass(milliseconds(1)), Intent::Begin);
+  EXPECT_EQ(pass(milliseconds(1)), std::nullopt) << "once";
+}
+
+TEST_F(VisitTest, NoPictureIsTakenWhileSomebodyReads) {
+  to_position();
+  view.live.advice = pipeline::Advice::None;
+  view.live.steady_s = 100;
+  for (const ActionKind overlay : {ActionKind::ShowHelp, ActionKind::ShowLanguages, ActionKind::Leave}) {
+    act(overlay);
+    EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
+    act(ActionKind::CloseOverlay);
+  }
+  EXPECT_EQ(pass(milliseconds(1)), Intent::Begin);
+}
+
+TEST_F(VisitTest, ARefusalLeadsBackToThePlaceThenOut) {
+  to_position();
+  machine(Screen::Match);
+  EXPECT_EQ(visit.step, Step::Working);
+  view.trouble = Trouble::Refused;
+  machine(Screen::Position);
+  EXPECT_EQ(visit.step, Step::Position);
+  machine(Screen::Match);
+  machine(Screen::Idle);
+  EXPECT_EQ(visit.step, Step::Trouble);
+  pass(kThanks + seconds(1));
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
+TEST_F(VisitTest, AFaultForgetsThePersonAtOnce) {
+  to_review();
+  view.trouble = Trouble::Camera;
+  machine(Screen::Fault);
+  EXPECT_EQ(visit.step, Step::Trouble);
+  EXPECT_EQ(visit.name(), "");
+  machine(Screen::SelfTest);
+  view.trouble = Trouble::None;
+  machine(Screen::Idle);
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
+TEST_F(VisitTest, LeavingWipesWhatWasTyped) {
+  to_position();
+  act(ActionKind::Leave);
+  EXPECT_EQ(visit.overlay, Overlay::Leave);
+  act(ActionKind::Stay);
+  EXPECT_EQ(visit.name(), "Z");
+  act(ActionKind::Leave);
+  EXPECT_EQ(act(ActionKind::LeaveNow), Intent::Cancel);
+  EXPECT_EQ(visit.name(), "");
+  machine(Screen::Idle);
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
+TEST_F(VisitTest, ErasingTakesWholeLetters) {
+  act(ActionKind::Start);
+  act(ActionKind::Agree);
+  for (const char* letter : {"J", "ü", "ل", "r"}) visit.type(letter);
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "Jüل");
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "Jü");
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "J");
+  act(ActionKind::Erase);
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "");
+}
+
+TEST_F(VisitTest, ANameHasItsLimitAndNoSpacesAround) {
+  act(ActionKind::Start);
+  act(ActionKind::Agree);
+  visit.type(" ");
+  EXPECT_EQ(visit.name(), "");
+  for (int i = 0; i < 300; ++i) visit.type("ä");
+  EXPECT_EQ(visit.name().size(), kMostNameBytes);
+  for (int i = 0; i < 60; ++i) act(ActionKind::Erase);
+  visit.type(" ");
+  visit.type(" ");
+  act(ActionKind::Done);
+  EXPECT_NE(visit.name().back(), ' ');
+}
+
+TEST_F(VisitTest, TextGrowsInThreeStepsAndForgetsWithThePerson) {
+  act(ActionKind::BiggerText);
+  EXPECT_EQ(visit.text_percent(), 125);
+  act(ActionKind::BiggerText);
+  EXPECT_EQ(visit.text_percent(), 150);
+  act(ActionKind::ChooseLanguage, static_cast<int>(Language::Arabic));
+  EXPECT_EQ(visit.language, Language::Arabic);
+  pass(kPatience + seconds(1));
+  EXPECT_EQ(visit.text_percent(), 100);
+  EXPECT_EQ(visit.language, Language::English);
+}
+
+}  // namespace
+}  // namespace relievo::ui

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Action: what a touched node means. Plain data in the tree: a screen says what a button is for,
+// never what happens then (visit.cc does).
+#pragma once
+
+#include <cstdint>
+
+namespace relievo::ui {
+
+enum class ActionKind : std::uint8_t {
+  None,
+  Start, Agree, Decline, Done,           // on along the path
+  Back, Leave, LeaveNow, Stay,           // and off it
+  ShowLanguages, ChooseLanguage, ShowHelp, CloseOverlay,
+  BiggerText, Contrast,
+  TypeKey, Erase, Shift,                 // value: a space types one, else the node's text
+  TakePicture, Accept, Retake,
+  TurnFace,                              // dragged
+  TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,
+  Finish
+};
+
+struct Action {
+  ActionKind kind = ActionKind::None;
+  std::int32_t value = 0;
+  bool operator==(const Action&) const = default;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Display: a window or a whole screen, with its fingers and keys, and the GL context the Renderer needs.
+// Which one it is, firmware/main.cc says. Thread: main.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/base/result.h"
+#include "ui/input.h"
+
+namespace relievo::ui {
+
+class Display {
+ public:
+  virtual ~Display() = default;
+  virtual int width_px() const = 0;
+  virtual int height_px() const = 0;
+  virtual std::optional<Input> poll() = 0;
+  virtual void show() = 0;  // what was drawn; waits for the screen where it can
+};
+
+struct DisplayOptions {
+  int width_px = 0, height_px = 0;  // 0: the whole screen
+};
+
+}  // namespace relievo::ui

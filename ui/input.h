@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Input: what fingers and a keypad do, as plain data. Pixels of the screen. A mouse is one finger.
+#pragma once
+
+#include <cstdint>
+
+namespace relievo::ui {
+
+struct Input {
+  enum class Kind : std::uint8_t {
+    Down, Move, Up,                            // a finger
+    Next, Previous,                            // the keypad: focus goes on, or back
+    Activate, Back,                            // what has the focus is done; one step back
+    Quit                                       // the window is closed
+  };
+  Kind kind = Kind::Down;
+  std::int64_t finger = 0;
+  float x = 0, y = 0;
+};
+
+}  // namespace relievo::ui

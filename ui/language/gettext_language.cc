@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <libintl.h>
+#include <stdlib.h>
+
+#include <clocale>
+#include <filesystem>
+#include <string>
+
+#include "ui/language/language.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr std::array<LanguageInfo, kLanguages> kInfo{{
+    {"en", "English", false},
+    {"de", "Deutsch", false},
+    {"ar", "العربية", true},
+}};
+constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-ar"};
+
+const char* domain_of(Language language) { return kDomains[static_cast<std::size_t>(language)]; }
+
+}  // namespace
+
+const LanguageInfo& info_of(Language language) { return kInfo[static_cast<std::size_t>(language)]; }
+
+Result<void> prepare_languages() {
+  unsetenv("LANGUAGE");  // the person chooses, not the shell
+  // Numbers stay as C writes them: only words and letters change.
+  if (std::setlocale(LC_CTYPE, "C.UTF-8") == nullptr || std::setlocale(LC_MESSAGES, "C.UTF-8") == nullptr)
+    return Error{Errc::LibraryFailed, "the system has no locale C.UTF-8: install Debian's libc-bin"};
+  const char* named = getenv("RELIEVO_LOCALE_DIR");
+  const std::string folder = named != nullptr ? named : RELIEVO_LOCALE_DIR;
+  for (const char* domain : kDomains) {
+    if (domain == domain_of(Language::English)) continue;
+    if (!std::filesystem::exists(std::filesystem::path(folder) / "C.UTF-8" / "LC_MESSAGES" / (std::string(domain) + ".mo")))
+      return Error{Errc::NotFound, "has no words in other languages: install Relievo whole, or set RELIEVO_LOCALE_DIR"}.at(folder);
+    bindtextdomain(domain, folder.c_str());
+    bind_textdomain_codeset(domain, "UTF-8");
+  }
+  return {};
+}
+
+const char* Words::operator()(const char* english) const {
+  return language_ == Language::English ? english : dgettext(domain_of(language_), english);
+}
+
+const char* Words::plural(const char* one, const char* many, unsigned long number) const {
+  if (language_ == Language::English) return number == 1 ? one : many;
+  return dngettext(domain_of(language_), one, many, number);
+}
+
+bool Words::knows(const char* english) const { return language_ == Language::English || (*this)(english) != english; }
+
+}  // namespace relievo::ui

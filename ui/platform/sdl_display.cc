@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <SDL2/SDL.h>
+
+#include <utility>
+
+#include "ui/platform/sdl_display.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr std::int64_t kMouse = -1;
+
+class SdlDisplay final : public Display {
+ public:
+  ~SdlDisplay() override {
+    if (context_ != nullptr) SDL_GL_DeleteContext(context_);
+    if (window_ != nullptr) SDL_DestroyWindow(window_);
+    SDL_Quit();
+  }
+
+  Result<void> open(const DisplayOptions& options) {
+    SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // a finger is a finger, a mouse a mouse
+    SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) return failed();
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    for (const SDL_GLattr channel : {SDL_GL_RED_SIZE, SDL_GL_GREEN_SIZE, SDL_GL_BLUE_SIZE}) SDL_GL_SetAttribute(channel, 8);
+    SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+    const bool whole = options.width_px <= 0 || options.height_px <= 0;
+    Uint32 flags = SDL_WINDOW_OPENGL;
+    if (whole) flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
+    window_ = SDL_CreateWindow("Relievo", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, whole ? 1280 : options.width_px, whole ? 800 : options.height_px, flags);
+    if (window_ == nullptr) return failed();
+    context_ = SDL_GL_CreateContext(window_);
+    if (context_ == nullptr) return failed();
+    SDL_GL_SetSwapInterval(1);
+    return {};
+  }
+
+  int width_px() const override { return size().first; }
+  int height_px() const override { return size().second; }
+  void show() override { SDL_GL_SwapWindow(window_); }
+
+  std::optional<Input> poll() override {
+    SDL_Event event;
+    while (SDL_PollEvent(&event) != 0) {
+      if (auto input = input_of(event)) return input;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static Error failed() { return Error{Errc::LibraryFailed, "no screen can be opened: check SDL_VIDEODRIVER and the graphics driver"}.at(SDL_GetError()); }
+
+  std::pair<int, int> size() const {
+    int w = 0, h = 0;
+    SDL_GL_GetDrawableSize(window_, &w, &h);
+    return {w, h};
+  }
+
+  std::optional<Input> finger(Input::Kind kind, const SDL_TouchFingerEvent& touch) const {
+    const auto [w, h] = size();
+    return Input{kind, touch.fingerId, touch.x * static_cast<float>(w), touch.y * static_cast<float>(h)};
+  }
+
+  static std::optional<Input> key(const SDL_KeyboardEvent& key) {
+    switch (key.keysym.sym) {
+      case SDLK_TAB: return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
+      case SDLK_RIGHT:
+      case SDLK_DOWN: return Input{Input::Kind::Next};
+      case SDLK_LEFT:
+      case SDLK_UP: return Input{Input::Kind::Previous};
+      case SDLK_RETURN:
+      case SDLK_KP_ENTER:
+      case SDLK_SPACE: return Input{Input::Kind::Activate};
+      case SDLK_ESCAPE:
+      case SDLK_AC_BACK: return Input{Input::Kind::Back};
+      default: return std::nullopt;
+    }
+  }
+
+  std::optional<Input> input_of(const SDL_Event& event) {
+    switch (event.type) {
+      case SDL_QUIT: return Input{Input::Kind::Quit};
+      case SDL_FINGERDOWN: return finger(Input::Kind::Down, event.tfinger);
+      case SDL_FINGERMOTION: return finger(Input::Kind::Move, event.tfinger);
+      case SDL_FINGERUP: return finger(Input::Kind::Up, event.tfinger);
+      case SDL_KEYDOWN: return key(event.key);
+      case SDL_MOUSEBUTTONDOWN:
+        if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
+        held_ = true;
+        return Input{Input::Kind::Down, kMouse, static_cast<float>(event.button.x), static_cast<float>(event.button.y)};
+      case SDL_MOUSEBUTTONUP:
+        if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
+        held_ = false;
+        return Input{Input::Kind::Up, kMouse, static_cast<float>(event.button.x), static_cast<float>(event.button.y)};
+      case SDL_MOUSEMOTION:
+        if (!held_) return std::nullopt;
+        return Input{Input::Kind::Move, kMouse, static_cast<float>(event.motion.x), static_cast<float>(event.motion.y)};
+      default: return std::nullopt;
+    }
+  }
+
+  SDL_Window* window_ = nullptr;
+  SDL_GLContext context_ = nullptr;
+  bool held_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Display>> open_sdl_display(const DisplayOptions& options) {
+  auto display = std::make_unique<SdlDisplay>();
+  RELIEVO_TRY(display->open(options));
+  return std::unique_ptr<Display>(std::move(display));
+}
+
+}  // namespace relievo::ui

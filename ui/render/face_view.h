@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FaceView: the model in three dimensions, drawn into a texture of its own and only when something
+// changed. Twice as fine as the screen, so that edges are smooth without multi-sampling.
+// Thread: main, with a current context. Errors of make(): LibraryFailed.
+#pragma once
+
+#include <memory>
+
+#include "hal/base/result.h"
+#include "ui/render/draw_list.h"
+
+namespace relievo::ui {
+
+class FaceView {
+ public:
+  static Result<std::unique_ptr<FaceView>> make();
+  virtual ~FaceView() = default;
+  // The GL name of a texture with the model on nothing (premultiplied alpha; its first row is the
+  // bottom one); 0 when there is no model. Leaves the framebuffer bound that was.
+  virtual std::uint32_t draw(const pipeline::FaceModel* model, std::uint32_t version, const FaceLook& look, int width_px, int height_px) = 0;
+  virtual void forget() = 0;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <GLES3/gl3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ui/render/face_view.h"
+#include "ui/render/gles_program.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr float kDistanceMm = 640;     // of the viewer: a face is seen like this across a table
+constexpr float kSeenHeightMm = 250;   // of the window, at zoom 1
+constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
+constexpr int kMostSidePx = 2048;
+
+struct Corner {
+  float x, y, z, nx, ny, nz, u, v;
+};
+
+float radians(float degrees) { return degrees * 0.017453293F; }
+
+// Head frame, with the point the head turns about as its origin.
+std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
+  const auto& t = model.head_from_camera;
+  std::vector<Corner> corners;
+  corners.reserve(model.mesh.triangles.size() * 3);
+  for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t at = model.mesh.triangles[i][k];
+      const auto& v = model.mesh.vertices_mm[at];
+      const auto& n = model.mesh.normals[at];
+      const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
+      const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
+      const bool flat = model.texture.uv.size() <= 3 * i + k;
+      const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
+      corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm, static_cast<float>(m.x),
+                         static_cast<float>(m.y), static_cast<float>(m.z), uv.x, uv.y});
+    }
+  }
+  return corners;
+}
+
+class GlesFaceView final : public FaceView {
+ public:
+  ~GlesFaceView() override {
+    forget();
+    glDeleteProgram(program_);
+    glDeleteVertexArrays(1, &array_);
+  }
+
+  Result<void> prepare() {
+    RELIEVO_TRY_ASSIGN(program_, compile_program(shader::kFaceVertex, shader::kFace));
+    glGenVertexArrays(1, &array_);
+    return {};
+  }
+
+  std::uint32_t draw(const pipeline::FaceModel* model, std::uint32_t version, const FaceLook& look, int width_px, int height_px) override {
+    if (model == nullptr || version == 0) return 0;
+    const int most = std::max(width_px, height_px);
+    const int times = most * 2 <= kMostSidePx ? 2 : 1;
+    const int w = width_px * times, h = height_px * times;
+    const bool same = version == version_ && look == look_ && w == width_ && h == height_;
+    if (same && colour_ != 0) return colour_;
+    if (version != version_) upload(*model);
+    GLint bound = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
+    version_ = version;
+    look_ = look;
+    render();
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
+    return colour_;
+  }
+
+  void forget() override {
+    glDeleteBuffers(1, &buffer_);
+    glDeleteTextures(1, &texture_);
+    glDeleteTextures(1, &colour_);
+    glDeleteRenderbuffers(1, &depth_);
+    glDeleteFramebuffers(1, &frame_);
+    buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
+    version_ = 0;
+    count_ = width_ = height_ = 0;
+  }
+
+ private:
+  void upload(const pipeline::FaceModel& model) {
+    if (buffer_ == 0) glGenBuffers(1, &buffer_);
+    if (texture_ == 0) glGenTextures(1, &texture_);
+    const std::vector<Corner> corners = corners_of(model);
+    count_ = static_cast<int>(corners.size());
+    glBindVertexArray(array_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
+    const int sizes[] = {3, 3, 2};
+    std::size_t offset = 0;
+    for (GLuint i = 0; i < 3; ++i) {
+      glEnableVertexAttribArray(i);
+      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<const void*>(offset));  // NOLINT
+      offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
+    }
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const auto& atlas = model.texture;
+    textured_ = atlas.width_px > 0 && atlas.height_px > 0 && !atlas.rgb.empty();
+    if (textured_) glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE, atlas.rgb.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+
+  void make_frame(int w, int h) {
+    if (frame_ == 0) glGenFramebuffers(1, &frame_);
+    if (colour_ == 0) glGenTextures(1, &colour_);
+    if (depth_ == 0) glGenRenderbuffers(1, &depth_);
+    width_ = w;
+    height_ = h;
+    glBindTexture(GL_TEXTURE_2D, colour_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, w, h);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+  }
+
+  void set_uniforms() const {
+    const float cy = std::cos(radians(look_.yaw_deg)), sy = std::sin(radians(look_.yaw_deg));
+    const float cp = std::cos(radians(look_.pitch_deg)), sp = std::sin(radians(look_.pitch_deg));
+    // Column-major: first about the upright axis, then about the level one.
+    const float turned[9] = {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy};
+    const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom;
+    const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
+    const float near = 200, far = 1200, a = (far + near) / (near - far), b = 2 * far * near / (near - far);
+    float clip[16];
+    for (std::size_t c = 0; c < 3; ++c) {
+      clip[4 * c] = f / aspect * turned[3 * c];
+      clip[4 * c + 1] = f * turned[3 * c + 1];
+      clip[4 * c + 2] = a * turned[3 * c + 2];
+      clip[4 * c + 3] = -turned[3 * c + 2];
+    }
+    const float down = 6;  // the nose stands a little above the middle of the window
+    clip[12] = 0;
+    clip[13] = f * down;
+    clip[14] = -a * kDistanceMm + b;
+    clip[15] = kDistanceMm;
+    const float side = radians(look_.light_deg), up = 0.45F, norm = std::sqrt(1 + up * up);
+    glUseProgram(program_);
+    glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, clip);
+    glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, turned);
+    glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kDistanceMm);
+    glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm, std::cos(side) / norm);
+    glUniform1f(glGetUniformLocation(program_, "textured"), look_.textured && textured_ ? 1.0F : 0.0F);
+    glUniform1i(glGetUniformLocation(program_, "picture"), 0);
+  }
+
+  void render() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+    glViewport(0, 0, width_, height_);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    set_uniforms();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glBindVertexArray(array_);
+    glDrawArrays(GL_TRIANGLES, 0, count_);
+    glDisable(GL_DEPTH_TEST);
+  }
+
+  GLuint program_ = 0, array_ = 0, buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+  std::uint32_t version_ = 0;
+  FaceLook look_;
+  int count_ = 0, width_ = 0, height_ = 0;
+  bool textured_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FaceView>> FaceView::make() {
+  auto view = std::make_unique<GlesFaceView>();
+  RELIEVO_TRY(view->prepare());
+  return std::unique_ptr<FaceView>(std::move(view));
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One GLES program, and the shaders' source. Names of GL objects are plain numbers here, so that no
+// GL header is needed. Thread: main, with a current context.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/base/result.h"
+
+namespace relievo::ui {
+
+// Errors: LibraryFailed with the driver's words.
+Result<std::uint32_t> compile_program(const char* vertex, const char* fragment);
+
+namespace shader {
+extern const char* const kQuadVertex;   // every flat mark: one quad an instance
+extern const char* const kFlat;
+extern const char* const kShape;
+extern const char* const kGlyph;
+extern const char* const kImage;
+extern const char* const kRing;
+extern const char* const kFaceVertex;
+extern const char* const kFace;
+}  // namespace shader
+
+}  // namespace relievo::ui

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <GLES3/gl3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "ui/render/face_view.h"
+#include "ui/render/gles_program.h"
+#include "ui/render/renderer.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr std::size_t kPrograms = 5;  // Flat, Shape, Glyph, Image (and Face), Ring
+
+struct Instance {
+  Rect rect, uv;
+  Colour fill, fill_end, border;
+  float radius, border_px, blur_px, share;
+};
+
+std::size_t program_of(Mark mark) {
+  switch (mark) {
+    case Mark::Flat: return 0;
+    case Mark::Shape: return 1;
+    case Mark::Glyph: return 2;
+    case Mark::Image:
+    case Mark::Face: return 3;
+    case Mark::Ring: return 4;
+  }
+  return 0;
+}
+
+struct Program {
+  GLuint name = 0;
+  GLint screen = -1, texels = -1;
+};
+
+class GlesRenderer final : public Renderer {
+ public:
+  ~GlesRenderer() override {
+    for (const Program& program : programs_) glDeleteProgram(program.name);
+    glDeleteTextures(1, &atlas_);
+    glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+    glDeleteBuffers(1, &buffer_);
+    glDeleteVertexArrays(1, &array_);
+  }
+
+  Result<void> prepare() {
+    const char* const fragments[kPrograms] = {shader::kFlat, shader::kShape, shader::kGlyph, shader::kImage, shader::kRing};
+    for (std::size_t i = 0; i < kPrograms; ++i) {
+      RELIEVO_TRY_ASSIGN(programs_[i].name, compile_program(shader::kQuadVertex, fragments[i]));
+      programs_[i].screen = glGetUniformLocation(programs_[i].name, "screen");
+      programs_[i].texels = glGetUniformLocation(programs_[i].name, "texels");
+    }
+    RELIEVO_TRY_ASSIGN(face_, FaceView::make());
+    glGenVertexArrays(1, &array_);
+    glGenBuffers(1, &buffer_);
+    glGenTextures(1, &atlas_);
+    glGenTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+    instances_.reserve(1024);
+    return {};
+  }
+
+  void draw(const DrawList& list, TextAtlas& atlas, int width_px, int height_px) override {
+    width_ = width_px;
+    height_ = height_px;
+    upload_atlas(atlas);
+    for (std::size_t i = 1; i < kPictureSlots; ++i) upload_picture(i, list.pictures[i]);
+    upload_instances(list);
+    glViewport(0, 0, width_px, height_px);
+    glClearColor(0, 0, 0, 1);
+    glDisable(GL_SCISSOR_TEST);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_SCISSOR_TEST);
+    std::size_t first = 0;
+    while (first < list.commands.size()) {
+      std::size_t last = first + 1;
+      while (last < list.commands.size() && together(list.commands[first], list.commands[last])) ++last;
+      draw_batch(list, first, last);
+      first = last;
+    }
+  }
+
+  void read_back(std::span<std::uint8_t> rgb, int width_px, int height_px) override {
+    const std::size_t row = static_cast<std::size_t>(width_px) * 4;
+    std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_px));
+    glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    std::uint8_t* to = rgb.data();
+    for (int y = height_px - 1; y >= 0; --y) {
+      const std::uint8_t* from = pixels.data() + row * static_cast<std::size_t>(y);
+      for (int x = 0; x < width_px; ++x, from += 4, to += 3) std::memcpy(to, from, 3);
+    }
+  }
+
+  void forget() override {
+    face_->forget();
+    glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+    glGenTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+    versions_.fill(0);
+    atlas_generation_ = 0;
+  }
+
+ private:
+  static bool together(const Command& a, const Command& b) {
+    return a.mark == b.mark && a.mark != Mark::Face && a.clip == b.clip && a.picture == b.picture;
+  }
+
+  static void smooth_texture() {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+
+  void upload_atlas(TextAtlas& atlas) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glBindTexture(GL_TEXTURE_2D, atlas_);
+    const int side = atlas.side_px();
+    TextAtlas::Rows rows = atlas.take_changed();
+    if (atlas_generation_ == 0) {
+      glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, side, side, 0, GL_RED, GL_UNSIGNED_BYTE, atlas.texels());
+      smooth_texture();
+    } else if (rows.first < rows.last) {
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, rows.first, side, rows.last - rows.first, GL_RED, GL_UNSIGNED_BYTE, atlas.row(0, rows.first));
+    }
+    atlas_generation_ = atlas.generation();
+    atlas_side_ = static_cast<float>(side);
+  }
+
+  void upload_picture(std::size_t slot, const Picture& picture) {
+    if (picture.version == versions_[slot] || picture.version == 0 || picture.pixels.empty()) return;
+    const ImageView& view = picture.pixels;
+    const bool grey = view.format == PixelFormat::Grey8;
+    glBindTexture(GL_TEXTURE_2D, pictures_[slot]);
+    glTexImage2D(GL_TEXTURE_2D, 0, grey ? GL_R8 : GL_RGB8, view.width_px, view.height_px, 0, grey ? GL_RED : GL_RGB, GL_UNSIGNED_BYTE, view.bytes);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, grey ? GL_RED : GL_GREEN);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, grey ? GL_RED : GL_BLUE);
+    smooth_texture();
+    versions_[slot] = picture.version;
+  }
+
+  void upload_instances(const DrawList& list) {
+    instances_.clear();
+    for (const Command& c : list.commands) {
+      Rect uv = c.uv;
+      if (c.mark == Mark::Face) uv = {0, 1, 1, -1};  // its first row is the bottom one
+      instances_.push_back({c.rect, uv, c.fill, c.fill_end, c.border, c.radius, c.border_px, c.blur_px, c.share});
+    }
+    glBindVertexArray(array_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)), instances_.data(), GL_STREAM_DRAW);
+  }
+
+  void point_at(std::size_t first) const {
+    struct Field {
+      GLint count;
+      GLenum type;
+    };
+    constexpr Field fields[] = {{4, GL_FLOAT}, {4, GL_FLOAT}, {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_FLOAT}};
+    std::size_t offset = first * sizeof(Instance);
+    for (GLuint i = 0; i < 6; ++i) {
+      glEnableVertexAttribArray(i);
+      glVertexAttribPointer(i, fields[i].count, fields[i].type, fields[i].type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, sizeof(Instance),
+                            reinterpret_cast<const void*>(offset));  // NOLINT: GL's way of saying an offset
+      glVertexAttribDivisor(i, 1);
+      offset += fields[i].type == GL_FLOAT ? 16U : 4U;
+    }
+  }
+
+  void draw_batch(const DrawList& list, std::size_t first, std::size_t last) {
+    const Command& c = list.commands[first];
+    GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[static_cast<std::size_t>(c.picture)];
+    if (c.mark == Mark::Face) {
+      texture = face_->draw(list.face, list.face_version, list.face_look, static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)));
+      if (texture == 0) return;
+      glViewport(0, 0, width_, height_);
+      glEnable(GL_BLEND);
+      glEnable(GL_SCISSOR_TEST);
+    }
+    if (c.mark == Mark::Image && versions_[static_cast<std::size_t>(c.picture)] == 0) return;
+    const float x0 = std::max(0.0F, std::floor(c.clip.x)), y1 = std::ceil(c.clip.bottom());
+    glScissor(static_cast<GLint>(x0), static_cast<GLint>(static_cast<float>(height_) - y1), static_cast<GLsizei>(std::max(0.0F, std::ceil(c.clip.right()) - x0)),
+              static_cast<GLsizei>(std::max(0.0F, y1 - std::floor(c.clip.y))));
+    const Program& program = programs_[program_of(c.mark)];
+    glUseProgram(program.name);
+    glUniform2f(program.screen, static_cast<float>(width_), static_cast<float>(height_));
+    const float side = c.mark == Mark::Glyph ? atlas_side_ : 1.0F;
+    if (program.texels >= 0) glUniform2f(program.texels, side, side);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glBindVertexArray(array_);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    point_at(first);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(last - first));
+  }
+
+  std::array<Program, kPrograms> programs_{};
+  std::unique_ptr<FaceView> face_;
+  GLuint array_ = 0, buffer_ = 0, atlas_ = 0;
+  std::array<GLuint, kPictureSlots> pictures_{};
+  std::array<std::uint32_t, kPictureSlots> versions_{};
+  std::uint32_t atlas_generation_ = 0;
+  float atlas_side_ = 1;
+  std::vector<Instance> instances_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::make() {
+  auto renderer = std::make_unique<GlesRenderer>();
+  RELIEVO_TRY(renderer->prepare());
+  return std::unique_ptr<Renderer>(std::move(renderer));
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Renderer: draws a DrawList with OpenGL ES 3. It holds the textures: the text atlas, the pictures,
+// the model. What a list no longer shows is cleared from the GL's memory by forget().
+// Thread: main, with a current context. Errors of make(): LibraryFailed (no GLES 3, a shader that does
+// not compile: the driver's words are in where()).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "hal/base/result.h"
+#include "ui/render/draw_list.h"
+#include "ui/text/text_atlas.h"
+
+namespace relievo::ui {
+
+class Renderer {
+ public:
+  static Result<std::unique_ptr<Renderer>> make();
+  virtual ~Renderer() = default;
+
+  virtual void draw(const DrawList& list, TextAtlas& atlas, int width_px, int height_px) = 0;
+  // The frame as it was drawn: 3 bytes a pixel, from the top row down. Waits for the GL.
+  virtual void read_back(std::span<std::uint8_t> rgb, int width_px, int height_px) = 0;
+  // Nothing of a person stays: pictures and model go.
+  virtual void forget() = 0;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Page: what every screen is built with: the tree, the words, the palette, and the widgets. Lengths
+// that go in are dp; text grows with the person's text size, pictures and gaps do not.
+// Thread: main. Errors: none.
+#pragma once
+
+#include <string_view>
+
+#include "ui/language/language.h"
+#include "ui/theme.h"
+#include "ui/tree/tree.h"
+#include "ui/view_state.h"
+#include "ui/visit.h"
+
+namespace relievo::ui {
+
+namespace icon {  // letters of the icon font
+inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d", *kDown = "\uf045", *kTranslate = "\uf5ca",
+                            *kHelp = "\uf2d7", *kGood = "\uf5e0", *kCheck = "\uf12c", *kClose = "\uf156", *kCamera = "\uf100",
+                            *kAgain = "\uf450", *kErase = "\uf06e", *kText = "\uf27f", *kAlert = "\uf028", *kSun = "\uf5a8",
+                            *kZoomIn = "\uf34b", *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636", *kContrast = "\uf197",
+                            *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f", *kTurnLeft = "\uf465", *kTurnRight = "\uf467",
+                            *kShape = "\uf563", *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
+                            *kPerson = "\uf64a", *kStill = "\uf51f";
+}  // namespace icon
+
+enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
+
+class Page {
+ public:
+  Page(Tree& tree, const ViewState& view, const Visit& visit, const Palette& palette, const Rect& screen);
+
+  Tree& tree;
+  const ViewState& view;
+  const Visit& visit;
+  const Palette& palette;
+  Words tr;
+  float unit;              // pixels of a dp
+  float text_share;        // 1 to 1.5
+  float width_dp, height_dp;
+  bool portrait;
+
+  float px(float dp) const { return dp * unit; }
+  bool mirrored() const { return info_of(visit.language).right_to_left; }
+  // A box with nothing in it yet; gap and padding in dp.
+  Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;
+  Node grown(Node node, float share = 1) const { node.box.grow = share; return node; }
+  Node sized(Node node, float width_dp_, float height_dp_) const { node.box.width = px(width_dp_), node.box.height = px(height_dp_); return node; }
+  void space(float grow_share);
+
+  Node text(std::string_view words, float size, Weight weight, Colour colour, TextAlign align = TextAlign::Start) const;
+  void heading(std::string_view id, std::string_view words, float size = type::kTitle, TextAlign align = TextAlign::Start);
+  void body(std::string_view id, std::string_view words, TextAlign align = TextAlign::Start);
+  void sign(const char* letter, float size, Colour colour);
+  // An icon that points along the line of reading, turned for right-to-left.
+  const char* onward() const { return mirrored() ? icon::kBack : icon::kNext; }
+  const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }
+
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0);
+  void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
+  // "… {} …" with the value in it, kept apart from the direction of the words around.
+  std::string_view filled(const char* words, std::string_view value);
+
+  // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
+  void begin(bool with_back);
+  void end() { tree.close(); }
+
+ private:
+  void bar(bool with_back);
+  void steps();
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pages with one message: thanks, trouble, and the moment before the appliance is ready.
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+// One column in the middle of the page, with a sign on top.
+void begin_message(Page& page, const char* letter, Colour colour) {
+  Node root = page.box(Flow::Column, space::kM, 40, 40);
+  root.id = "page";
+  root.box.fill = page.palette.ground;
+  root.box.fill_end = page.palette.ground_end;
+  root.box.across = Across::Centre;
+  page.tree.open(root);
+  Node column = page.grown(page.box(Flow::Column, space::kM));
+  column.box.max_width = page.px(860);
+  column.box.width = page.px(std::min(860.0F, page.width_dp - 80));
+  column.box.along = Along::Centre;
+  column.box.scroll = true;
+  column.id = "message";
+  page.tree.open(column);
+  page.sign(letter, 88 / page.text_share, colour);
+}
+
+void end_message(Page& page) {
+  page.tree.close();
+  page.tree.close();
+}
+
+struct Words4 {
+  const char* letter;
+  const char* title;
+  const char* words;
+};
+
+Words4 words_of(const Page& page) {
+  const auto& tr = page.tr;
+  switch (page.view.trouble) {
+    case Trouble::Camera:
+      return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing of you was kept.")};
+    case Trouble::Calibration:
+      return {icon::kWrench, tr("The cameras must be adjusted"), tr("A technician has to measure them anew before portraits can be made. Nothing of you was kept.")};
+    case Trouble::Refused:
+      return {icon::kPerson, tr("It did not work this time"), tr("Three pictures were not good enough for a portrait. You can start anew, or ask the staff for help. Nothing of you was kept.")};
+    case Trouble::Storage:
+      return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing of you was kept.")};
+    case Trouble::TookTooLong:
+      return {icon::kWait, tr("That took too long"), tr("You can start anew. Nothing of you was kept.")};
+    case Trouble::None:
+    case Trouble::Other: break;
+  }
+  return {icon::kAlert, tr("This device needs help"), tr("Please tell the staff. This device tries again by itself. Nothing of you was kept.")};
+}
+
+}  // namespace
+
+void thanks_screen(Page& page) {
+  const auto& tr = page.tr;
+  begin_message(page, icon::kGood, page.palette.good);
+  page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
+  page.body("what", tr("To have it erased, quote this code to the staff. You may take a photograph of it."), TextAlign::Centre);
+  Node row = page.box(Flow::Row);
+  row.box.along = Along::Centre;
+  page.tree.open(row);
+  Node card = page.box(Flow::Column, 4, 48, 20);
+  card.box.fill = page.palette.card;
+  card.box.border = page.palette.accent;
+  card.box.border_px = page.px(3);
+  card.box.radius = page.px(size::kCardRadius);
+  page.tree.open(card);
+  page.tree.leaf(page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
+  Node code = page.text(page.filled("{}", page.view.receipt), 56, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  code.id = "receipt";
+  code.style.size_px = page.px(56);
+  page.tree.leaf(code);
+  page.tree.close();
+  page.tree.close();
+  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  page.button("finish", tr("Done"), icon::kCheck, ButtonLook::Main, {ActionKind::Finish, 0});
+  end_message(page);
+}
+
+void trouble_screen(Page& page) {
+  const Words4 said = words_of(page);
+  begin_message(page, said.letter, page.palette.warn);
+  page.heading("title", said.title, type::kTitle, TextAlign::Centre);
+  page.body("what", said.words, TextAlign::Centre);
+  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  if (page.view.screen == Screen::Idle) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
+  end_message(page);
+}
+
+void starting_screen(Page& page) {
+  begin_message(page, icon::kWait, page.palette.good);
+  page.heading("title", page.tr("One moment, please"), type::kTitle, TextAlign::Centre);
+  page.body("what", page.tr("This device is starting and tests itself."), TextAlign::Centre);
+  end_message(page);
+}
+
+}  // namespace relievo::ui

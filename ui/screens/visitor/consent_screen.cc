@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What happens, what is kept, and the question. No camera has run before the answer.
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+void point(Page& page, const char* letter, const char* title, const char* words) {
+  Node row = page.box(Flow::Row, space::kM, 22, 16);
+  row.box.across = Across::Centre;
+  row.box.fill = page.palette.card;
+  row.box.border = page.palette.card_border;
+  row.box.border_px = page.px(1.5F);
+  row.box.radius = page.px(size::kRadius);
+  row.box.grow = 1;
+  page.tree.open(row);
+  Node badge = page.sized(page.box(Flow::Column), 48, 48);
+  badge.box.along = Along::Centre;
+  page.tree.open(badge);
+  Node sign = page.text(letter, 38 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  sign.role = Role::Icon;
+  sign.style.icon = true;
+  page.tree.leaf(sign);
+  page.tree.close();
+  Node column = page.grown(page.box(Flow::Column, 6));
+  page.tree.open(column);
+  page.tree.leaf(page.text(title, type::kBody, Weight::Bold, page.palette.ink));
+  page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
+  page.tree.close();
+  page.tree.close();
+}
+
+void points(Page& page) {
+  const auto& tr = page.tr;
+  const bool two = !page.portrait && page.text_share < 1.3F;
+  const auto open_row = [&] { if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS))); };
+  const auto close_row = [&] { if (two) page.tree.close(); };
+  open_row();
+  point(page, icon::kCamera, tr("We take one picture"), tr("Two cameras photograph your face at the same moment. Nothing is photographed before you say yes."));
+  point(page, icon::kShape, tr("You look at it first"), tr("This device computes a 3D portrait from it. Nothing leaves the device for that."));
+  close_row();
+  open_row();
+  point(page, icon::kDisk, tr("You decide what is kept"), tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
+  point(page, icon::kErase, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything of you is erased."));
+  close_row();
+}
+
+}  // namespace
+
+void consent_screen(Page& page) {
+  const auto& tr = page.tr;
+  page.begin(true);
+  page.heading("title", tr("What happens here"));
+  Node list = page.grown(page.box(Flow::Column, space::kS));
+  list.id = "points";
+  list.box.scroll = true;
+  page.tree.open(list);
+  points(page);
+  page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), type::kSmall, Weight::Regular, page.palette.ink_soft));
+  page.tree.close();
+  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
+  const float grow = page.portrait ? 0.0F : 1.0F;
+  page.button("decline", tr("No, thank you"), nullptr, ButtonLook::Quiet, {ActionKind::Decline, 0}, grow);
+  page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, {ActionKind::Agree, 0}, 1.6F * grow);
+  page.tree.close();
+  page.end();
+}
+
+}  // namespace relievo::ui

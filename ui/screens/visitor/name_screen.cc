@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+
+void name_screen(Page& page) {
+  const auto& tr = page.tr;
+  page.begin(true);
+  page.heading("title", tr("Your name or your number"), page.text_share > 1.3F && !page.portrait ? type::kHeading : 38);
+  Node field = page.box(Flow::Row, 3, 26, 14);
+  field.id = "name";
+  field.role = Role::Field;
+  field.name = tr("Your name or your number");
+  field.box.min_height = page.px(72);
+  field.box.across = Across::Centre;
+  field.box.fill = page.palette.card;
+  field.box.border = page.palette.accent;
+  field.box.border_px = page.px(3);
+  field.box.radius = page.px(size::kRadius);
+  page.tree.open(field);
+  const std::string_view name = page.visit.name();
+  Node typed = page.text(name.empty() ? std::string_view(tr("Type here")) : name, type::kButton, Weight::Medium,
+                         name.empty() ? page.palette.ink_soft : page.palette.ink);
+  typed.id = "typed";
+  if (!name.empty()) page.tree.leaf(typed);
+  Node caret = page.sized(page.box(Flow::Column), 3, 36);
+  caret.box.fill = page.palette.accent;
+  page.tree.leaf(caret);
+  if (name.empty()) page.tree.leaf(typed);
+  page.tree.close();
+  if (page.portrait) page.space(1);
+  keyboard(page);
+  page.end();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What lies over a page: help, languages, "really leave?", "still there?". Nothing under it is touched.
+#include <cstdio>
+
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* help_for(const Page& page) {
+  const auto& tr = page.tr;
+  switch (page.visit.step) {
+    case Step::Attract: return tr("This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time.");
+    case Step::Consent: return tr("Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way.");
+    case Step::Name: return tr("Type your name, or the number you were given. With the arrow key you erase a letter.");
+    case Step::Position: return tr("Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
+    case Step::Working: return tr("Please wait a few seconds. You can stop with the cross.");
+    case Step::Review: return tr("Draw over the portrait with a finger to turn it. Keep it, or take another one.");
+    case Step::Thanks: return tr("Note the code, or photograph it. With it everything of you can be erased.");
+    case Step::Trouble:
+    case Step::Starting: break;
+  }
+  return tr("Please tell the staff.");
+}
+
+void begin_card(Page& page) {
+  Node veil = page.box(Flow::Column, 0, 40, 32);
+  veil.id = "veil";
+  veil.modal = true;
+  veil.box.fill = page.palette.veil;
+  veil.box.along = Along::Centre;
+  veil.box.across = Across::Centre;
+  page.tree.open(veil);
+  Node card = page.box(Flow::Column, space::kM, 44, 40);
+  card.id = "card";
+  card.box.width = page.px(std::min(820.0F, page.width_dp - 80));
+  card.box.fill = page.palette.card;
+  card.box.border = page.palette.card_border;
+  card.box.border_px = page.px(2);
+  card.box.radius = page.px(size::kCardRadius);
+  card.box.shadow = true;
+  page.tree.open(card);
+}
+
+void end_card(Page& page) {
+  page.tree.close();
+  page.tree.close();
+}
+
+// Two answers: side by side where there is room for their words.
+void answers(Page& page, const char* quiet, Action quiet_action, const char* main, Action main_action) {
+  const bool row = page.text_share < 1.4F && !(page.portrait && page.text_share > 1.2F);
+  page.tree.open(page.box(row ? Flow::Row : Flow::Column, space::kS));
+  page.button("answer_quiet", quiet, nullptr, ButtonLook::Quiet, quiet_action, row ? 1.0F : 0.0F);
+  page.button("answer_main", main, nullptr, ButtonLook::Main, main_action, row ? 1.0F : 0.0F);
+  page.tree.close();
+}
+
+void help(Page& page) {
+  page.heading("overlay_title", page.tr("Help"));
+  page.body("overlay_text", help_for(page));
+  page.body("overlay_staff", page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
+  page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
+}
+
+void languages(Page& page) {
+  page.heading("overlay_title", page.tr("Choose your language"));
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    const bool now = language == page.visit.language;
+    page.button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, now ? ButtonLook::Main : ButtonLook::Quiet,
+                {ActionKind::ChooseLanguage, static_cast<int>(i)});
+  }
+}
+
+void leave(Page& page) {
+  page.heading("overlay_title", page.tr("Stop and leave?"));
+  page.body("overlay_text", page.tr("Everything you have entered and every picture is wiped at once. Nothing is kept."));
+  answers(page, page.tr("Yes, wipe everything"), {ActionKind::LeaveNow, 0}, page.tr("No, go on"), {ActionKind::Stay, 0});
+}
+
+void still_there(Page& page) {
+  const int left = page.visit.seconds_left(page.view.now);
+  char number[8];
+  std::snprintf(number, sizeof number, "%d", left);
+  page.heading("overlay_title", page.tr("Are you still there?"));
+  page.body("overlay_text", page.filled(page.tr.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", static_cast<unsigned long>(left)), number));
+  answers(page, page.tr("Stop now"), {ActionKind::LeaveNow, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
+}
+
+}  // namespace
+
+void overlay_screen(Page& page) {
+  begin_card(page);
+  switch (page.visit.overlay) {
+    case Overlay::Help: help(page); break;
+    case Overlay::Languages: languages(page); break;
+    case Overlay::Leave: leave(page); break;
+    case Overlay::StillThere: still_there(page); break;
+    case Overlay::None: break;
+  }
+  end_card(page);
+}
+
+}  // namespace relievo::ui

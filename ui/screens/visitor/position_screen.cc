@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The live picture as in a mirror, the oval, one advice at a time with a sign that says the same.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+struct Said {
+  const char* words;
+  const char* letter;
+  bool good = false;
+};
+
+// Where to move, as the person sees it in the mirror.
+Said side_of(const Page& page) {
+  const LiveView& live = page.view.live;
+  if (std::abs(live.face_x) >= std::abs(live.face_y))
+    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext} : Said{page.tr("Move a little this way"), icon::kBack};
+  return live.face_y > 0 ? Said{page.tr("A little higher, please"), icon::kUp} : Said{page.tr("A little lower, please"), icon::kDown};
+}
+
+Said said(const Page& page) {
+  using pipeline::Advice;
+  const auto& tr = page.tr;
+  if (page.view.live.number == 0) return {tr("The cameras are starting"), icon::kWait};
+  switch (page.view.live.advice) {
+    case Advice::None: return {tr("Very good. Look straight ahead and hold still"), icon::kGood, true};
+    case Advice::NoFace: return {tr("Look into the oval"), icon::kPerson};
+    case Advice::TooClose: return {tr("Please step back a little"), icon::kDown};
+    case Advice::TooFar: return {tr("Please come a little closer"), icon::kUp};
+    case Advice::OffCentre: return side_of(page);
+    case Advice::TooDark: return {tr("It is too dark here for the cameras"), icon::kDark};
+    case Advice::TooBright: return {tr("It is too bright: turn away from the light"), icon::kSun};
+    case Advice::Moved:
+    case Advice::Blurred: return {tr("Please hold still"), icon::kStill};
+    case Advice::MoreThanOneFace: return {tr("One person at a time, please"), icon::kPerson};
+    case Advice::TurnedAside: return {tr("Please look straight ahead"), icon::kPerson};
+    case Advice::LooksUpOrDown: return {tr("Please hold your head level"), icon::kPerson};
+    case Advice::Tilted: return {tr("Please hold your head upright"), icon::kPerson};
+    case Advice::UnevenLight: return {tr("The light comes from one side: turn towards it"), icon::kSun};
+    case Advice::Highlights: return {tr("Your skin mirrors a lamp: turn a little"), icon::kSun};
+    case Advice::FaceHidden: return {tr("Please uncover your whole face"), icon::kPerson};
+    case Advice::EyesHidden: return {tr("Please uncover your eyes"), icon::kPerson};
+    case Advice::EyesClosed: return {tr("Please open your eyes"), icon::kPerson};
+    case Advice::GlassesGlare: return {tr("Please take off your glasses"), icon::kPerson};
+    case Advice::MouthOpen: return {tr("Please close your mouth"), icon::kPerson};
+    case Advice::Background: return {tr("Please stand so that nothing moves behind you"), icon::kPerson};
+  }
+  return {tr("Look into the oval"), icon::kPerson};
+}
+
+// Why the person is here again.
+const char* last_time(const Page& page) {
+  if (page.view.attempt == 0 || page.view.trouble != Trouble::Refused) return nullptr;
+  return page.tr("That did not work yet. Once more, please: face to the front, and still.");
+}
+
+// A picture that is much narrower than the screen is seen whole, in the middle.
+bool covers(const Page& page, float aspect) { return aspect > 0.75F * page.width_dp / page.height_dp; }
+
+void picture(Page& page) {
+  const ImageView& live = page.view.live.picture;
+  Node node = page.box(Flow::Column);
+  node.id = "live";
+  node.name = page.tr("You, as in a mirror");
+  node.role = Role::Picture;
+  node.mark = live.empty() ? Mark::Shape : Mark::Image;
+  node.picture = PictureSlot::Live;
+  node.aspect = live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  node.covers = covers(page, node.aspect);
+  node.mirrored = true;
+  page.tree.leaf(node);
+}
+
+void oval(Page& page, bool good, std::optional<float> countdown) {
+  Node room = page.box(Flow::Row);
+  room.box.along = Along::Centre;
+  room.box.across = Across::Centre;
+  page.tree.open(room);
+  // As large as a face at the best distance, as far as there is room.
+  const ImageView& live = page.view.live.picture;
+  const float aspect = live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  const float shown = covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
+  const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F : page.height_dp * 0.74F;
+  const float h = std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F});
+  Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
+  ring.id = "oval";
+  ring.mark = Mark::Ring;
+  ring.line_px = page.px(10);
+  ring.colour = {6, 10, 18, 150};
+  ring.box.fill = good ? page.palette.good : Colour{255, 255, 255, 255};
+  ring.box.along = Along::Centre;
+  ring.box.across = Across::Centre;
+  ring.share = countdown ? 1 - *countdown / kCountdown : 1.0F;
+  page.tree.leaf(ring);
+  page.tree.close();
+}
+
+void advice(Page& page, const Said& what, std::optional<float> countdown) {
+  const bool upright = page.portrait || page.text_share > 1.3F;
+  Node row = page.box(Flow::Row);
+  row.box.along = Along::Centre;
+  page.tree.open(row);
+  Node pill = page.box(Flow::Row, 18, 32, 16);
+  pill.id = "advice";
+  pill.role = Role::Status;
+  pill.name = what.words;
+  pill.box.across = Across::Centre;
+  pill.box.along = Along::Centre;
+  pill.box.max_width = page.px(upright ? 700.0F : 860.0F);
+  pill.box.fill = page.visit.high_contrast ? Colour{0, 0, 0, 255} : Colour{8, 14, 26, 225};
+  pill.box.border = what.good ? page.palette.good : page.palette.quiet_border;
+  pill.box.border_px = page.px(2);
+  pill.box.radius = page.px(size::kPillRadius);
+  page.tree.open(pill);
+  const Colour ink = what.good ? page.palette.good : Colour{255, 255, 255, 255};
+  page.sign(what.letter, 36, what.good ? page.palette.good : page.palette.warn);
+  Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
+  page.tree.leaf(text);
+  if (countdown) {
+    const char digit[] = {static_cast<char>('1' + std::clamp(static_cast<int>(*countdown / kCountdown * 3), 0, 2)), 0};
+    Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good, TextAlign::Centre);
+    number.id = "countdown";
+    page.tree.leaf(number);
+  }
+  page.tree.close();
+  page.tree.close();
+}
+
+}  // namespace
+
+void position_screen(Page& page) {
+  const Said what = said(page);
+  const auto countdown = page.visit.countdown(page.view.live);
+  Node root = page.box(Flow::Stack);
+  root.id = "page";
+  root.box.fill = page.palette.ground;
+  page.tree.open(root);
+  picture(page);
+  oval(page, what.good, countdown);
+  page.tree.open(page.box(Flow::Column, space::kS, 40, 24));
+  advice(page, what, countdown);
+  if (const char* again = last_time(page); again != nullptr && !what.good) {
+    Node row = page.box(Flow::Row);
+    row.box.along = Along::Centre;
+    page.tree.open(row);
+    Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255}, TextAlign::Centre);
+    note.id = "again";
+    note.box.pad_x = page.px(24);
+    note.box.pad_y = page.px(8);
+    note.box.max_width = page.px(720);
+    note.box.fill = {8, 14, 26, 225};
+    note.box.radius = page.px(20);
+    page.tree.leaf(note);
+    page.tree.close();
+  }
+  page.space(1);
+  const bool stacked = page.portrait;
+  if (stacked) page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main, {ActionKind::TakePicture, 0});
+  Node foot = page.box(Flow::Row, space::kS);
+  foot.box.across = Across::End;
+  page.tree.open(foot);
+  page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  page.space(1);
+  if (!stacked) page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main, {ActionKind::TakePicture, 0});
+  page.tree.close();
+  page.tree.close();
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The face, to be turned with a finger; how good it is, in words; and the question.
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr double kWholeFace = 0.9, kMostOfTheFace = 0.7;   // share of the front that was measured
+constexpr double kSharp = 0.25;                            // of the photographed texels
+
+// No figures: they mean nothing to a visitor.
+const char* quality(const Page& page, bool& good) {
+  good = true;
+  if (page.view.model == nullptr) return "";
+  const pipeline::ModelQuality& q = page.view.model->quality;
+  if (q.coverage >= kWholeFace && q.texture_sharpness >= kSharp) return page.tr("Very good: your whole face was seen clearly.");
+  if (q.coverage >= kMostOfTheFace) return page.tr("Good: most of your face was seen clearly.");
+  good = false;
+  return page.tr("Parts of your face were hidden or blurred. Another picture will be better.");
+}
+
+void tools(Page& page) {
+  const auto& tr = page.tr;
+  Node row = page.box(Flow::Row, 10);
+  row.box.along = Along::Centre;
+  page.tree.open(row);
+  page.square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
+  page.square_button("turn_right", tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
+  page.square_button("zoom_out", tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
+  page.square_button("zoom_in", tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
+  page.square_button("light", tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+  page.square_button("shape", tr("With and without colour"), icon::kShape, {ActionKind::ShowShape, 0});
+  page.tree.close();
+}
+
+void face(Page& page) {
+  Node card = page.grown(page.box(Flow::Stack), page.portrait ? 1.0F : 1.35F);
+  card.box.fill = page.palette.stage;
+  card.box.radius = page.px(size::kCardRadius);
+  card.box.shadow = true;
+  page.tree.open(card);
+  Node node = page.box(Flow::Column);
+  node.id = "face";
+  node.name = page.tr("Your face: turn it with a finger");
+  node.role = Role::Picture;
+  node.mark = page.view.model != nullptr ? Mark::Face : Mark::Shape;
+  node.box.radius = page.px(size::kCardRadius);
+  node.action = {ActionKind::TurnFace, 0};
+  page.tree.leaf(node);
+  Node column = page.box(Flow::Column, 0, 12, 16);
+  page.tree.open(column);
+  page.space(1);
+  tools(page);
+  page.tree.close();
+  page.tree.close();
+}
+
+void assurance(Page& page) {
+  const auto& tr = page.tr;
+  page.body("what", tr("Turn the portrait with your finger. Nothing is stored before you say so."));
+  bool good = true;
+  const char* said = quality(page, good);
+  Node row = page.box(Flow::Row, 14, 18, 14);
+  row.id = "quality";
+  row.role = Role::Status;
+  row.box.across = Across::Centre;
+  row.box.fill = page.palette.card;
+  row.box.border = page.palette.card_border;
+  row.box.border_px = page.px(1.5F);
+  row.box.radius = page.px(size::kRadius);
+  page.tree.open(row);
+  page.sign(good ? icon::kGood : icon::kInfo, 32, good ? page.palette.good : page.palette.warn);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  page.tree.leaf(page.text(said, 22, Weight::Medium, page.palette.ink));
+  page.tree.close();
+  page.tree.close();
+}
+
+void question(Page& page) {
+  const auto& tr = page.tr;
+  Node column = page.box(Flow::Column, space::kM);
+  if (!page.portrait) column.box.grow = 1;
+  page.tree.open(column);
+  Node words = page.box(Flow::Column, space::kS);
+  words.id = "words";
+  words.box.grow = page.portrait ? 0.0F : 1.0F;
+  words.box.scroll = !page.portrait;
+  words.box.along = Along::Centre;
+  page.tree.open(words);
+  page.heading("title", tr("Is this you?"));
+  if (page.view.trouble == Trouble::Storage) {
+    Node trouble = page.text(tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."), 22, Weight::Medium, page.palette.bad);
+    trouble.id = "trouble";
+    trouble.role = Role::Status;
+    page.tree.leaf(trouble);
+  } else {
+    assurance(page);
+  }
+  page.tree.close();
+  page.button("accept", tr("Yes, keep it"), icon::kGood, ButtonLook::Main, {ActionKind::Accept, 0});
+  page.button("retake", tr("Take it again"), icon::kAgain, ButtonLook::Quiet, {ActionKind::Retake, 0});
+  page.tree.close();
+}
+
+}  // namespace
+
+void review_screen(Page& page) {
+  page.begin(false);
+  page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL)));
+  face(page);
+  question(page);
+  page.tree.close();
+  page.end();
+}
+
+}  // namespace relievo::ui

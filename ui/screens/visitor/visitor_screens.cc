@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+bool is_dark(Step step) {
+  return step == Step::Attract || step == Step::Position || step == Step::Trouble || step == Step::Starting;
+}
+
+const Palette& palette_of(const Visit& visit) { return visit.high_contrast ? kHighContrast : is_dark(visit.step) ? kDark : kLight; }
+
+void step_screen(Page& page) {
+  switch (page.visit.step) {
+    case Step::Attract: return attract_screen(page);
+    case Step::Consent: return consent_screen(page);
+    case Step::Name: return name_screen(page);
+    case Step::Position: return position_screen(page);
+    case Step::Working: return working_screen(page);
+    case Step::Review: return review_screen(page);
+    case Step::Thanks: return thanks_screen(page);
+    case Step::Trouble: return trouble_screen(page);
+    case Step::Starting: return starting_screen(page);
+  }
+}
+
+// The machine wipes a model the moment it leaves Review; the page may be a frame late.
+const pipeline::FaceModel* face_of(const ViewState& view, const Visit& visit) {
+  return visit.step == Step::Attract ? view.showpiece : view.model;
+}
+
+}  // namespace
+
+const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit, const Rect& screen) {
+  const Palette& palette = palette_of(visit);
+  tree.begin(info_of(visit.language).right_to_left);
+  Page page(tree, view, visit, palette, screen);
+  Node root = page.box(Flow::Stack);
+  root.id = "screen";
+  tree.open(root);
+  step_screen(page);
+  if (visit.overlay != Overlay::None) {
+    Page over(tree, view, visit, visit.high_contrast ? kHighContrast : kLight, screen);
+    overlay_screen(over);
+  }
+  tree.close();
+  return palette;
+}
+
+void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
+  list.pictures[static_cast<std::size_t>(PictureSlot::Live)] = {view.live.picture, view.live.number};
+  for (std::size_t i = 0; i < kStageViews; ++i)
+    list.pictures[static_cast<std::size_t>(PictureSlot::Matches) + i] = {view.stages[i].picture, view.stages[i].number};
+  list.face = face_of(view, visit);
+  list.face_version = list.face == nullptr ? 0 : visit.step == Step::Attract ? ~0U : view.model_number;
+  list.face_look = visit.look;
+  if (visit.step == Step::Attract) list.face_look = {-26, 9, 1.12F, -40, true};
+}
+
+}  // namespace relievo::ui

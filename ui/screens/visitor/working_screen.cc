@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The four stages, each with its picture as it is born.
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+int stage_under_way(Screen screen) {
+  switch (screen) {
+    case Screen::Match: return 0;
+    case Screen::Reconstruct: return 1;
+    case Screen::Mesh: return 2;
+    case Screen::Texture: return 3;
+    case Screen::Review:
+    case Screen::Store: return 4;
+    case Screen::SelfTest:
+    case Screen::Idle:
+    case Screen::Calibrate:
+    case Screen::Position:
+    case Screen::Capture:
+    case Screen::Export:
+    case Screen::Technician:
+    case Screen::Fault: break;
+  }
+  return -1;
+}
+
+void card(Page& page, int stage, const char* words) {
+  const int now = stage_under_way(page.view.screen);
+  const StageView& born = page.view.stages[static_cast<std::size_t>(stage)];
+  constexpr std::string_view kIds[] = {"matches", "cloud", "mesh", "texture"};
+  Node node = page.grown(page.box(Flow::Column, space::kS, 14, 14));
+  node.id = kIds[stage];
+  node.role = Role::Status;
+  node.name = words;
+  node.box.fill = page.palette.card;
+  node.box.border = stage == now ? page.palette.accent : page.palette.card_border;
+  node.box.border_px = page.px(stage == now ? 3.0F : 1.5F);
+  node.box.radius = page.px(size::kCardRadius);
+  page.tree.open(node);
+  Node picture = page.grown(page.box(Flow::Column));
+  picture.box.radius = page.px(18);
+  picture.box.fill = page.palette.stage;
+  picture.box.along = Along::Centre;
+  picture.box.across = Across::Centre;
+  if (!born.picture.empty()) {
+    picture.role = Role::Picture;
+    picture.name = words;
+    picture.mark = Mark::Image;
+    picture.picture = static_cast<PictureSlot>(static_cast<int>(PictureSlot::Matches) + stage);
+    picture.aspect = static_cast<float>(born.picture.width_px) / static_cast<float>(born.picture.height_px);
+    picture.covers = true;
+  }
+  page.tree.open(picture);
+  if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
+  page.tree.close();
+  Node row = page.box(Flow::Row, 10);
+  row.box.across = Across::Centre;
+  row.box.along = Along::Centre;
+  row.box.min_height = page.px(64 * page.text_share);
+  page.tree.open(row);
+  if (stage < now) page.sign(icon::kGood, 28, page.palette.good);
+  page.tree.leaf(page.text(words, 22, stage == now ? Weight::Bold : Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft, TextAlign::Centre));
+  page.tree.close();
+  page.tree.close();
+}
+
+void progress(Page& page) {
+  const int now = stage_under_way(page.view.screen);
+  const float done = now < 0 ? 0 : now >= 4 ? 1 : (static_cast<float>(now) + page.view.progress) / 4;
+  Node track = page.box(Flow::Row);
+  track.id = "progress";
+  track.role = Role::Status;
+  track.name = page.tr("How far it is");
+  track.box.height = page.px(14);
+  track.box.radius = page.px(7);
+  track.box.fill = page.palette.quiet_border;
+  page.tree.open(track);
+  if (done > 0) {
+    Node bar = page.grown(page.box(Flow::Column), std::max(0.02F, done));
+    bar.box.radius = page.px(7);
+    bar.box.fill = page.palette.accent;
+    page.tree.leaf(bar);
+  }
+  if (done < 1) page.space(1 - done);
+  page.tree.close();
+}
+
+}  // namespace
+
+void working_screen(Page& page) {
+  const auto& tr = page.tr;
+  page.begin(false);
+  const bool storing = page.view.screen == Screen::Store;
+  page.heading("title", storing ? tr("Your portrait is being stored") : tr("Your 3D portrait is being made"));
+  page.body("what", tr("It takes a few seconds. You need not stand still any more."));
+  const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"), tr("The colours of your skin")};
+  Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
+  page.tree.open(all);
+  for (int i = 0; i < 4; ++i) {
+    if (page.portrait && i % 2 == 0) page.tree.open(page.grown(page.box(Flow::Row, space::kM)));
+    card(page, i, words[i]);
+    if (page.portrait && i % 2 == 1) page.tree.close();
+  }
+  page.tree.close();
+  progress(page);
+  page.end();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pango/pangocairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <unordered_map>
+
+#include "ui/text/text_engine.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr float kScale = PANGO_SCALE;
+constexpr int kBalancedLines = 6;  // longer paragraphs are read, not looked at
+
+template <typename T>
+struct Unref {
+  void operator()(T* object) const { g_object_unref(object); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Unref<T>>;
+
+std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  // FNV-1a
+  const auto* at = static_cast<const unsigned char*>(bytes);
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ at[i]) * 1099511628211ULL;
+  return hash;
+}
+
+std::uint64_t key_of(std::string_view text, const TextStyle& style, int width) {
+  std::uint64_t hash = mix(14695981039346656037ULL, text.data(), text.size());
+  const std::uint32_t numbers[] = {static_cast<std::uint32_t>(std::lround(style.size_px * 8)), static_cast<std::uint32_t>(width),
+                                   static_cast<std::uint32_t>(style.weight), static_cast<std::uint32_t>(style.align),
+                                   static_cast<std::uint32_t>(style.icon), static_cast<std::uint32_t>(style.right_to_left)};
+  hash = mix(hash, numbers, sizeof numbers);
+  return mix(hash, style.language, std::strlen(style.language));
+}
+
+PangoWeight pango_weight(Weight weight) {
+  switch (weight) {
+    case Weight::Regular: return PANGO_WEIGHT_NORMAL;
+    case Weight::Medium: return PANGO_WEIGHT_SEMIBOLD;
+    case Weight::Bold: return PANGO_WEIGHT_BOLD;
+  }
+  return PANGO_WEIGHT_NORMAL;
+}
+
+// Arabic fonts bring much room of their own; headings need less than what is read.
+float line_spacing(const TextStyle& style) {
+  if (style.icon) return 1.0F;
+  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * (std::strcmp(style.language, "ar") == 0 ? 0.84F : 1.0F);
+}
+
+class PangoTextEngine final : public TextEngine {
+ public:
+  PangoTextEngine() : map_(pango_cairo_font_map_new()), context_(pango_font_map_create_context(map_.get())) {
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(context_.get(), options);
+    cairo_font_options_destroy(options);
+    pango_cairo_context_set_resolution(context_.get(), 72);
+    layout_.reset(pango_layout_new(context_.get()));
+  }
+
+  Result<void> check_fonts() {
+    for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans CJK SC", kIconFamily}) {
+      PangoFontDescription* wanted = pango_font_description_from_string(family);
+      Owned<PangoFont> font(pango_font_map_load_font(map_.get(), context_.get(), wanted));
+      pango_font_description_free(wanted);
+      PangoFontDescription* got = font ? pango_font_describe(font.get()) : nullptr;
+      const bool same = got != nullptr && std::strcmp(pango_font_description_get_family(got), family) == 0;
+      if (got != nullptr) pango_font_description_free(got);
+      if (!same) return Error{Errc::NotFound, "is not installed: run toolchain/setup for the fonts"}.at(family);
+    }
+    return {};
+  }
+
+  TextSize measure(std::string_view text, const TextStyle& style, float max_width_px) override {
+    return find(text, style, max_width_px).label.size;
+  }
+
+  const TextLabel& label(std::string_view text, const TextStyle& style, float max_width_px) override {
+    Entry& entry = find(text, style, max_width_px);
+    if (entry.generation != atlas_.generation()) rasterise(text, style, max_width_px, entry);
+    return entry.label;
+  }
+
+  TextAtlas& atlas() override { return atlas_; }
+
+  void forget() override {
+    labels_.clear();
+    atlas_.reset();
+    pango_layout_set_text(layout_.get(), "", 0);
+  }
+
+ private:
+  struct Entry {
+    TextLabel label;
+    std::uint32_t generation = 0;
+  };
+
+  Entry& find(std::string_view text, const TextStyle& style, float max_width_px) {
+    const int width = std::max(1, static_cast<int>(std::ceil(max_width_px)));
+    const std::uint64_t key = key_of(text, style, width);
+    const auto known = labels_.find(key);
+    if (known != labels_.end()) return known->second;
+    if (labels_.size() > 4000) forget();
+    Entry& entry = labels_[key];
+    set_out(text, style, width);
+    PangoRectangle ink, logical;
+    pango_layout_get_extents(layout_.get(), &ink, &logical);
+    entry.label.size = {std::ceil(static_cast<float>(logical.width) / kScale), std::ceil(static_cast<float>(logical.height) / kScale),
+                        pango_layout_get_line_count(layout_.get())};
+    entry.label.missing = pango_layout_get_unknown_glyphs_count(layout_.get());
+    return entry;
+  }
+
+  // Sets the paragraph out at the narrowest width that needs no more lines: lines of even length.
+  void set_out(std::string_view text, const TextStyle& style, int width) {
+    PangoLayout* layout = layout_.get();
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, style.icon ? kIconFamily : kFamilies);
+    pango_font_description_set_weight(font, style.icon ? PANGO_WEIGHT_NORMAL : pango_weight(style.weight));
+    pango_font_description_set_absolute_size(font, style.size_px * kScale);
+    pango_context_set_base_dir(context_.get(), style.right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR);
+    pango_context_set_language(context_.get(), pango_language_from_string(style.language));
+    pango_layout_context_changed(layout);
+    pango_layout_set_auto_dir(layout, FALSE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
+    pango_layout_set_line_spacing(layout, line_spacing(style));
+    pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER
+                               : style.right_to_left                    ? PANGO_ALIGN_RIGHT
+                                                                        : PANGO_ALIGN_LEFT);
+    pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
+    pango_layout_set_width(layout, width * PANGO_SCALE);
+    const int lines = pango_layout_get_line_count(layout);
+    int narrow = 0, wide = width;
+    if (lines > 1 && lines <= kBalancedLines) {
+      for (narrow = width / 2; wide - narrow > 4;) {
+        const int middle = (narrow + wide) / 2;
+        pango_layout_set_width(layout, middle * PANGO_SCALE);
+        if (pango_layout_get_line_count(layout) <= lines && !breaks_words()) wide = middle;
+        else narrow = middle;
+      }
+      pango_layout_set_width(layout, wide * PANGO_SCALE);
+    }
+    // The box is as wide as its widest line.
+    PangoRectangle logical;
+    pango_layout_get_extents(layout, nullptr, &logical);
+    pango_layout_set_width(layout, logical.width + PANGO_SCALE / 2);
+  }
+
+  // A line that ends inside a word.
+  bool breaks_words() {
+    int count = 0;
+    const PangoLogAttr* marks = pango_layout_get_log_attrs_readonly(layout_.get(), &count);
+    const char* text = pango_layout_get_text(layout_.get());
+    for (GSList* at = pango_layout_get_lines_readonly(layout_.get()); at != nullptr; at = at->next) {
+      auto* line = static_cast<PangoLayoutLine*>(at->data);
+      const long start = g_utf8_pointer_to_offset(text, text + pango_layout_line_get_start_index(line));
+      if (start > 0 && start < count && marks[start].is_line_break == 0) return true;
+    }
+    return false;
+  }
+
+  void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {
+    set_out(text, style, std::max(1, static_cast<int>(std::ceil(max_width_px))));
+    PangoRectangle ink, logical;
+    pango_layout_get_extents(layout_.get(), &ink, &logical);
+    // All in whole pixels, so that letters stay sharp.
+    const int left = static_cast<int>(std::floor(static_cast<float>(ink.x - logical.x) / kScale)) - 1;
+    const int top = static_cast<int>(std::floor(static_cast<float>(ink.y - logical.y) / kScale)) - 1;
+    const int right = static_cast<int>(std::ceil(static_cast<float>(ink.x - logical.x + ink.width) / kScale)) + 1;
+    const int bottom = static_cast<int>(std::ceil(static_cast<float>(ink.y - logical.y + ink.height) / kScale)) + 1;
+    const int w = std::clamp(right - left, 1, atlas_.side_px() - 2), h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
+    auto at = atlas_.place(w, h);
+    if (!at) {
+      atlas_.reset();
+      at = atlas_.place(w, h);
+    }
+    entry.generation = atlas_.generation();
+    entry.label.ink = {static_cast<float>(left), static_cast<float>(top), static_cast<float>(w), static_cast<float>(h)};
+    entry.label.atlas = {static_cast<float>(at->x), static_cast<float>(at->y), static_cast<float>(w), static_cast<float>(h)};
+    const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_A8, w);
+    ink_.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h), 0);
+    cairo_surface_t* surface = cairo_image_surface_create_for_data(ink_.data(), CAIRO_FORMAT_A8, w, h, stride);
+    cairo_t* cairo = cairo_create(surface);
+    cairo_move_to(cairo, -left - logical.x / static_cast<double>(kScale), -top - logical.y / static_cast<double>(kScale));
+    pango_cairo_show_layout(cairo, layout_.get());
+    cairo_destroy(cairo);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    for (int y = 0; y < h; ++y)
+      std::memcpy(atlas_.row(at->x, at->y + y), ink_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(stride), static_cast<std::size_t>(w));
+  }
+
+  Owned<PangoFontMap> map_;
+  Owned<PangoContext> context_;
+  Owned<PangoLayout> layout_;
+  TextAtlas atlas_;
+  std::unordered_map<std::uint64_t, Entry> labels_;
+  std::vector<unsigned char> ink_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<TextEngine>> TextEngine::make() {
+  auto engine = std::make_unique<PangoTextEngine>();
+  RELIEVO_TRY(engine->check_fonts());
+  return std::unique_ptr<TextEngine>(std::move(engine));
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/tree/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::ui {
+namespace {
+
+Rect meet(const Rect& a, const Rect& b) {
+  const float x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::max(0.0F, std::min(a.right(), b.right()) - x), std::max(0.0F, std::min(a.bottom(), b.bottom()) - y)};
+}
+
+Rect rounded(const Rect& r) {
+  const float x = std::round(r.x), y = std::round(r.y);
+  return {x, y, std::round(r.right()) - x, std::round(r.bottom()) - y};
+}
+
+}  // namespace
+
+Layout::Need Layout::need(const Node& node, float width) {
+  const Box& box = node.box;
+  float room = box.width > 0 ? box.width : width;
+  if (box.max_width > 0) room = std::min(room, box.max_width);
+  const float inner = std::max(1.0F, room - 2 * box.pad_x);
+  Need n = content_need(node, inner);
+  n.w += 2 * box.pad_x;
+  n.h += 2 * box.pad_y;
+  n.w = std::max(n.w, box.min_width);
+  n.h = std::max(n.h, box.min_height);
+  if (box.width > 0) n.w = box.width;
+  if (box.height > 0) n.h = box.height;
+  if (box.scroll) n.h = std::max(box.min_height, box.height);
+  return n;
+}
+
+Layout::Need Layout::content_need(const Node& node, float width) {
+  if (!node.text.empty()) {
+    const TextSize size = text_.measure(node.text, node.style, width);
+    return {size.width_px, size.height_px};
+  }
+  Need n;
+  int count = 0;
+  if (node.box.flow == Flow::Row) {
+    const Shares given = shares(node, width);
+    for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+      const Need child = need(nodes_[static_cast<std::size_t>(at)], given.w[static_cast<std::size_t>(count)]);
+      n.w += child.w;
+      n.h = std::max(n.h, child.h);
+    }
+    if (count > 1) n.w += node.box.gap * static_cast<float>(count - 1);
+    return n;
+  }
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+    const Need child = need(nodes_[static_cast<std::size_t>(at)], width);
+    n.w = std::max(n.w, child.w);
+    n.h = node.box.flow == Flow::Column ? n.h + child.h : std::max(n.h, child.h);
+  }
+  if (node.box.flow == Flow::Column && count > 1) n.h += node.box.gap * static_cast<float>(count - 1);
+  return n;
+}
+
+// The widths of a row's children. Those that grow share what the others leave.
+Layout::Shares Layout::shares(const Node& row, float width) {
+  Shares given;
+  std::size_t count = 0;
+  float fixed = 0, grow = 0, soft = 0;
+  for (std::int32_t at = row.first_child; at >= 0 && count < kMostInARow; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+    const Node& child = nodes_[static_cast<std::size_t>(at)];
+    if (child.box.grow > 0) {
+      grow += child.box.grow;
+      continue;
+    }
+    given.w[count] = need(child, width).w;
+    fixed += given.w[count];
+    if (child.box.width <= 0) soft += given.w[count];
+  }
+  const float gaps = count > 1 ? row.box.gap * static_cast<float>(count - 1) : 0;
+  const float left = width - fixed - gaps;
+  std::size_t i = 0;
+  for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
+    const Node& child = nodes_[static_cast<std::size_t>(at)];
+    if (child.box.grow > 0) given.w[i] = std::max(0.0F, left) * child.box.grow / grow;
+    else if (left < 0 && child.box.width <= 0 && soft > 0) given.w[i] += left * given.w[i] / soft;
+  }
+  return given;
+}
+
+float Layout::across_start(const Node& node, float room, float size) const {
+  switch (node.box.across) {
+    case Across::Stretch:
+    case Across::Start: return 0;
+    case Across::Centre: return (room - size) / 2;
+    case Across::End: return room - size;
+  }
+  return 0;
+}
+
+void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
+  Node& node = nodes_[index];
+  node.rect = rounded(rect);
+  node.clip = clip;
+  const Rect inner{node.rect.x + node.box.pad_x, node.rect.y + node.box.pad_y, std::max(0.0F, node.rect.w - 2 * node.box.pad_x),
+                   std::max(0.0F, node.rect.h - 2 * node.box.pad_y)};
+  const Rect inside = node.box.scroll ? meet(clip, node.rect) : clip;
+  switch (node.box.flow) {
+    case Flow::Column: return place_column(node, inner, inside);
+    case Flow::Row: return place_row(node, inner, inside);
+    case Flow::Stack: return place_stack(node, inner, inside);
+  }
+}
+
+void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
+  float fixed = 0, grow = 0;
+  int count = 0;
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+    const Node& child = nodes_[static_cast<std::size_t>(at)];
+    fixed += need(child, inner.w).h;
+    grow += child.box.grow;
+  }
+  if (count > 1) fixed += node.box.gap * static_cast<float>(count - 1);
+  node.content_height = fixed;
+  float y = inner.y, gap = node.box.gap;
+  const float left = std::max(0.0F, inner.h - fixed);
+  if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
+  if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
+  if (grow <= 0 && node.box.along == Along::End) y += left;
+  if (grow <= 0 && node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
+    const Node& child = nodes_[static_cast<std::size_t>(at)];
+    const Need n = need(child, inner.w);
+    const float h = n.h + (grow > 0 ? left * child.box.grow / grow : 0);
+    const bool stretch = node.box.across == Across::Stretch && child.box.width <= 0 && child.box.max_width <= 0;
+    const float w = stretch ? inner.w : std::min(node.box.across == Across::Stretch && child.box.width <= 0 ? std::min(inner.w, child.box.max_width) : n.w, inner.w);
+    float x = across_start(node, inner.w, w);
+    if (right_to_left_) x = inner.w - w - x;
+    place(static_cast<std::size_t>(at), {inner.x + x, y, w, h}, clip);
+    y += h + gap;
+  }
+}
+
+void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
+  const Shares given = shares(node, inner.w);
+  float used = 0;
+  std::size_t count = 0;
+  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow; at = nodes_[static_cast<std::size_t>(at)].next) used += given.w[count++];
+  float gap = node.box.gap;
+  if (count > 1) used += gap * static_cast<float>(count - 1);
+  const float left = std::max(0.0F, inner.w - used);
+  float x = 0;
+  if (node.box.along == Along::Centre) x = left / 2;
+  if (node.box.along == Along::End) x = left;
+  if (node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
+  const bool mirrored = right_to_left_ && !node.box.left_to_right;
+  std::size_t i = 0;
+  for (std::int32_t at = node.first_child; at >= 0 && i < count; ++i) {
+    const auto child = static_cast<std::size_t>(at);
+    at = nodes_[child].next;
+    const float w = given.w[i];
+    const float h = node.box.across == Across::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
+    place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + across_start(node, inner.h, h), w, h}, clip);
+    x += w + gap;
+  }
+}
+
+void Layout::place_stack(Node& node, const Rect& inner, const Rect& clip) {
+  for (std::int32_t at = node.first_child; at >= 0;) {
+    const auto child = static_cast<std::size_t>(at);
+    at = nodes_[child].next;
+    place(child, inner, clip);
+  }
+}
+
+}  // namespace relievo::ui

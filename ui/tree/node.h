@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Node: one thing on the screen. A node has a stable id, by which focus, presses and scrolling are
+// kept from one frame to the next, and a role and a name for tests and assistive use.
+// Lengths are pixels: TreeBuilder has turned dp into them. Strings are borrowed from the tree or literals.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "ui/action.h"
+#include "ui/render/draw_list.h"
+#include "ui/text/text_engine.h"
+
+namespace relievo::ui {
+
+enum class Role : std::uint8_t { Group, Heading, Text, Icon, Button, Key, Field, Picture, Status };
+enum class Flow : std::uint8_t { Column, Row, Stack };
+enum class Along : std::uint8_t { Start, Centre, End, Apart };     // in the direction of the flow
+enum class Across : std::uint8_t { Stretch, Start, Centre, End };  // at right angles to it
+
+struct Box {
+  Flow flow = Flow::Column;
+  Along along = Along::Start;
+  Across across = Across::Stretch;
+  float gap = 0;
+  float pad_x = 0, pad_y = 0;
+  float width = 0, height = 0;          // 0: as its content is
+  float min_width = 0, min_height = 0, max_width = 0;
+  float grow = 0;                       // share of what is left over
+  bool scroll = false;                  // a column that may be higher than its room
+  bool left_to_right = false;           // a row that is not mirrored: digits, keys
+  Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
+  float border_px = 0, radius = 0;
+  bool shadow = false;
+};
+
+struct Node {
+  std::string_view id;
+  std::string_view name;     // spoken; empty: the text
+  std::string_view text;
+  Role role = Role::Group;
+  Box box;
+  TextStyle style;
+  Colour colour{};
+  Action action{};
+  bool modal = false;        // nothing under it can be touched
+  bool drags = false;
+  Mark mark = Mark::Shape;   // Image, Face, Ring: what is drawn in the rect
+  PictureSlot picture = PictureSlot::None;
+  float aspect = 0;          // of the picture: width over height
+  bool mirrored = false;     // the picture, as in a mirror
+  bool covers = false;       // the picture fills its box and is cut; else it is seen whole
+  float share = 1, line_px = 0;
+  std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
+  Rect rect;                 // set by layout()
+  Rect clip;
+  float content_height = 0;  // of a scroller
+};
+
+}  // namespace relievo::ui

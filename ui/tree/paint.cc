@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tree's picture and Tree's words: what a node looks like, and what it says of itself.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "ui/theme.h"
+#include "ui/tree/tree.h"
+
+namespace relievo::ui {
+namespace {
+
+Colour darker(Colour c) {
+  const auto less = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
+  return {less(c.r), less(c.g), less(c.b), c.a};
+}
+
+void paint_box(DrawList& list, const Node& node, bool pressed, float unit) {
+  const Box& box = node.box;
+  if (box.shadow) {
+    Command shadow;
+    shadow.mark = Mark::Shape;
+    shadow.rect = {node.rect.x, node.rect.y + 5 * unit, node.rect.w, node.rect.h};
+    shadow.clip = node.clip;
+    shadow.fill = shadow.fill_end = {16, 32, 64, 46};
+    shadow.radius = box.radius;
+    shadow.blur_px = 11 * unit;
+    list.commands.push_back(shadow);
+  }
+  if (!box.fill.seen() && !box.border.seen()) return;
+  Command c;
+  c.mark = box.radius > 0 || box.border_px > 0 ? Mark::Shape : Mark::Flat;
+  c.rect = node.rect;
+  c.clip = node.clip;
+  c.fill = pressed ? darker(box.fill) : box.fill;
+  c.fill_end = pressed || !box.fill_end.seen() ? c.fill : box.fill_end;
+  c.border = box.border;
+  c.border_px = box.border_px;
+  c.radius = std::min(box.radius, std::min(node.rect.w, node.rect.h) / 2);
+  list.commands.push_back(c);
+}
+
+// A picture is seen whole, or fills its box and is cut at the sides.
+void paint_picture(DrawList& list, const Node& node) {
+  Command c;
+  c.mark = node.mark;
+  c.rect = node.rect;
+  c.clip = node.clip;
+  c.fill = node.colour.seen() ? node.colour : Colour{255, 255, 255, 255};
+  c.border = node.box.border;
+  c.border_px = node.line_px;
+  c.radius = node.mark == Mark::Ring ? node.line_px / 2 : node.box.radius;
+  c.share = node.share;
+  c.picture = node.picture;
+  if (node.mark == Mark::Ring) {
+    c.fill = node.colour;
+    c.border = node.box.fill;
+    c.rect = node.clip;  // what lies outside is darkened, too
+    c.uv = {node.rect.w / 2, node.rect.h / 2, 0, 0};
+  }
+  if (node.mark == Mark::Image && node.aspect > 0) {
+    const float mine = node.rect.w / std::max(1.0F, node.rect.h);
+    if (node.covers) {
+      const float across = std::min(1.0F, mine / node.aspect), down = std::min(1.0F, node.aspect / mine);
+      c.uv = {(1 - across) / 2, (1 - down) / 2, across, down};
+    } else if (mine > node.aspect) {
+      const float w = std::round(node.rect.h * node.aspect);
+      c.rect.x += std::round((c.rect.w - w) / 2);
+      c.rect.w = w;
+    } else {
+      const float h = std::round(node.rect.w / node.aspect);
+      c.rect.y += std::round((c.rect.h - h) / 2);
+      c.rect.h = h;
+    }
+    if (node.mirrored) c.uv = {c.uv.x + c.uv.w, c.uv.y, -c.uv.w, c.uv.h};
+  }
+  list.commands.push_back(c);
+}
+
+void paint_text(DrawList& list, const Node& node, TextEngine& text, bool right_to_left) {
+  const float pad_x = node.box.pad_x, pad_y = node.box.pad_y, room = std::max(1.0F, node.rect.w - 2 * pad_x);
+  const TextLabel& label = text.label(node.text, node.style, room);
+  float x = 0;
+  if (node.style.align == TextAlign::Centre) x = (room - label.size.width_px) / 2;
+  else if (right_to_left) x = room - label.size.width_px;
+  const float y = (node.rect.h - 2 * pad_y - label.size.height_px) / 2;
+  Command c;
+  c.mark = Mark::Glyph;
+  c.rect = {node.rect.x + pad_x + std::round(x) + label.ink.x, node.rect.y + pad_y + std::round(y) + label.ink.y, label.ink.w, label.ink.h};
+  c.clip = node.clip;
+  c.uv = label.atlas;
+  c.fill = node.colour;
+  list.commands.push_back(c);
+}
+
+void paint_focus(DrawList& list, const Node& node, Colour colour, float unit) {
+  const float out = 5 * unit;
+  Command c;
+  c.mark = Mark::Shape;
+  c.rect = {node.rect.x - out, node.rect.y - out, node.rect.w + 2 * out, node.rect.h + 2 * out};
+  c.clip = {node.clip.x - 2 * out, node.clip.y - 2 * out, node.clip.w + 4 * out, node.clip.h + 4 * out};
+  c.border = colour;
+  c.border_px = size::kFocusRing * unit;
+  c.radius = node.box.radius + out;
+  list.commands.push_back(c);
+}
+
+// More lies below, or above: a bar at the side says where one is.
+void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands, bool right_to_left, float unit) {
+  if (!node.box.scroll || node.content_height <= node.rect.h + 1) return;
+  const float scrolled = hands.scrolled == node.id ? std::clamp(hands.scroll_px, 0.0F, node.content_height - node.rect.h) : 0;
+  const float h = node.rect.h * node.rect.h / node.content_height, y = node.rect.y + node.rect.h * scrolled / node.content_height;
+  Command c;
+  c.mark = Mark::Shape;
+  c.rect = {right_to_left ? node.rect.x - 12 * unit : node.rect.right() + 4 * unit, y, 8 * unit, h};
+  c.clip = {c.rect.x, node.rect.y, c.rect.w, node.rect.h};
+  c.fill = c.fill_end = {120, 132, 156, 255};
+  c.radius = 4 * unit;
+  list.commands.push_back(c);
+}
+
+std::string_view word(Role role) {
+  switch (role) {
+    case Role::Group: return "group";
+    case Role::Heading: return "heading";
+    case Role::Text: return "text";
+    case Role::Icon: return "icon";
+    case Role::Button: return "button";
+    case Role::Key: return "key";
+    case Role::Field: return "field";
+    case Role::Picture: return "picture";
+    case Role::Status: return "status";
+  }
+  return "";
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) out += ' ';
+    else out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Colour focus, float unit) const {
+  const Node* focused = nullptr;
+  for (const Node& node : nodes_) {
+    if (node.clip.w <= 0 || node.clip.h <= 0) continue;
+    const bool pressed = !node.id.empty() && touches(hands, node);
+    if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
+    else paint_picture(list, node);
+    if (!node.text.empty()) paint_text(list, node, text, right_to_left_);
+    paint_scroll_bar(list, node, hands, right_to_left_, unit);
+    if (hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;
+  }
+  if (focused != nullptr) paint_focus(list, *focused, focus, unit);
+}
+
+bool Tree::touches(const Interaction& hands, const Node& node) { return hands.pressed == node.id; }
+
+std::string Tree::to_json() const {
+  std::string out = "[";
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (under_modal(i) || (node.text.empty() && node.name.empty() && node.action.kind == ActionKind::None)) continue;
+    char place[96];
+    std::snprintf(place, sizeof place, ",\"x\":%.0f,\"y\":%.0f,\"w\":%.0f,\"h\":%.0f}", node.rect.x, node.rect.y, node.rect.w, node.rect.h);
+    if (out.size() > 1) out += ",\n ";
+    out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(word(node.role)) + ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) + place;
+  }
+  return out + "]\n";
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/tree/tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal/base/assert.h"
+#include "ui/tree/layout.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr std::size_t kNodes = 512, kDepth = 32, kStringBytes = 16 * 1024;
+
+bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
+
+}  // namespace
+
+Tree::Tree() : strings_(kStringBytes) {
+  nodes_.reserve(kNodes);
+  open_.reserve(kDepth);
+}
+
+void Tree::begin(bool right_to_left) {
+  nodes_.clear();
+  open_.clear();
+  strings_used_ = 0;
+  right_to_left_ = right_to_left;
+  modal_ = -1;
+}
+
+std::string_view Tree::keep(std::string_view text) {
+  RELIEVO_ASSERT(strings_used_ + text.size() <= strings_.size());
+  char* to = strings_.data() + strings_used_;
+  text.copy(to, text.size());
+  strings_used_ += text.size();
+  return {to, text.size()};
+}
+
+Node& Tree::leaf(const Node& node) {
+  RELIEVO_ASSERT(nodes_.size() < kNodes);
+  const auto index = static_cast<std::int32_t>(nodes_.size());
+  nodes_.push_back(node);
+  Node& added = nodes_.back();
+  added.first_child = added.last_child = added.next = -1;
+  added.parent = open_.empty() ? -1 : open_.back();
+  added.style.right_to_left = right_to_left_;
+  if (added.modal) modal_ = index;
+  if (!open_.empty()) {
+    Node& parent = nodes_[static_cast<std::size_t>(open_.back())];
+    if (parent.last_child >= 0) nodes_[static_cast<std::size_t>(parent.last_child)].next = index;
+    else parent.first_child = index;
+    parent.last_child = index;
+  }
+  return added;
+}
+
+Node& Tree::open(const Node& node) {
+  Node& added = leaf(node);
+  open_.push_back(static_cast<std::int32_t>(nodes_.size()) - 1);
+  return added;
+}
+
+void Tree::close() { open_.pop_back(); }
+
+void Tree::layout(const Rect& screen, TextEngine& text, const Interaction& hands) {
+  RELIEVO_ASSERT(open_.empty() && !nodes_.empty());
+  Layout(nodes_, text, hands, right_to_left_).place(0, screen, screen);
+}
+
+bool Tree::under_modal(std::size_t index) const {
+  if (modal_ < 0) return false;
+  for (auto at = static_cast<std::int32_t>(index); at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
+    if (at == modal_) return false;
+  }
+  return true;
+}
+
+const Node* Tree::find(std::string_view id) const {
+  for (const Node& node : nodes_) {
+    if (node.id == id) return &node;
+  }
+  return nullptr;
+}
+
+const Node* Tree::at(float x, float y) const {
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    if (touchable(node) && node.rect.holds(x, y) && node.clip.holds(x, y) && !under_modal(i)) return &node;
+  }
+  return nullptr;
+}
+
+const Node* Tree::scroller_at(float x, float y) const {
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    if (node.box.scroll && node.content_height > node.rect.h && node.rect.holds(x, y) && !under_modal(i)) return &node;
+  }
+  return nullptr;
+}
+
+const Node* Tree::after(std::string_view id, int direction) const {
+  const auto count = static_cast<int>(nodes_.size());
+  int from = direction > 0 ? -1 : count;
+  for (int i = 0; i < count; ++i) {
+    if (nodes_[static_cast<std::size_t>(i)].id == id) from = i;
+  }
+  for (int step = 1; step <= count; ++step) {
+    const auto i = static_cast<std::size_t>(((from + direction * step) % count + count) % count);
+    if (touchable(nodes_[i]) && nodes_[i].action.kind != ActionKind::TurnFace && !under_modal(i)) return &nodes_[i];
+  }
+  return nullptr;
+}
+
+}  // namespace relievo::ui

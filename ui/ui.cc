@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/ui.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr float kSlopPx = 14;  // a finger that rests moves so far
+
+}  // namespace
+
+std::optional<Intent> Ui::take_intent() {
+  if (intent_count_ == 0) return std::nullopt;
+  const Intent first = intents_[0];
+  std::move(intents_.begin() + 1, intents_.begin() + static_cast<std::ptrdiff_t>(intent_count_), intents_.begin());
+  --intent_count_;
+  return first;
+}
+
+void Ui::ask(std::optional<Intent> intent) {
+  if (intent && intent_count_ < intents_.size()) intents_[intent_count_++] = *intent;
+}
+
+Wish Ui::wish() const { return {visit_.name(), kConsentWording, info_of(visit_.language).code, visit_.agreed_at()}; }
+
+bool Ui::take_forgotten() { return std::exchange(forgotten_, false); }
+
+void Ui::feed(const Input& input, const ViewState& view) {
+  if (input.kind != Input::Kind::Quit) {
+    const bool asked = visit_.overlay == Overlay::StillThere;
+    visit_.touched(view.now);
+    if (input.kind == Input::Kind::Down || input.kind == Input::Kind::Activate) ask(Intent::StillHere);
+    if (asked && input.kind == Input::Kind::Down) return;  // the touch that wakes does nothing else
+  }
+  switch (input.kind) {
+    case Input::Kind::Down: return down(input);
+    case Input::Kind::Move: return move(input);
+    case Input::Kind::Up: return up(input, view);
+    case Input::Kind::Next: return focus_on(1);
+    case Input::Kind::Previous: return focus_on(-1);
+    case Input::Kind::Activate:
+      if (const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr) activate(*node, view);
+      return;
+    case Input::Kind::Back: return ask(visit_.act({ActionKind::Back, 0}, view));
+    case Input::Kind::Quit: return;
+  }
+}
+
+void Ui::down(const Input& input) {
+  hands_.show_focus = false;
+  for (Finger& finger : fingers_) {
+    if (finger.down) continue;
+    finger = {true, input.finger, input.x, input.y, input.x, input.y, false};
+    break;
+  }
+  const Node* node = tree_.at(input.x, input.y);
+  hands_.pressed = node != nullptr && !fingers_[1].down ? node->id : std::string_view{};
+}
+
+void Ui::move(const Input& input) {
+  for (std::size_t i = 0; i < fingers_.size(); ++i) {
+    Finger& finger = fingers_[i];
+    if (!finger.down || finger.id != input.finger) continue;
+    const float old_x = finger.x, old_y = finger.y;
+    finger.x = input.x;
+    finger.y = input.y;
+    if (std::hypot(finger.x - finger.start_x, finger.y - finger.start_y) > kSlopPx) finger.dragging = true;
+    if (!finger.dragging) return;
+    const Node* node = tree_.find(hands_.pressed);
+    const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
+    if (fingers_[0].down && fingers_[1].down) return pinch(finger, old_x, old_y, fingers_[1 - i]);
+    if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);
+    if (const Node* scroller = tree_.scroller_at(finger.start_x, finger.start_y)) {
+      if (hands_.scrolled != scroller->id) {
+        hands_.scrolled = scroller->id;
+        hands_.scroll_px = 0;
+      }
+      hands_.scroll_px = std::clamp(hands_.scroll_px - (finger.y - old_y), 0.0F, scroller->content_height - scroller->rect.h);
+      hands_.pressed.clear();
+    }
+    return;
+  }
+}
+
+void Ui::up(const Input& input, const ViewState& view) {
+  for (Finger& finger : fingers_) {
+    if (!finger.down || finger.id != input.finger) continue;
+    finger.down = false;
+    const Node* node = tree_.at(input.x, input.y);
+    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed) activate(*node, view);
+    hands_.pressed.clear();
+  }
+}
+
+void Ui::activate(const Node& node, const ViewState& view) {
+  if (node.action.kind == ActionKind::TypeKey) return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
+  ask(visit_.act(node.action, view));
+}
+
+void Ui::focus_on(int direction) {
+  const Node* next = tree_.after(hands_.show_focus ? std::string_view(hands_.focus) : std::string_view{}, direction);
+  hands_.show_focus = next != nullptr;
+  if (next != nullptr) hands_.focus = next->id;
+}
+
+void Ui::drag_face(float dx, float dy) {
+  const float turn = 160.0F / static_cast<float>(std::min(width_px_, height_px_));
+  visit_.look.yaw_deg = std::clamp(visit_.look.yaw_deg + dx * turn, -80.0F, 80.0F);
+  visit_.look.pitch_deg = std::clamp(visit_.look.pitch_deg + dy * turn, -50.0F, 50.0F);
+}
+
+void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& other) {
+  const float before = std::hypot(old_x - other.x, old_y - other.y), now = std::hypot(moved.x - other.x, moved.y - other.y);
+  if (before > 1) visit_.look.zoom = std::clamp(visit_.look.zoom * now / before, 0.8F, 3.0F);
+}
+
+void Ui::frame(const ViewState& view) {
+  ask(visit_.follow(view));
+  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_;
+  if (moved_on) {
+    hands_.scrolled.clear();
+    hands_.scroll_px = 0;
+    hands_.pressed.clear();
+    hands_.show_focus = false;
+  }
+  if (visit_.step == Step::Attract && last_step_ != Step::Attract) {
+    forgotten_ = true;
+    text_->forget();
+  }
+  last_step_ = visit_.step;
+  last_overlay_ = visit_.overlay;
+  draw(view);
+}
+
+void Ui::show(const ViewState& view, const Visit& visit) {
+  visit_ = visit;
+  draw(view);
+}
+
+void Ui::draw(const ViewState& view) {
+  const Rect screen{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  const Palette& palette = build_visitor_screen(tree_, view, visit_, screen);
+  tree_.layout(screen, *text_, hands_);
+  fill_pictures(list_, view, visit_);
+  // A full atlas starts anew: then what was written before it did is written again.
+  for (int round = 0; round < 2; ++round) {
+    const std::uint32_t generation = text_->atlas().generation();
+    list_.clear();
+    tree_.paint(list_, *text_, hands_, palette.focus, unit_of(screen));
+    if (text_->atlas().generation() == generation) break;
+  }
+}
+
+}  // namespace relievo::ui

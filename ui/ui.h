@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Ui: turns fingers into intents, and ViewState into a DrawList. It holds the visit, the tree and what
+// the hands do; it knows neither SDL nor GL nor a thread.
+//
+//   feed(Input) ... frame(ViewState) -> draw_list(), and take_intent() until there is none
+//
+// Pixels. Thread: main. Errors: none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "ui/input.h"
+#include "ui/intent.h"
+#include "ui/text/text_engine.h"
+#include "ui/tree/tree.h"
+#include "ui/view_state.h"
+#include "ui/visit.h"
+
+namespace relievo::ui {
+
+class Ui {
+ public:
+  explicit Ui(std::unique_ptr<TextEngine> text) : text_(std::move(text)) {}
+
+  void resize(int width_px, int height_px) { width_px_ = width_px, height_px_ = height_px; }
+  void feed(const Input& input, const ViewState& view);
+  void frame(const ViewState& view);
+  // The frame of another visit: for screenshots and tests.
+  void show(const ViewState& view, const Visit& visit);
+
+  std::optional<Intent> take_intent();
+  Wish wish() const;
+  // The person has gone since the last call: pictures of them in other hands are to be wiped, too.
+  bool take_forgotten();
+
+  const DrawList& draw_list() const { return list_; }
+  TextEngine& text() { return *text_; }
+  const Tree& tree() const { return tree_; }
+  Visit& visit() { return visit_; }
+  const Visit& visit() const { return visit_; }
+
+ private:
+  struct Finger {
+    bool down = false;
+    std::int64_t id = 0;
+    float x = 0, y = 0, start_x = 0, start_y = 0;
+    bool dragging = false;
+  };
+  static constexpr std::size_t kIntents = 8;
+  void draw(const ViewState& view);
+  void ask(std::optional<Intent> intent);
+  void down(const Input& input);
+  void move(const Input& input);
+  void up(const Input& input, const ViewState& view);
+  void focus_on(int direction);
+  void activate(const Node& node, const ViewState& view);
+  void drag_face(float dx, float dy);
+  void pinch(const Finger& moved, float old_x, float old_y, const Finger& other);
+
+  std::unique_ptr<TextEngine> text_;
+  Visit visit_;
+  Tree tree_;
+  Interaction hands_;
+  DrawList list_;
+  std::array<Finger, 2> fingers_{};
+  std::array<Intent, kIntents> intents_{};
+  std::size_t intent_count_ = 0;
+  Step last_step_ = Step::Starting;
+  Overlay last_overlay_ = Overlay::None;
+  bool forgotten_ = false;
+  int width_px_ = 1280, height_px_ = 800;
+};
+
+}  // namespace relievo::ui

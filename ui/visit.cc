@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/visit.h"
+
+#include <string.h>
+
+#include <algorithm>
+
+namespace relievo::ui {
+namespace {
+
+bool is_stage(Screen screen) {
+  return screen == Screen::Capture || screen == Screen::Match || screen == Screen::Reconstruct || screen == Screen::Mesh ||
+         screen == Screen::Texture;
+}
+
+}  // namespace
+
+int Visit::seconds_left(hal::Instant now) const {
+  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + kPatience + kLastCall - now).count();
+  return static_cast<int>(std::clamp<long>(left, 0, kLastCall.count()));
+}
+
+std::optional<float> Visit::countdown(const LiveView& live) const {
+  if (overlay != Overlay::None || live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor) return std::nullopt;
+  return std::max(0.0F, kSteadyFor + kCountdown - live.steady_s);
+}
+
+void Visit::touched(hal::Instant now) {
+  last_touch_ = now;
+  if (overlay == Overlay::StillThere) overlay = Overlay::None;
+}
+
+void Visit::forget() {
+  explicit_bzero(name_.data(), name_.size());
+  length_ = 0;
+  agreed_at_ = {};
+  look = {};
+  touches = 0;
+  shot_ = false;
+  overlay = Overlay::None;
+  capitals = true;
+  language = Language::English;
+  text_size = 0;
+  high_contrast = false;
+}
+
+void Visit::go(Step to, hal::Instant now) {
+  step = to;
+  entered_ = now;
+  overlay = Overlay::None;
+  if (to == Step::Attract) forget();
+}
+
+void Visit::type(std::string_view letter) {
+  if (step != Step::Name || overlay != Overlay::None || length_ + letter.size() > name_.size()) return;
+  if (letter == " " && (length_ == 0 || name_[length_ - 1] == ' ')) return;
+  letter.copy(name_.data() + length_, letter.size());
+  length_ += letter.size();
+  capitals = letter == " " || letter == "-";
+}
+
+void Visit::erase_letter() {
+  while (length_ > 0) {
+    const char last = name_[--length_];
+    name_[length_] = 0;
+    if ((static_cast<unsigned char>(last) & 0xC0U) != 0x80U) break;  // the first byte of a letter
+  }
+  if (length_ == 0) capitals = true;
+}
+
+void Visit::look_at(ActionKind kind) {
+  if (kind == ActionKind::TurnLeft) look.yaw_deg = std::max(-75.0F, look.yaw_deg - 25);
+  if (kind == ActionKind::TurnRight) look.yaw_deg = std::min(75.0F, look.yaw_deg + 25);
+  if (kind == ActionKind::ZoomIn) look.zoom = std::min(3.0F, look.zoom * 1.25F);
+  if (kind == ActionKind::ZoomOut) look.zoom = std::max(0.8F, look.zoom / 1.25F);
+  if (kind == ActionKind::MoveLight) look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30;
+  if (kind == ActionKind::ShowShape) look.textured = !look.textured;
+}
+
+std::optional<Intent> Visit::back(const ViewState& view) {
+  switch (step) {
+    case Step::Consent: go(Step::Attract, view.now); break;
+    case Step::Name: step = Step::Consent; break;
+    case Step::Position:
+      step = Step::Name;
+      return Intent::Cancel;
+    case Step::Review: return Intent::Pose;
+    case Step::Attract:
+    case Step::Working:
+    case Step::Thanks:
+    case Step::Trouble:
+    case Step::Starting: break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Intent> Visit::act(Action action, const ViewState& view) {
+  switch (action.kind) {
+    case ActionKind::ShowLanguages: overlay = Overlay::Languages; break;
+    case ActionKind::ShowHelp: overlay = Overlay::Help; break;
+    case ActionKind::Leave: overlay = Overlay::Leave; break;
+    case ActionKind::CloseOverlay:
+    case ActionKind::Stay: overlay = Overlay::None; break;
+    case ActionKind::ChooseLanguage:
+      language = static_cast<Language>(action.value);
+      overlay = Overlay::None;
+      break;
+    case ActionKind::BiggerText: text_size = (text_size + 1) % kTextPercents.size(); break;
+    case ActionKind::Contrast: high_contrast = !high_contrast; break;
+    case ActionKind::LeaveNow:
+      go(Step::Attract, view.now);
+      return Intent::Cancel;
+    case ActionKind::Back:
+      if (overlay == Overlay::None) return back(view);
+      overlay = Overlay::None;
+      break;
+    case ActionKind::TurnLeft:
+    case ActionKind::TurnRight:
+    case ActionKind::ZoomIn:
+    case ActionKind::ZoomOut:
+    case ActionKind::MoveLight:
+    case ActionKind::ShowShape: look_at(action.kind); break;
+    case ActionKind::Erase: erase_letter(); break;
+    case ActionKind::Shift: capitals = !capitals; break;
+    case ActionKind::Start:
+    case ActionKind::Agree:
+    case ActionKind::Decline:
+    case ActionKind::Done:
+    case ActionKind::TakePicture:
+    case ActionKind::Accept:
+    case ActionKind::Retake:
+    case ActionKind::Finish: return act_on_path(action.kind, view);
+    case ActionKind::TypeKey:
+    case ActionKind::TurnFace:
+    case ActionKind::None: break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view) {
+  ++touches;
+  if (kind == ActionKind::Start && step == Step::Attract) go(Step::Consent, view.now);
+  if (kind == ActionKind::Decline || kind == ActionKind::Finish) go(Step::Attract, view.now);
+  if (kind == ActionKind::Agree) {
+    touches = 1;
+    agreed_at_ = view.wall_now;
+    step = Step::Name;
+  }
+  if (kind == ActionKind::Done) {
+    while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
+    if (length_ > 0) return Intent::Pose;
+  }
+  if (kind == ActionKind::TakePicture) {
+    shot_ = true;
+    return Intent::Begin;
+  }
+  if (kind == ActionKind::Accept) return Intent::Accept;
+  if (kind == ActionKind::Retake) {
+    look = {};
+    return Intent::Pose;
+  }
+  return std::nullopt;
+}
+
+bool Visit::person_expected() const {
+  return step == Step::Consent || step == Step::Name || step == Step::Position || step == Step::Review;
+}
+
+std::optional<Intent> Visit::follow(const ViewState& view) {
+  const bool new_screen = view.screen != last_screen_;
+  const Screen before = last_screen_;
+  last_screen_ = view.screen;
+  if (new_screen) {
+    if (view.screen == Screen::Position) { go(Step::Position, view.now); last_touch_ = view.now; shot_ = false; }
+    else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
+    else if (view.screen == Screen::Review) { go(Step::Review, view.now); last_touch_ = view.now; }
+    else if (view.screen == Screen::Fault) { forget(); go(Step::Trouble, view.now); }
+    else if (view.screen == Screen::Idle && before == Screen::Store && view.trouble == Trouble::None) go(Step::Thanks, view.now);
+    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Attract) {
+      const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
+      go(told ? Step::Trouble : Step::Attract, view.now);
+    }
+  }
+  if ((step == Step::Thanks || (step == Step::Trouble && view.screen == Screen::Idle)) && view.now - std::max(entered_, last_touch_) > kThanks)
+    go(Step::Attract, view.now);
+  if (person_expected()) {
+    const auto silent = view.now - last_touch_;
+    if (silent > kPatience + kLastCall) {
+      go(Step::Attract, view.now);
+      return Intent::Cancel;
+    }
+    if (silent > kPatience) overlay = Overlay::StillThere;
+  } else if (step == Step::Attract && (overlay != Overlay::None || text_size != 0 || language != Language::English || high_contrast) &&
+             view.now - last_touch_ > kPatience) {
+    forget();
+  }
+  if (step == Step::Position && !shot_) {
+    const auto left = countdown(view.live);
+    if (left && *left <= 0) {
+      shot_ = true;
+      return Intent::Begin;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace relievo::ui
