@@ -176,7 +176,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
     else if (view.screen == Screen::Review) { go(Step::Review, view.now); last_touch_ = view.now; }
     else if (view.screen == Screen::Fault) { forget(); go(Step::Trouble, view.now); }
-    else if (view.screen == Screen::Idle && before == Screen::Store && view.trouble == Trouble::None) go(Step::Thanks, view.now);
+    else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working && view.trouble == Trouble::None) go(Step::Thanks, view.now);
     else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Attract) {
       const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
       go(told ? Step::Trouble : Step::Attract, view.now);

@@ -154,13 +154,14 @@ void Page::bar(bool with_back) {
   tree.open(box(Flow::Row, space::kS));
   tree.open(grown([&] { Node n = box(Flow::Row, space::kS); n.box.across = Across::Centre; return n; }()));
   if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
-  if (!portrait || text_share < 1.2F) steps();
+  if (!portrait || !with_back) steps();
   tree.close();
   square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
   square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
   square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
   square_button("help", tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
-  square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  // What is being stored is stored: who accepted gets their code.
+  if (view.screen != Screen::Store) square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   tree.close();
 }
 

@@ -113,7 +113,8 @@ class PangoTextEngine final : public TextEngine {
     set_out(text, style, width);
     PangoRectangle ink, logical;
     pango_layout_get_extents(layout_.get(), &ink, &logical);
-    entry.label.size = {std::ceil(static_cast<float>(logical.width) / kScale), std::ceil(static_cast<float>(logical.height) / kScale),
+    // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
+    entry.label.size = {std::ceil(static_cast<float>(logical.width) / kScale) + 1, std::ceil(static_cast<float>(logical.height) / kScale),
                         pango_layout_get_line_count(layout_.get())};
     entry.label.missing = pango_layout_get_unknown_glyphs_count(layout_.get());
     return entry;

@@ -13,9 +13,11 @@ Rect meet(const Rect& a, const Rect& b) {
   return {x, y, std::max(0.0F, std::min(a.right(), b.right()) - x), std::max(0.0F, std::min(a.bottom(), b.bottom()) - y)};
 }
 
+// Words can be broken into more lines; a sign cannot.
+bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
+
 Rect rounded(const Rect& r) {
-  const float x = std::round(r.x), y = std::round(r.y);
-  return {x, y, std::round(r.right()) - x, std::round(r.bottom()) - y};
+  return {std::round(r.x), std::round(r.y), std::round(r.w), std::round(r.h)};
 }
 
 }  // namespace
@@ -75,15 +77,15 @@ Layout::Shares Layout::shares(const Node& row, float width) {
     }
     given.w[count] = need(child, width).w;
     fixed += given.w[count];
-    if (child.box.width <= 0) soft += given.w[count];
+    if (may_shrink(child)) soft += given.w[count];
   }
   const float gaps = count > 1 ? row.box.gap * static_cast<float>(count - 1) : 0;
   const float left = width - fixed - gaps;
   std::size_t i = 0;
   for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    if (child.box.grow > 0) given.w[i] = std::max(0.0F, left) * child.box.grow / grow;
-    else if (left < 0 && child.box.width <= 0 && soft > 0) given.w[i] += left * given.w[i] / soft;
+    if (child.box.grow > 0) given.w[i] = std::floor(std::max(0.0F, left) * child.box.grow / grow);
+    else if (left < 0 && may_shrink(child) && soft > 0) given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
   }
   return given;
 }

@@ -42,7 +42,9 @@ Rows rows_of(Language language, bool capitals) {
 
 void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign, Action action, float grow = 1) {
   Node node = page.text(letter, type::kButton, Weight::Medium, page.palette.link, TextAlign::Centre);
-  node.style.size_px = page.px(type::kButton * (1 + (page.text_share - 1) * 0.6F));
+  // Twelve letters abreast have no room to grow on an upright screen.
+  const float growth = page.portrait ? 0.15F : 0.6F;
+  node.style.size_px = page.px(type::kButton * (1 + (page.text_share - 1) * growth));
   node.style.icon = sign;
   node.id = id;
   if (spoken != nullptr) node.name = spoken;
@@ -74,7 +76,7 @@ Node row_box(Page& page) {
 void last_row(Page& page) {
   page.tree.open(page.box(Flow::Row, 10));
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
-  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main, page.visit.name().empty() ? Action{} : Action{ActionKind::Done, 0}, 1);
+  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main, page.visit.name().empty() ? Action{} : Action{ActionKind::Done, 0}, page.portrait ? 1.5F : 1.0F);
   page.tree.close();
 }
 

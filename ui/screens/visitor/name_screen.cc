@@ -7,8 +7,16 @@ namespace relievo::ui {
 void name_screen(Page& page) {
   const auto& tr = page.tr;
   page.begin(true);
-  page.heading("title", tr("Your name or your number"), page.text_share > 1.3F && !page.portrait ? type::kHeading : 38);
+  // Large letters leave no room above the keys: then question and answer stand side by side.
+  const bool abreast = !page.portrait && page.text_share > 1.1F;
+  if (abreast) {
+    Node row = page.box(Flow::Row, space::kM);
+    row.box.across = Across::Centre;
+    page.tree.open(row);
+  }
+  page.heading("title", tr("Your name or your number"), abreast ? type::kBody : 38);
   Node field = page.box(Flow::Row, 3, 26, 14);
+  field.box.grow = abreast ? 1.0F : 0.0F;
   field.id = "name";
   field.role = Role::Field;
   field.name = tr("Your name or your number");
@@ -29,6 +37,7 @@ void name_screen(Page& page) {
   page.tree.leaf(caret);
   if (name.empty()) page.tree.leaf(typed);
   page.tree.close();
+  if (abreast) page.tree.close();
   if (page.portrait) page.space(1);
   keyboard(page);
   page.end();

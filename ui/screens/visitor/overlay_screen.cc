@@ -25,6 +25,8 @@ const char* help_for(const Page& page) {
   return tr("Please tell the staff.");
 }
 
+bool fills_screen(const Page& page) { return page.visit.overlay == Overlay::Help && page.text_share > 1.3F && !page.portrait; }
+
 void begin_card(Page& page) {
   Node veil = page.box(Flow::Column, 0, 40, 32);
   veil.id = "veil";
@@ -36,6 +38,7 @@ void begin_card(Page& page) {
   Node card = page.box(Flow::Column, space::kM, 44, 40);
   card.id = "card";
   card.box.width = page.px(std::min(820.0F, page.width_dp - 80));
+  if (fills_screen(page)) card.box.height = page.px(page.height_dp - 64);
   card.box.fill = page.palette.card;
   card.box.border = page.palette.card_border;
   card.box.border_px = page.px(2);
@@ -58,10 +61,17 @@ void answers(Page& page, const char* quiet, Action quiet_action, const char* mai
   page.tree.close();
 }
 
+// Large letters may need more than the screen: then the words can be scrolled.
 void help(Page& page) {
   page.heading("overlay_title", page.tr("Help"));
+  Node words = page.box(Flow::Column, space::kM);
+  words.id = "overlay_words";
+  words.box.scroll = fills_screen(page);
+  words.box.grow = words.box.scroll ? 1.0F : 0.0F;
+  page.tree.open(words);
   page.body("overlay_text", help_for(page));
   page.body("overlay_staff", page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
+  page.tree.close();
   page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
 }
 

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fingers, mouse and keypad as SDL reports them, through the real event queue, without a screen.
+#include <SDL2/SDL.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "ui/platform/sdl_display.h"
+
+namespace relievo::ui {
+namespace {
+
+class SdlDisplayTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    auto opened = open_sdl_display({640, 480});
+    ASSERT_TRUE(opened.has_value()) << opened.error().where();
+    display = std::move(*opened);
+    while (display->poll()) {
+    }
+  }
+  static void push_finger(Uint32 type, float x, float y) {
+    SDL_Event event{};
+    event.type = type;
+    event.tfinger.fingerId = 3;
+    event.tfinger.x = x;
+    event.tfinger.y = y;
+    SDL_PushEvent(&event);
+  }
+  static void push_key(SDL_Keycode key, Uint16 with = 0) {
+    SDL_Event event{};
+    event.type = SDL_KEYDOWN;
+    event.key.keysym.sym = key;
+    event.key.keysym.mod = with;
+    SDL_PushEvent(&event);
+  }
+  std::unique_ptr<Display> display;
+};
+
+TEST_F(SdlDisplayTest, AFingerIsToldInPixels) {
+  push_finger(SDL_FINGERDOWN, 0.5F, 0.25F);
+  push_finger(SDL_FINGERMOTION, 1.0F, 0.5F);
+  push_finger(SDL_FINGERUP, 1.0F, 0.5F);
+  for (const Input::Kind kind : {Input::Kind::Down, Input::Kind::Move, Input::Kind::Up}) {
+    const auto input = display->poll();
+    ASSERT_TRUE(input.has_value());
+    EXPECT_EQ(input->kind, kind);
+    EXPECT_EQ(input->finger, 3);
+    EXPECT_FLOAT_EQ(input->x, kind == Input::Kind::Down ? 320 : 640);
+    EXPECT_FLOAT_EQ(input->y, kind == Input::Kind::Down ? 120 : 240);
+  }
+}
+
+TEST_F(SdlDisplayTest, AKeypadIsEnough) {
+  push_key(SDLK_TAB);
+  push_key(SDLK_TAB, KMOD_LSHIFT);
+  push_key(SDLK_a);  // says nothing
+  push_key(SDLK_RETURN);
+  push_key(SDLK_ESCAPE);
+  for (const Input::Kind kind : {Input::Kind::Next, Input::Kind::Previous, Input::Kind::Activate, Input::Kind::Back}) {
+    const auto input = display->poll();
+    ASSERT_TRUE(input.has_value());
+    EXPECT_EQ(input->kind, kind);
+  }
+  EXPECT_FALSE(display->poll());
+}
+
+TEST_F(SdlDisplayTest, AMouseThatOnlyPassesIsNoFinger) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEMOTION;
+  SDL_PushEvent(&event);
+  EXPECT_FALSE(display->poll());
+}
+
+}  // namespace
+}  // namespace relievo::ui
