@@ -183,7 +183,7 @@ TEST_F(BadInput, APersonWhoIsNotThere) {
 }
 
 TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {
-  for (const auto& words : std::vector<std::vector<std::string>>{{}, {"bogus"}, {"reconstruct", "left.png"}}) {
+  for (const auto& words : std::vector<std::vector<std::string>>{{"--windowed", "wide"}, {"bogus"}, {"reconstruct", "left.png"}}) {
     const Said said = relievo(words);
     EXPECT_EQ(said.exit_code, 2);
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;

@@ -131,9 +131,25 @@ TEST(CommandLine, HelpIsNoError) {
   EXPECT_EQ(line.exit_code, 0);
 }
 
+TEST(CommandLine, WithoutACommandItIsTheKiosk) {
+  const auto plain = parse({});
+  ASSERT_TRUE(std::holds_alternative<KioskArgs>(plain.command));
+  EXPECT_EQ(std::get<KioskArgs>(plain.command).width_px, 0) << "the whole screen";
+  const auto named = parse({"--board", "folder:pairs", "--calibration", "rig.yml", "--windowed", "1280x800", "--store", "st"});
+  ASSERT_TRUE(std::holds_alternative<KioskArgs>(named.command));
+  const auto& args = std::get<KioskArgs>(named.command);
+  EXPECT_EQ(args.board, "folder:pairs");
+  EXPECT_EQ(args.calibration, "rig.yml");
+  EXPECT_EQ(args.store, "st");
+  EXPECT_EQ(args.width_px, 1280);
+  EXPECT_EQ(args.height_px, 800);
+  EXPECT_EQ(std::get<KioskArgs>(parse({"--screenshots", "shots"}).command).screenshots, "shots");
+}
+
 TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
   const std::vector<std::vector<const char*>> wrong{
-      {},
+      {"--windowed", "wide"},
+      {"--windowed", "100x100"},
       {"bogus"},
       {"reconstruct"},
       {"reconstruct", "l.png", "r.png", "-o", "out"},
