@@ -61,7 +61,7 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
 
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
-constexpr double kWorthOfProtrusion = 0.06;  // mm of mirror cost a mm of protrusion makes good
+constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
 
 // Points within half a face of `centre`, still in the frame of `points`.
 Points around(const Points& points, const Vector3d& centre, Arena& scratch) {

@@ -66,6 +66,20 @@ TEST(Landmarks, TheFrameOfAHeadThatTurnsStaysWithin07) {
   }
 }
 
+// Half a nose is a poor mirror; a chin or a forehead mirrors itself better, but does not stand out.
+TEST(Landmarks, AHeadTurnedFarAwayKeepsItsNose) {
+  StageRoom room;
+  for (const std::uint32_t seed : {1002U}) {
+    const FieldHead head(seed);
+    const Look look = look_at(head, 37, 0, room);
+    const Vec3d tip = apply(look.true_head_from_camera, apply(inverse(look.head_from_camera), Vec3d{}));
+    for (const auto& [name, at] : hal::sim::landmarks_of(head.field())) {
+      if (name != "pronasale") continue;
+      EXPECT_LT(std::hypot(tip.x - at.x, tip.y - at.y, tip.z - at.z), 4) << seed;
+    }
+  }
+}
+
 TEST(Landmarks, LieWhereTheSigmaSays) {
   StageRoom room;
   int count = 0;
