@@ -24,7 +24,8 @@ constexpr double kBesideMm = 2.5;          // a counterpart further along the su
 constexpr double kReachMm = 12;            // along the normal
 constexpr double kAlike = 0.6;             // cosine between the normals
 constexpr std::size_t kWhileMoving = 700;  // points of each face until the motion settles
-constexpr int kTurns = 40;
+constexpr std::size_t kToSettle = 1U << 20;  // all
+constexpr int kTurns = 30;
 
 struct Motion {  // b = turn * a + shift
   Matrix3d turn = Matrix3d::Identity();
@@ -128,15 +129,12 @@ Result<FaceDifference> compare_faces(const ComparableFace& a, const ComparableFa
   Motion motion;
   Meeting meeting;
   meeting.pairs.reserve(a.face().points_mm.size() + b.face().points_mm.size());
-  for (const std::size_t wanted : {kWhileMoving, std::size_t{1} << 20}) {
-    const int turns = wanted == kWhileMoving ? kTurns : 4;
-    for (int turn = 0; turn < turns; ++turn) {
-      meet_both(a, b, motion, wanted, meeting);
-      if (meeting.pairs.size() < 100) return apart;
-      if (correct(meeting, motion) < 0.002) break;
-    }
+  for (int turn = 0; turn <= kTurns; ++turn) {
+    meet_both(a, b, motion, turn < kTurns ? kWhileMoving : kToSettle, meeting);
+    if (meeting.pairs.size() < 100) return apart;
+    if (correct(meeting, motion) < 0.005 && turn < kTurns) turn = kTurns - 1;  // once more with all
   }
-  meet_both(a, b, motion, std::size_t{1} << 20, meeting);
+  meet_both(a, b, motion, kToSettle, meeting);
   if (meeting.shared < kFewestShared) return apart;
   const std::size_t kept = trim(meeting.pairs);
   double sum = 0;
