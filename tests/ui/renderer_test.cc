@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
 #include "ui/render/offscreen.h"
 
@@ -57,6 +58,7 @@ class RendererTest : public testing::Test {
     return {p[0], p[1], p[2], 255};
   }
 
+  const QuietDriver quiet;  // the driver takes memory for good in any call
   std::unique_ptr<Display> display;
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<Offscreen> target;

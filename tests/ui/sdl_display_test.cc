@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
 
 namespace relievo::ui {
@@ -16,7 +17,11 @@ class SdlDisplayTest : public testing::Test {
  protected:
   void SetUp() override {
     setenv("SDL_VIDEODRIVER", "offscreen", 1);
-    auto opened = open_sdl_display({640, 480});
+    const auto open = [] {
+      const QuietDriver quiet;
+      return open_sdl_display({640, 480});
+    };
+    auto opened = open();
     ASSERT_TRUE(opened.has_value()) << opened.error().where();
     display = std::move(*opened);
     while (display->poll()) {

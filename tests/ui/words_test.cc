@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,14 +16,26 @@
 namespace relievo::ui {
 namespace {
 
+// The literals that are handed to tr(...) and to the first place of tr.plural(...).
+void collect(const std::string& source, std::set<std::string>& texts) {
+  for (const std::string call : {"tr(\"", "tr.plural(\""}) {
+    for (std::size_t at = source.find(call); at != std::string::npos; at = source.find(call, at + 1)) {
+      std::string text;
+      for (std::size_t i = at + call.size(); i < source.size() && source[i] != '"'; ++i) {
+        if (source[i] == '\\') ++i;
+        text += source[i];
+      }
+      texts.insert(text);
+    }
+  }
+}
+
 std::set<std::string> texts_in_the_screens() {
   std::set<std::string> texts;
-  const std::regex call(R"re(\btr(?:\.plural)?\("((?:[^"\\]|\\.)*)"(?:, "((?:[^"\\]|\\.)*)")?)re");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RELIEVO_SOURCE_DIR) / "ui" / "screens")) {
     if (entry.path().extension() != ".cc") continue;
     std::ifstream in(entry.path());
-    const std::string source((std::istreambuf_iterator<char>(in)), {});
-    for (auto at = std::sregex_iterator(source.begin(), source.end(), call); at != std::sregex_iterator(); ++at) texts.insert((*at)[1]);
+    collect({(std::istreambuf_iterator<char>(in)), {}}, texts);
   }
   return texts;
 }

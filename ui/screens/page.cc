@@ -87,7 +87,7 @@ void Page::sign(const char* letter, float size, Colour colour) {
 
 void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow) {
   const bool main = look == ButtonLook::Main;
-  Node node = box(Flow::Row, 14, 26, 12);
+  Node node = box(Flow::Row, 14, text_share > 1.3F ? 14 : 26, 12);
   node.id = id;
   node.name = label;
   node.role = Role::Button;

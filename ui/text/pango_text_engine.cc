@@ -50,7 +50,7 @@ PangoWeight pango_weight(Weight weight) {
 // Arabic fonts bring much room of their own; headings need less than what is read.
 float line_spacing(const TextStyle& style) {
   if (style.icon) return 1.0F;
-  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * (std::strcmp(style.language, "ar") == 0 ? 0.84F : 1.0F);
+  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * (std::strcmp(style.language, "ar") == 0 ? 0.76F : 1.0F);
 }
 
 class PangoTextEngine final : public TextEngine {
