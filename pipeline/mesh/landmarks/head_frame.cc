@@ -62,6 +62,7 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
 constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
+constexpr double kMostOfANose = 16;         // mm: what stands out further is no better nose, but hair
 
 // Points within half a face of `centre`, still in the frame of `points`.
 Points around(const Points& points, const Vector3d& centre, Arena& scratch) {
@@ -168,7 +169,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
       continue;
     }
     // A nose stands out three times as far as anything else on a head that is mirror-like.
-    const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, 25.0);
+    const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose);
     if (score >= best_score) continue;
     best_score = score;
     best = *plane;
