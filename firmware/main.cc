@@ -14,7 +14,9 @@
 #include "hal/linux/board.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
+#include "hal/picture_file.h"
 #include "hal/sim/photo/held_board.h"
+#include "hal/sim/sheet/sheet_photo.h"
 #include "hal/sim/target/target_photo.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -52,6 +54,20 @@ Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_w
   return storage::open_sqlite_store(folder, clock, options);
 }
 
+Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::SimulationOptions& simulation, const Path& folder) {
+  RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(held.picture));
+  hal::sim::SheetPhotoOptions options;
+  options.rig = simulation.rig;
+  options.seed = simulation.seed;
+  options.threads = pool_size();
+  options.sheet.width_mm = held.width_mm;
+  options.sheet.bend = {held.radius_mm, held.axis_deg, held.apex_mm, held.wave_mm};
+  options.sheet.look.screen = held.screen;
+  options.sheet.look.gloss = held.gloss;
+  options.sheet.pose = simulation.pose;
+  return photograph_sheet(picture, options, folder);
+}
+
 Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   hal::sim::SimulationOptions options;
   options.scene = args.board ? hal::sim::SceneKind::Board : hal::sim::SceneKind::Head;
@@ -71,6 +87,7 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
   options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
   if (args.portrait) std::swap(options.rig.width_px, options.rig.height_px);
+  if (!args.held.picture.empty()) return hold_picture(args.held, options, folder);
   return hal::sim::render_to_folder(options, folder, pool_size());
 }
 

@@ -29,6 +29,7 @@ Result<void> run_simulate(const SimulateArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   SimulateJob job(args, folder.path(), services);
   if (const auto done = run_watched(job, services.console, [] { return "Simulate"; }); !done) {
+    if (!args.held.picture.empty() && done.error().where() == args.held.picture.native()) return done.error();
     return done.error().at(args.output.string());  // not where the files lie for the moment
   }
   RELIEVO_TRY(folder.commit());

@@ -11,6 +11,7 @@
 #include "firmware/command/line/calibration_words.h"
 #include "firmware/command/line/command_line.h"
 #include "firmware/command/line/compare_words.h"
+#include "firmware/command/line/held_picture_words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -184,9 +185,11 @@ void add_simulated_board(CLI::App& command, SimulateArgs& args) {
 void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
   command->require_subcommand(1);
-  for (const bool board : {true, false}) {
-    CLI::App* sub = board ? command->add_subcommand("board", "a printed board in many poses, or in the one that is given")
-                          : command->add_subcommand("face", "a face made of a seed");
+  CLI::App* face = command->add_subcommand("face", "a face made of a seed");
+  CLI::App* held = command->add_subcommand("photograph", "a picture held before the cameras, printed or on a screen");
+  add_held_picture(*held, args.held);
+  for (CLI::App* sub : {command->add_subcommand("board", "a printed board in many poses, or in the one that is given"), face, held}) {
+    const bool board = sub != face && sub != held;
     if (board) add_simulated_board(*sub, args);
     sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()->type_name("DIR");
@@ -204,7 +207,7 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
     pose("--distance", args.distance_mm, 250, 2000, "from the left camera to the middle, mm");
     pose("--right", args.right_mm, -500, 500, "to the side, mm");
     pose("--down", args.down_mm, -500, 500, "downwards, mm");
-    if (!board) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
+    if (sub == face) sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
     sub->callback([&args, &chosen, board] {
       args.board = board;
       chosen = args;

@@ -115,8 +115,18 @@ struct SubjectsArgs {
   Path store;
 };
 
+// A picture that is held before the cameras.
+struct HeldPictureArgs {
+  Path picture;                   // empty: none is
+  double width_mm = 270;
+  double radius_mm = 0, axis_deg = 0, apex_mm = 0, wave_mm = 0;  // how it is bent; hal/sim/sheet
+  bool screen = false;
+  double gloss = 0;
+};
+
 struct SimulateArgs {
-  bool board = false;             // the chessboard; else a face
+  bool board = false;             // the chessboard; else a face, or what is held
+  HeldPictureArgs held;
   Path output;
   unsigned seed = 1;
   BoardArgs printed;

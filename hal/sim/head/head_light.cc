@@ -9,21 +9,12 @@ namespace {
 
 double fifth(double v) { return v * v * v * v * v; }
 
-constexpr double kReferenceMm = 640;    // where a panel's power is what it says
-
-Panel panel_at(const Mat3& head_from_world, Vec3 origin, Vec3 centre, Vec3 aim, double half, double power) {
-  const Vec3 n = normalised(aim - centre), x = normalised(cross(Vec3{0, 1, 0}, n)), y = cross(n, x);
-  return {head_from_world * (centre - origin), head_from_world * (x * half), head_from_world * (y * half), power};
-}
-
 }  // namespace
 
-HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting) {
+HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting) : panels_(lamp_panels(lighting)) {
   const Mat3 head_from_world = pose.world_from_head().transposed();
-  const Vec3 origin = pose.origin_mm(), aim{20, -10, 560};
-  panels_ = {panel_at(head_from_world, origin, {-330, -190, 40}, aim, 130, 0.80 * lighting.left),
-             panel_at(head_from_world, origin, {470, -200, 60}, aim, 130, 0.42 * lighting.right),
-             panel_at(head_from_world, origin, {80, 420, 60}, aim, 120, 0.10 * lighting.below)};
+  const Vec3 origin = pose.origin_mm();
+  for (Panel& p : panels_) p = {head_from_world * (p.centre - origin), head_from_world * p.half_x, head_from_world * p.half_y, p.power};
   eye_ = head_from_world * (Vec3{70, 0, 0} - origin);
   up_ = head_from_world * Vec3{0, -1, 0};
   for (std::size_t shell = 0; shell < HeadModel::BodyCount; ++shell)
@@ -105,7 +96,7 @@ Vec3 HeadLight::on(const Point& p, const Surface& s) const {
   for (std::size_t k = 0; k < kPanels; ++k) {
     const Vec3 to = panels_[k].centre - p.at;
     const double d = length(to), ndl = dot(p.normal, to) / d;
-    const double power = panels_[k].power * (kReferenceMm / d) * (kReferenceMm / d);
+    const double power = panels_[k].power * (kPanelReferenceMm / d) * (kPanelReferenceMm / d);
     const auto lit = [&](double w) { return std::max(0.0, (ndl + w) / ((1 + w) * (1 + w))); };
     const double v = p.seen[k];
     const Vec3 shade = s.translucent > 0 ? Vec3{mix(v, std::sqrt(v), 0.4), v, mix(v, v * v, 0.1)} : Vec3{v, v, v};

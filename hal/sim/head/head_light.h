@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The kiosk's light: two soft panels beside the cameras, a weak one below, and a dim room. Shadows
-// are soft because panels are large; how much of each panel a vertex sees is measured once.
-// All in the head frame, mm.
+// The kiosk's light (lamps.h) on a head. Shadows are soft because panels are large; how much of each
+// panel a vertex sees is measured once. All in the head frame, mm.
 #pragma once
 
 #include <array>
@@ -12,17 +11,13 @@
 #include "hal/sim/head/head_look.h"
 #include "hal/sim/head/head_model.h"
 #include "hal/sim/head/head_scene.h"
+#include "hal/sim/photo/lamps.h"
 
 namespace relievo::hal::sim {
 
-struct Panel {
-  Vec3 centre, half_x, half_y;        // a rectangle
-  double power;
-};
-
 class HeadLight {
  public:
-  static constexpr std::size_t kPanels = 3;
+  static constexpr std::size_t kPanels = sim::kPanels;
   HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting);
 
   struct Point {

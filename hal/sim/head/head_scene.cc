@@ -27,10 +27,7 @@ class HeadScene final : public Scene {
   Sight look(Vec3 origin, Vec3 direction) const override {
     const Vec3 o = to_head(origin), d = head_from_world_ * direction;
     Hit hit;
-    if (!head_->caster.cast(o, d, hit)) {
-      const double grey = 0.035 + 0.010 * value_noise(direction * 6, 99) - 0.02 * direction.y;
-      return {{grey, grey * 1.02, grey * 1.06}, RayCaster::kFar, -1, false};
-    }
+    if (!head_->caster.cast(o, d, hit)) return {room_light(direction), RayCaster::kFar, -1, false};
     const Vec3 at = o + d * hit.distance_mm;
     if (hit.body >= HeadModel::kHairBody) return {hair(hit, at, d), hit.distance_mm, hit.body, true};
     return {body(hit, at, d), hit.distance_mm, hit.body, false};

@@ -10,6 +10,7 @@
 
 #include "hal/base/thread_pool.h"
 #include "hal/sim/head/head_traits.h"
+#include "hal/sim/photo/lamps.h"
 #include "hal/sim/scene.h"
 
 namespace relievo::hal::sim {
@@ -22,10 +23,6 @@ struct HeadPose {
   double right_mm = 0, down_mm = 0;
   Mat3 world_from_head() const;
   Vec3 origin_mm() const;         // of the head frame, in world
-};
-
-struct HeadLighting {             // shares of the kiosk's own powers
-  double left = 1, right = 1, below = 1;  // as the cameras see it
 };
 
 class HeadModel;                  // one person's geometry, reusable in any pose

@@ -108,6 +108,18 @@ TEST(CommandLine, SimulatedBoard) {
   EXPECT_EQ(args.blur_px, 1.5);
 }
 
+TEST(CommandLine, SimulatedPhotograph) {
+  EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out"}).command).held.picture.empty());
+  const auto line = parse({"simulate", "photograph", "ada.png", "-o", "out", "--radius-mm", "-80", "--axis", "30", "--screen", "--yaw", "5"});
+  const auto& args = std::get<SimulateArgs>(line.command);
+  EXPECT_EQ(args.held.picture, "ada.png");
+  EXPECT_EQ(args.held.radius_mm, -80);
+  EXPECT_EQ(args.held.axis_deg, 30);
+  EXPECT_TRUE(args.held.screen);
+  EXPECT_EQ(args.yaw_deg, 5);
+  EXPECT_FALSE(args.board);
+}
+
 TEST(CommandLine, SimulatesUprightCameras) {
   EXPECT_FALSE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out"}).command).portrait);
   EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out", "--portrait"}).command).portrait);
@@ -161,6 +173,7 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"calibrate", "dir", "--pattern", "circles", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--print-pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "-o", "board.pdf"},
       {"simulate", "board", "-o", "out", "--lamp", "nan"},
+      {"simulate", "photograph", "-o", "out"},
       {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
