@@ -4,11 +4,12 @@
 // The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
 // command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
 // Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
-// completion, texturer; and NAME.OPTION for every option of every algorithm.
+// completion, relief, texturer; and NAME.OPTION for every option of every algorithm.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/outlier_filter.h"
 #include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/relief/relief_check.h"
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
@@ -64,6 +66,7 @@ Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& s
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
 Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set);
+Result<std::optional<ReliefOptions>> make_relief_check(const AlgorithmSet& set);  // none: pictures of faces pass
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
 
 }  // namespace relievo::pipeline

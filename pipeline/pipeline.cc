@@ -57,6 +57,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
   RELIEVO_TRY(check_neighbours(*pipeline.selector_, *pipeline.mesher_));
   RELIEVO_TRY_ASSIGN(pipeline.completion_, make_completion(set));
+  RELIEVO_TRY_ASSIGN(pipeline.relief_, make_relief_check(set));
   RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
   return pipeline;
 }
@@ -135,8 +136,18 @@ Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, StageContext& context) 
   });
 }
 
+// Before anything that takes a face for granted looks at the surface.
+Result<ReliefFigures> Pipeline::judge_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const {
+  if (region_ == Region::All) return ReliefFigures{};
+  Result<ReliefFigures> relief = measure_relief(mesh, pair, context);
+  if (!relief_) return relief || relief.error().code == Errc::Cancelled ? relief : Result<ReliefFigures>(ReliefFigures{});
+  if (relief && !is_face(*relief, *relief_)) return error_of(*relief, *relief_);
+  return relief;
+}
+
 Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
+    RELIEVO_TRY_ASSIGN(const ReliefFigures relief, judge_relief(mesh, pair, c));
     FaceModel model(&c.output);
     RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
     const double* x_axis = pair.rectified_from_left.m;
@@ -145,6 +156,7 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     model.head_from_camera = frame.head_from_camera;
     RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
     model.quality = measure_quality(mesh, frame, c);
+    model.quality.relief = relief;
     model.quality.texture_sharpness = texture_sharpness(model.texture, c);
     model.mesh = std::move(mesh);
     return model;

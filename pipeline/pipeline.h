@@ -42,7 +42,8 @@ class Pipeline {
   Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
-  // Takes the mesh over into the model.
+  // Takes the mesh over into the model, once it is known to be a face. Errors: NoFace (a picture was held up; never
+  // with Region::All or relief=off), PoorGeometry, Cancelled, OutOfMemory.
   Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
 
   // After `failure`: what is wrong with the pictures, if anything is. May take as long as a match.
@@ -54,6 +55,7 @@ class Pipeline {
  private:
   Pipeline() = default;
   bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
+  Result<ReliefFigures> judge_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
   Result<MatchSet> match_prepared(const RectifiedPair& pair, StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;
@@ -69,6 +71,7 @@ class Pipeline {
   std::shared_ptr<const OutlierFilter> outliers_;  // null: every point is kept
   std::shared_ptr<const Mesher> mesher_;
   std::shared_ptr<const Completion> completion_;
+  std::optional<ReliefOptions> relief_;  // none: measured, never refused
   std::shared_ptr<const Texturer> texturer_;
 };
 

@@ -13,11 +13,12 @@ namespace {
 
 using pipeline::FaceModel;
 using pipeline::ModelQuality;
+using pipeline::ReliefFigures;
 using pipeline::Vec2f;
 using pipeline::Vec3f;
 
 constexpr std::string_view kMagic{"RFACE\0", 6};
-constexpr std::uint16_t kVersion = 3;
+constexpr std::uint16_t kVersion = 4;
 constexpr std::size_t kHeaderBytes = 6 + 2 + 5 * 4;
 constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::measured_area_mm2,
@@ -29,11 +30,16 @@ constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::texture_sharpness,
                                               &ModelQuality::symmetry_residual_mm};
 
+constexpr double ReliefFigures::*kRelief[] = {&ReliefFigures::covered,      &ReliefFigures::sigma_mm,       &ReliefFigures::off_plane_mm,
+                                              &ReliefFigures::off_sheet_mm, &ReliefFigures::sheet_range_mm, &ReliefFigures::curvature_sr};
+
 // Each version added figures at the end.
 std::size_t quality_figures(std::uint16_t version) { return version < 2 ? 7 : version < 3 ? 8 : std::size(kQuality); }
 
 constexpr std::size_t kLandmarkBytes = pipeline::kLandmarkCount * (4 * 4 + 1);
 std::size_t landmark_bytes(std::uint16_t version) { return version < 3 ? 0 : kLandmarkBytes; }
+
+std::size_t relief_figures(std::uint16_t version) { return version < 4 ? 0 : std::size(kRelief); }
 
 // What the header says; everything else follows from it.
 struct Shape {
@@ -55,7 +61,7 @@ struct Shape {
   std::size_t total_bytes() const {
     const std::size_t v = vertices;
     const std::size_t texels = std::size_t{width_px} * height_px;
-    return kHeaderBytes + (12 + quality_figures(version)) * 8 + landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
+    return kHeaderBytes + (12 + quality_figures(version) + relief_figures(version)) * 8 + landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
            count(Measured, v) + std::size_t{triangles} * 12 + texels * 3 + count(Origin, texels) +
            count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + sizeof(Sha256);
   }
@@ -109,6 +115,7 @@ void put_numbers(ByteWriter& to, const FaceModel& model) {
     for (const float value : {l.at_mm.x, l.at_mm.y, l.at_mm.z, l.sigma_mm}) to.put(value);
     to.put(static_cast<std::uint8_t>(l.found ? 1 : 0));
   }
+  for (const auto member : kRelief) to.put(model.quality.relief.*member);
 }
 
 void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
@@ -122,6 +129,7 @@ void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
     for (float* value : {&l.at_mm.x, &l.at_mm.y, &l.at_mm.z, &l.sigma_mm}) *value = from.get<float>();
     l.found = from.get<std::uint8_t>() != 0;
   }
+  for (const auto member : std::span(kRelief).first(relief_figures(version))) model.quality.relief.*member = from.get<double>();
 }
 
 template <typename Element, typename Item>

@@ -37,7 +37,8 @@ Error moved(const pipeline::DriftJudgement& drift) {
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
   Result<void> done = run_stage_of(stage, products, context, record);
-  if (done || !may_be_the_pictures(done.error().code) || !products.frame) return done;
+  // A surface that is there and has no face's relief needs no other cause.
+  if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame) return done;
   if (std::optional<Error> cause = pipeline_.explain(*products.frame, done.error().code, context)) return *cause;
   return done;
 }

@@ -64,6 +64,7 @@ std::vector<Kind> surface_kinds() {
       kind_of("outliers", "local", "which points are taken for outliers in space", kOutlierFilters),
       kind_of("mesher", "grid", "how points become a surface", kMeshers),
       kind_of("completion", "measured-only", "what is made of surface that was not seen", kCompletions),
+      {"relief", "check", "whether a picture of a face is told from a face and refused", {"check", "off"}},
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
   };
   kinds[1].names.emplace_back("none");
@@ -77,6 +78,7 @@ std::vector<OptionDescription> surface_options() {
   describe_table(kOutlierFilters, all);
   describe_table(kMeshers, all);
   describe_table(kCompletions, all);
+  describe_options<ReliefOptions>("relief", all);
   describe_table(kTexturers, all);
   return all;
 }
@@ -101,6 +103,12 @@ Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set) {
 
 Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set) {
   return make_named<Completion>(kCompletions, set, set.get("completion"));
+}
+
+Result<std::optional<ReliefOptions>> make_relief_check(const AlgorithmSet& set) {
+  if (set.get("relief") == "off") return std::optional<ReliefOptions>();
+  RELIEVO_TRY_ASSIGN(const ReliefOptions options, OptionReader::read<ReliefOptions>(set, "relief"));
+  return std::optional(options);
 }
 
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set) {

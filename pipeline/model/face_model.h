@@ -8,6 +8,7 @@
 
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
+#include "pipeline/model/relief_figures.h"
 #include "pipeline/model/texture_atlas.h"
 
 namespace relievo::pipeline {
@@ -22,6 +23,7 @@ struct ModelQuality {
   double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
   double texture_sharpness = 0;     // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
   double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
+  ReliefFigures relief;             // all 0 where the whole view was wanted: then it need not be a face
 };
 
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the

@@ -19,6 +19,7 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
       EXPECT_TRUE(make_constraints(set));
       EXPECT_TRUE(make_triangulator(set));
       EXPECT_TRUE(make_mesher(set));
+      EXPECT_TRUE(make_relief_check(set));
       EXPECT_TRUE(make_texturer(set));
     }
   }

@@ -107,7 +107,7 @@ TEST(ModelBlob, RefusesHostileSizesBeforeAllocating) {
 TEST(ModelBlob, RefusesIndicesOutOfRangeUnderARightChecksum) {
   const auto model = sample_model(4);
   auto bytes = encoded(model);
-  const std::size_t triangles_at = 28 + 21 * 8 + 10 * 17 + 16 * (12 + 12 + 4 + 1);
+  const std::size_t triangles_at = 28 + 21 * 8 + 10 * 17 + 6 * 8 + 16 * (12 + 12 + 4 + 1);
   const std::uint32_t index = 16;
   std::memcpy(bytes.data() + triangles_at, &index, 4);
   seal(bytes);
@@ -118,7 +118,7 @@ TEST(ModelBlob, RefusesIndicesOutOfRangeUnderARightChecksum) {
 
 TEST(ModelBlob, SaysThatALaterFormIsNewer) {
   auto bytes = encoded(sample_model(4));
-  bytes[6] = std::byte{4};
+  bytes[6] = std::byte{5};
   const auto back = decode_model(bytes, std::pmr::new_delete_resource());
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, Errc::StoreNewer);
@@ -129,11 +129,12 @@ TEST(ModelBlob, ReadsTheFirstForm) {
   auto model = sample_model();
   model.texture.origin.clear();
   model.quality.texture_sharpness = model.quality.symmetry_residual_mm = 0;
+  model.quality.relief = {};
   model.landmarks = {};
   auto bytes = encoded(model);
   bytes[6] = std::byte{1};
   const auto eighth = bytes.begin() + 28 + 19 * 8;
-  bytes.erase(eighth, eighth + 2 * 8 + 10 * 17);
+  bytes.erase(eighth, eighth + 2 * 8 + 10 * 17 + 6 * 8);
   seal(bytes);
   const auto back = decode_model(bytes, std::pmr::new_delete_resource());
   ASSERT_TRUE(back);
@@ -144,11 +145,26 @@ TEST(ModelBlob, ReadsTheFirstForm) {
 TEST(ModelBlob, ReadsTheSecondForm) {
   auto model = sample_model();
   model.quality.symmetry_residual_mm = 0;
+  model.quality.relief = {};
   model.landmarks = {};
   auto bytes = encoded(model);
   bytes[6] = std::byte{2};
   const auto ninth = bytes.begin() + 28 + 20 * 8;
-  bytes.erase(ninth, ninth + 8 + 10 * 17);
+  bytes.erase(ninth, ninth + 8 + 10 * 17 + 6 * 8);
+  seal(bytes);
+  const auto back = decode_model(bytes, std::pmr::new_delete_resource());
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(identical(model, *back));
+}
+
+// The third: no relief.
+TEST(ModelBlob, ReadsTheThirdForm) {
+  auto model = sample_model();
+  model.quality.relief = {};
+  auto bytes = encoded(model);
+  bytes[6] = std::byte{3};
+  const auto relief = bytes.begin() + 28 + 21 * 8 + 10 * 17;
+  bytes.erase(relief, relief + 6 * 8);
   seal(bytes);
   const auto back = decode_model(bytes, std::pmr::new_delete_resource());
   ASSERT_TRUE(back);

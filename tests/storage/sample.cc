@@ -59,7 +59,7 @@ FaceModel sample_model(int side, unsigned seed) {
     }
   }
   model.head_from_camera = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0.1 + seed, 1.0 / 3.0, 600.5}};
-  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7, 0.21};
+  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7, 0.21, {0.9, 0.31, 7.9, 3.6, 18.5, 7.25}};
   for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k)
     model.landmarks[k] = {{static_cast<float>(k) - 4.5F, static_cast<float>(seed), 610.25F}, 0.5F + static_cast<float>(k), k != 3};
   return model;

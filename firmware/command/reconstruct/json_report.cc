@@ -19,6 +19,12 @@ nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>&
           {"expected_px", drift->expected_px}};
 }
 
+nlohmann::ordered_json relief_json(const pipeline::ReliefFigures& r) {
+  return {{"covered", r.covered},           {"sigma_mm", r.sigma_mm},
+          {"off_plane_mm", r.off_plane_mm}, {"off_sheet_mm", r.off_sheet_mm},
+          {"sheet_range_mm", r.sheet_range_mm}, {"curvature_sr", r.curvature_sr}};
+}
+
 // In the head frame, whatever frame the files are in.
 nlohmann::ordered_json landmarks_json(const Report& report) {
   auto all = nlohmann::ordered_json::object();
@@ -64,7 +70,8 @@ std::string report_json(const Report& report) {
                     {"nose_relief_mm", q.nose_relief_mm},
                     {"epipolar_residual_px", q.epipolar_residual_px},
                     {"texture_sharpness", q.texture_sharpness},
-                    {"symmetry_residual_mm", q.symmetry_residual_mm}}},
+                    {"symmetry_residual_mm", q.symmetry_residual_mm},
+                    {"relief", relief_json(q.relief)}}},
                   {"landmarks", landmarks_json(report)},
                   {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
                   {"drift", drift_json(report.drift)}};

@@ -175,6 +175,8 @@ std::string quality_text(const pipeline::ModelQuality& q) {
   add("epipolar_residual_px", q.epipolar_residual_px);
   add("texture_sharpness", q.texture_sharpness);
   add("symmetry_residual_mm", q.symmetry_residual_mm);
+  add("off_sheet_mm", q.relief.off_sheet_mm);
+  add("curvature_sr", q.relief.curvature_sr);
   return text;
 }
 

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/relief/relief_check.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "pipeline/relief/height_cells.h"
+#include "pipeline/relief/sheet_fit.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kRadiusMm = 60;        // eyes, nose and mouth of any face
+constexpr double kCellMm = 3;
+constexpr std::size_t kLeastCells = 200;  // a sixth of the disc
+constexpr double kTrusted = 0.75;       // share of the cells that counts: the nearest
+constexpr double kSmoothMm = 8;         // narrower than a nose, wider than what noise makes hang together
+constexpr double kCurveMm = 12;
+constexpr double kFull = 0.8;           // share of a neighbourhood that must have been measured
+
+double percentile(std::pmr::vector<double>& values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double rms_of_trusted(const SheetFit& fit, Arena& scratch) {
+  Arena::Mark mark(scratch);
+  std::pmr::vector<double> squares(&scratch);
+  squares.reserve(fit.residual_mm.size());
+  for (const double r : fit.residual_mm) squares.push_back(r * r);
+  std::sort(squares.begin(), squares.end());
+  const auto count = static_cast<std::size_t>(kTrusted * static_cast<double>(squares.size()));
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += squares[i];
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+double median_sigma(const HeightCells& cells, Arena& scratch) {
+  Arena::Mark mark(scratch);
+  std::pmr::vector<double> sigmas(&scratch);
+  sigmas.reserve(cells.cells.size());
+  for (const HeightCell& cell : cells.cells) sigmas.push_back(cell.sigma_mm);
+  return percentile(sigmas, 0.5);
+}
+
+// Calls visit(k, dx, dy) for every cell within `reach_mm`; tells whether the neighbourhood is full.
+template <typename Visit>
+bool around(const HeightCells& cells, const HeightCell& middle, double reach_mm, Visit&& visit) {
+  int found = 0;
+  const int rows = static_cast<int>(reach_mm / cells.cell_mm) + 1;
+  const auto above = std::lower_bound(cells.cells.begin(), cells.cells.end(), middle.row - rows, [](const HeightCell& c, int row) { return c.row < row; });
+  for (auto cell = above; cell != cells.cells.end() && cell->row <= middle.row + rows; ++cell) {
+    const double dx = cell->x_mm - middle.x_mm, dy = cell->y_mm - middle.y_mm;
+    if (dx * dx + dy * dy > reach_mm * reach_mm) continue;
+    visit(static_cast<std::size_t>(cell - cells.cells.begin()), dx, dy);
+    ++found;
+  }
+  return found >= kFull * std::numbers::pi * (reach_mm / cells.cell_mm) * (reach_mm / cells.cell_mm);
+}
+
+double range_of(const HeightCells& cells, const SheetFit& sheet, Arena& scratch) {
+  Arena::Mark mark(scratch);
+  std::pmr::vector<double> smooth(&scratch);
+  smooth.reserve(cells.cells.size());
+  for (const HeightCell& cell : cells.cells) {
+    double sum = 0;
+    int count = 0;
+    const bool full = around(cells, cell, kSmoothMm, [&](std::size_t k, double, double) { sum += sheet.residual_mm[k], ++count; });
+    if (full) smooth.push_back(sum / count);
+  }
+  if (smooth.empty()) return 0;
+  const double top = percentile(smooth, 0.98);
+  return top - percentile(smooth, 0.02);
+}
+
+// From the quadratic that fits the heights round each cell best: K dA = (ac - b^2) / (1 + p^2 + q^2)^(3/2) dx dy.
+double curvature_of(const HeightCells& cells) {
+  using Row = Eigen::Matrix<double, 6, 1>;
+  double sum = 0;
+  for (const HeightCell& cell : cells.cells) {
+    Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
+    Row b = Row::Zero();
+    const bool full = around(cells, cell, kCurveMm, [&](std::size_t k, double x, double y) {
+      Row row;
+      row << 1, x, y, x * x / 2, x * y, y * y / 2;
+      a += row * row.transpose();
+      b += row * cells.cells[k].height_mm;
+    });
+    if (!full) continue;
+    const Row f = a.ldlt().solve(b);
+    const double steep = 1 + f[1] * f[1] + f[2] * f[2];
+    sum += std::abs(f[3] * f[5] - f[4] * f[4]) / (steep * std::sqrt(steep)) * cells.cell_mm * cells.cell_mm;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Result<void> ReliefOptions::check() const {
+  if (!(least_off_sheet_mm >= 0) || !(least_curvature_sr >= 0) || !(least_sigmas >= 0))
+    return Error{Errc::InvalidInput, "relief: least_off_sheet_mm, least_curvature_sr and least_sigmas may not be negative"};
+  return {};
+}
+
+Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
+  Arena::Mark mark(context.scratch);
+  const HeightCells cells = make_height_cells(mesh, pair, kRadiusMm, kCellMm, context);
+  if (cells.cells.size() < kLeastCells)
+    return Error{Errc::PoorGeometry, "too little of the middle of the face was measured: more light, and nothing before the face"};
+  const SheetFit plane = fit_plane(cells, context);
+  RELIEVO_TRY_ASSIGN(const SheetFit sheet, fit_sheet(cells, context));
+  ReliefFigures relief;
+  relief.covered = std::min(1.0, cells.covered);
+  relief.sigma_mm = median_sigma(cells, context.scratch);
+  relief.off_plane_mm = rms_of_trusted(plane, context.scratch);
+  relief.off_sheet_mm = rms_of_trusted(sheet, context.scratch);
+  relief.sheet_range_mm = range_of(cells, sheet, context.scratch);
+  relief.curvature_sr = curvature_of(cells);
+  return relief;
+}
+
+bool is_face(const ReliefFigures& r, const ReliefOptions& o) {
+  return r.off_sheet_mm >= o.least_off_sheet_mm && r.off_sheet_mm >= o.least_sigmas * r.sigma_mm && r.curvature_sr >= o.least_curvature_sr;
+}
+
+Error error_of(const ReliefFigures& r, const ReliefOptions& o) {
+  char figures[192];
+  std::snprintf(figures, sizeof figures, "%.2f mm off a plane, %.2f off a bent sheet (a face %.1f or more; sigma %.2f), curved by %.1f sr (a face %.1f or more)",
+                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr);
+  return Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}.at(figures);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Is it a face, or a picture of one? Paper and screens, however they are held, are sheets: they bend without
+// stretching. A face is no sheet, and by so much that no accuracy has to be reached for: its nose stands
+// 15 mm and more before anything that can be rolled over its cheeks. Two figures of its middle, which know
+// nothing of each other, must both be a face's:
+//   off_sheet_mm   how far it lies off the nearest sheet (sheet_fit.h), root mean square of the nearest three
+//                  quarters: a lamp that glossy paper mirrors lies behind or before it, and does not count.
+//                  A sheet: the noise. A face: 1.5 to 2.5 mm, without its nose.
+//   curvature_sr   how much it curves both ways at once: the integral of |Gaussian curvature|, which bending
+//                  cannot change (Gauss 1827: it is that of the flat sheet, none). A face: 6 sr and more.
+// Masks have a face's relief: they are beyond this check.
+// Memory: scratch only. Thread: any. Deterministic, whatever the number of threads.
+#pragma once
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/relief_figures.h"
+#include "pipeline/options.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+struct ReliefOptions {
+  double least_off_sheet_mm = 1.2;   // two thirds of a flat face's
+  double least_curvature_sr = 3.0;   // half of a face's: half of it may be hidden
+  double least_sigmas = 1.5;         // off_sheet_mm over the stated sigma: noise alone makes 0.55
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(ReliefOptions& o, Field&& field) {
+  field("least_off_sheet_mm", o.least_off_sheet_mm, OptionRange{0, 100}, "rms by which a face leaves the nearest bent sheet at least, mm");
+  field("least_curvature_sr", o.least_curvature_sr, OptionRange{0, 100}, "what the middle of a face curves both ways at once at least, steradians");
+  field("least_sigmas", o.least_sigmas, OptionRange{0, 100}, "the same rms at least, times the stated sigma");
+}
+
+// Of the measured vertices within 60 mm of the middle of the face; of the whole surface's middle where no face
+// was looked for. Errors: PoorGeometry (too little was measured there to tell), Cancelled.
+Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context);
+
+bool is_face(const ReliefFigures& relief, const ReliefOptions& options);
+// NoFace: a sentence for the person, and where() the figures for the technician.
+Error error_of(const ReliefFigures& relief, const ReliefOptions& options);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/relief/sheet_fit.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kSpline = 13;                    // cubic B-splines: ten pieces of about 13 mm
+constexpr int kUnknowns = kSpline + 1;         // and the slope along the lines
+constexpr int kRounds = 6;                     // of weights
+constexpr double kSoftMm = 0.3;                // below it deviations count squared
+constexpr double kStraighten = 1e-3;           // keeps splines that no cell holds on their neighbours' line
+constexpr int kDirections = 12;                // the first search; then halved about the best
+constexpr std::array<double, 5> kConvergence{0, -1 / 400., 1 / 400., -1 / 200., 1 / 200.};
+constexpr int kRefinements = 4;
+constexpr double kMostConvergence = 1 / 150.;
+
+using System = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
+
+struct Lines {
+  double direction = 0;          // radians
+  double convergence = 0;        // per mm
+};
+
+// One cell's row of the linear model, and how the height changes along s and t.
+struct Row {
+  int first = 0;                 // of the four splines that reach here
+  std::array<double, 4> spline{}, slope{};
+  double t = 0, nearer = 1, s = 0;  // nearer: 1 - k t; s: where the line through here crosses t = 0
+  double height_mm = 0;
+};
+
+using Rows = std::pmr::vector<Row>;
+
+class Sheet {
+ public:
+  // `rows`: room for a row a cell, lent for the sheet's life.
+  Sheet(const HeightCells& cells, Lines lines, Rows& rows)
+      : cells_(cells.cells), lines_(lines), cos_(std::cos(lines.direction)), sin_(std::sin(lines.direction)), rows_(rows) {
+    const double reach = 0.5 * cells.side * cells.cell_mm * std::numbers::sqrt2;
+    const double widest = reach / (1 - std::min(0.8, std::abs(lines.convergence) * reach));
+    begin_ = -widest, step_ = 2 * widest / (kSpline - 3);
+    for (std::size_t k = 0; k < cells_.size(); ++k) rows_[k] = row_of(cells_[k]);
+  }
+
+  double solve() {
+    for (int round = 0; round < kRounds; ++round) improve(round == 0);
+    double cost = 0;
+    for (const Row& row : rows_) cost += soft(deviation(row));
+    return cost / static_cast<double>(cells_.size());
+  }
+
+  void residuals(std::pmr::vector<double>& out) const {
+    out.clear();
+    for (const Row& row : rows_) out.push_back(deviation(row));
+  }
+
+ private:
+  static double soft(double d) { return std::sqrt(d * d + kSoftMm * kSoftMm) - kSoftMm; }
+
+  Row row_of(const HeightCell& cell) const {
+    Row row;
+    row.t = -sin_ * cell.x_mm + cos_ * cell.y_mm;
+    row.nearer = std::max(0.1, 1 - lines_.convergence * row.t);
+    row.s = (cos_ * cell.x_mm + sin_ * cell.y_mm) / row.nearer;
+    const double at = std::clamp((row.s - begin_) / step_, 0.0, kSpline - 3 - 1e-9);
+    row.first = static_cast<int>(at);
+    const double u = at - row.first, v = 1 - u;
+    row.spline = {v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6, (3 * v * v * v - 6 * v * v + 4) / 6, u * u * u / 6};
+    row.slope = {-v * v / 2, (3 * u * u - 4 * u) / 2, -(3 * v * v - 4 * v) / 2, u * u / 2};
+    for (double& d : row.slope) d /= step_;
+    row.height_mm = cell.height_mm;
+    return row;
+  }
+
+  // Perpendicular to the sheet, + before it.
+  double deviation(const Row& row) const {
+    double g = 0, slope = 0;
+    for (int k = 0; k < 4; ++k) {
+      g += row.spline[static_cast<std::size_t>(k)] * x_[row.first + k];
+      slope += row.slope[static_cast<std::size_t>(k)] * x_[row.first + k];
+    }
+    const double along = x_[kSpline] + lines_.convergence * (slope * row.s - g);
+    const double height = x_[kSpline] * row.t + row.nearer * g;
+    return (row.height_mm - height) / std::sqrt(1 + slope * slope + along * along);
+  }
+
+  void improve(bool first) {
+    System a = System::Zero();
+    Unknowns b = Unknowns::Zero();
+    for (const Row& row : rows_) {
+      const double d = first ? 0 : deviation(row);
+      const double w = 1 / std::sqrt(d * d + kSoftMm * kSoftMm);
+      std::array<double, 5> value{};
+      for (std::size_t k = 0; k < 4; ++k) value[k] = row.nearer * row.spline[k];
+      value[4] = row.t;
+      const auto unknown = [&](int k) { return k < 4 ? row.first + k : kSpline; };
+      for (int i = 0; i < 5; ++i) {
+        b[unknown(i)] += w * value[static_cast<std::size_t>(i)] * row.height_mm;
+        for (int j = 0; j < 5; ++j) a(unknown(i), unknown(j)) += w * value[static_cast<std::size_t>(i)] * value[static_cast<std::size_t>(j)];
+      }
+    }
+    const double stiff = kStraighten * a.topLeftCorner<kSpline, kSpline>().trace() / kSpline;
+    for (int k = 0; k + 2 < kSpline; ++k) {
+      const Eigen::Vector3d bend(1, -2, 1);
+      a.block<3, 3>(k, k) += stiff * bend * bend.transpose();
+    }
+    a(kSpline, kSpline) += 1e-9 * a.trace();
+    x_ = a.ldlt().solve(b);
+  }
+
+  const std::pmr::vector<HeightCell>& cells_;
+  Lines lines_;
+  double cos_, sin_;
+  Rows& rows_;
+  double begin_ = 0, step_ = 1;
+  Unknowns x_ = Unknowns::Zero();
+};
+
+struct Best {
+  Lines lines;
+  double cost = 1e300;
+  void offer(const HeightCells& cells, Lines lines_offered, Rows& rows) {
+    lines_offered.convergence = std::clamp(lines_offered.convergence, -kMostConvergence, kMostConvergence);
+    const double c = Sheet(cells, lines_offered, rows).solve();
+    if (c < cost) *this = {lines_offered, c};
+  }
+};
+
+}  // namespace
+
+Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
+  Best best;
+  Rows rows(cells.cells.size(), Row{}, &context.scratch);
+  for (int k = 0; k < kDirections; ++k) {
+    if (context.stop()) return Error{Errc::Cancelled, "stopped while the relief was measured"};
+    for (const double convergence : kConvergence) best.offer(cells, {std::numbers::pi * k / kDirections, convergence}, rows);
+  }
+  double turn = std::numbers::pi / kDirections / 2, meet = kConvergence[2] / 2;
+  for (int round = 0; round < kRefinements; ++round, turn /= 2, meet /= 2) {
+    const Lines from = best.lines;
+    for (const int i : {-1, 0, 1})
+      for (const int j : {-1, 0, 1}) best.offer(cells, {from.direction + i * turn, from.convergence + j * meet}, rows);
+  }
+  SheetFit fit(&context.scratch);
+  fit.axis_deg = best.lines.direction * 180 / std::numbers::pi;
+  fit.convergence_per_mm = best.lines.convergence;
+  Sheet sheet(cells, best.lines, rows);
+  fit.cost = sheet.solve();
+  fit.residual_mm.reserve(cells.cells.size());
+  sheet.residuals(fit.residual_mm);
+  return fit;
+}
+
+SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  const auto off = [&](const HeightCell& c) { return (c.height_mm - plane.dot(Eigen::Vector3d(1, c.x_mm, c.y_mm))) / std::hypot(1, plane[1], plane[2]); };
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d a = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const HeightCell& c : cells.cells) {
+      const double d = round == 0 ? 0 : off(c), w = 1 / std::sqrt(d * d + kSoftMm * kSoftMm);
+      const Eigen::Vector3d row(1, c.x_mm, c.y_mm);
+      a += w * row * row.transpose();
+      b += w * c.height_mm * row;
+    }
+    plane = a.ldlt().solve(b);
+  }
+  SheetFit fit(&context.scratch);
+  fit.residual_mm.reserve(cells.cells.size());
+  for (const HeightCell& c : cells.cells) {
+    fit.residual_mm.push_back(off(c));
+    fit.cost += std::sqrt(off(c) * off(c) + kSoftMm * kSoftMm) - kSoftMm;
+  }
+  fit.cost /= static_cast<double>(std::max<std::size_t>(1, cells.cells.size()));
+  return fit;
+}
+
+}  // namespace relievo::pipeline
