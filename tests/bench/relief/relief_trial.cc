@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/bench/relief/relief_trial.h"
+
+#include "pipeline/pipeline.h"
+#include "tests/support/rig_calibration.h"
+
+namespace relievo::bench {
+namespace {
+
+using namespace pipeline;  // NOLINT: a bench of the pipeline
+
+Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pictures, test::StageBench& room, Verdict& verdict) {
+  const StereoFrame frame{pictures.left.view(), pictures.right.view(), 0, 0};
+  RELIEVO_TRY_ASSIGN(const auto pair, stages.rectify(frame, room.context));
+  RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
+  RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
+  RELIEVO_TRY_ASSIGN(auto mesh, stages.mesh(cloud, room.context));
+  // What was measured is told of everything, also of what is refused.
+  const auto relief = run_stage(room.context, [&](StageContext& c) { return measure_relief(mesh, pair, c); });
+  if (relief) verdict.relief = *relief;
+  const auto model = stages.texture(std::move(mesh), pair, room.context);
+  if (!model) return model.error();
+  return {};
+}
+
+}  // namespace
+
+hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool) {
+  return render_pair(*trial.scene, make_rig(trial.rig), trial.sensor, trial.noise_seed, pool);
+}
+
+Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageBench& room) {
+  room.output.reset();
+  Verdict verdict;
+  const auto stages = Pipeline::make({}, test::true_calibration(make_rig(trial.rig)));
+  const Result<void> done = stages ? reconstruct(*stages, pictures, room, verdict) : Result<void>(stages.error());
+  verdict.accepted = done.has_value();
+  if (!done) verdict.why = std::string(done.error().what.view());
+  return verdict;
+}
+
+}  // namespace relievo::bench

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One trial of the relief proof: what was shown is photographed by the simulated rig and goes through the
+// whole chain with default algorithms, calibrated by the rig's truth. Accepted is what becomes a model.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hal/sim/render.h"
+#include "pipeline/relief/relief_check.h"
+#include "tests/bench/relief/relief_scenes.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::bench {
+
+struct Verdict {
+  bool accepted = false;
+  std::string why;                            // it was not
+  std::optional<pipeline::ReliefFigures> relief;     // where there was a surface to measure: then it alone refuses
+};
+
+hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool);
+Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageBench& room);
+
+}  // namespace relievo::bench
