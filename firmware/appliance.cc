@@ -60,7 +60,7 @@ Appliance::Appliance(Parts parts)
       grabber_(parts.board),
       open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
       pose_(grabber_, session_, parts.board.preferred_mode(), parts.guide, parts.board.clock()),
-      grab_(grabber_, session_, parts.board.preferred_mode()),
+      grab_(grabber_, session_, parts.board),
       stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
       capture_(reports_), worker_(reports_), keeper_(reports_) {
   records_.reserve(4 * budget::kCaptureAttempts);

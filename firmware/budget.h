@@ -22,7 +22,7 @@ inline constexpr std::size_t kFrameBytes =
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
 inline constexpr int kLiveSidePx = 640;           // longer side of the live picture on the screen
 inline constexpr int kStagePictureSidePx = 400;   // of a stage's picture, a square
-inline constexpr std::size_t kStereoSlots = 1;   // the person's own pair, kept until the session closes
+inline constexpr std::size_t kStereoSlots = 2;   // a burst's best pair, kept until the session closes, and its newest
 
 // --- memory -------------------------------------------------------------------------------------
 inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
@@ -60,6 +60,7 @@ inline constexpr milliseconds kCameraRetryFirst{250};     // after a camera has 
 inline constexpr milliseconds kCameraRetryMost{8'000};
 inline constexpr milliseconds kCameraReturn{20'000};      // a self-test waits this long for a camera that was there
 inline constexpr int kCaptureAttempts = 3;                // until a person is asked to come again
+inline constexpr int kBurstPairs = 5;                     // of which the sharpest, stillest is kept
 inline constexpr milliseconds kSelfTestLimit{30'000};
 inline constexpr milliseconds kPositionLimit{120'000};    // nobody touches the screen: nothing is photographed
 inline constexpr milliseconds kCaptureLimit{30'000};

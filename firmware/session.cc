@@ -48,6 +48,7 @@ void EnrolmentSession::wipe() {
   slot_.wipe();
   live_.wipe();
   stage_pictures_.wipe();
+  spare_slot_.wipe();
   output_.wipe();
   explicit_bzero(scratch_block_.data(), scratch_touched_);
   scratch_touched_ = 0;

@@ -44,7 +44,10 @@ struct Products {
 class EnrolmentSession {
  public:
   explicit EnrolmentSession(const BootMemory& memory)
-      : slot_(memory.frames()), output_(memory.output()), scratch_block_(memory.scratch()) {}
+      : slot_(memory.frames().first(memory.frames().size() / 2)),
+        spare_slot_(memory.frames().subspan(memory.frames().size() / 2)),
+        output_(memory.output()),
+        scratch_block_(memory.scratch()) {}
   ~EnrolmentSession() { close(); }
   EnrolmentSession(const EnrolmentSession&) = delete;
   EnrolmentSession& operator=(const EnrolmentSession&) = delete;
@@ -62,6 +65,7 @@ class EnrolmentSession {
   LiveFeed& live() { return live_; }
   StagePictures& stage_pictures() { return stage_pictures_; }
   const StagePictures& stage_pictures() const { return stage_pictures_; }
+  StereoSlot& spare_slot() { return spare_slot_; }  // of a burst, which keeps its best pair in one of the two
   Arena& output() { return output_; }
   // A scratch arena of one stage's own, so that its peak can be told; what it touched the session wipes.
   class Scratch {
@@ -84,6 +88,7 @@ class EnrolmentSession {
   StereoSlot slot_;
   LiveFeed live_;
   StagePictures stage_pictures_;
+  StereoSlot spare_slot_;
   Arena output_;
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;

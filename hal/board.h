@@ -26,6 +26,10 @@ class Board {
   virtual TriggerLine& trigger() = 0;
   // Do both cameras expose at the trigger's pulse? If not, they run on their own, or did when recorded.
   virtual bool exposes_together() const { return true; }
+  // Does somebody stand before the cameras? Recorded and simulated pairs do not get better by taking more.
+  virtual bool is_live() const { return true; }
+  // Flash where a lamp of its own hangs on the trigger.
+  virtual Light shot_light() const { return Light::Off; }
   virtual RemovableMedia& media() = 0;
   virtual Clock& clock() = 0;
   virtual Watchdog& watchdog() = 0;

@@ -11,6 +11,10 @@ namespace relievo::firmware {
 using hal::Camera;
 using hal::Frame;
 
+namespace {
+const Error kAway{Errc::Disconnected, "the camera is away: check its plug; it is tried again by itself"};
+}  // namespace
+
 Result<void> CameraLink::run(const hal::CaptureMode& mode) {
   if (camera_.state() == Camera::State::Closed) RELIEVO_TRY(camera_.open(mode));
   if (camera_.state() == Camera::State::Idle) {
@@ -22,7 +26,7 @@ Result<void> CameraLink::run(const hal::CaptureMode& mode) {
 
 Result<void> CameraLink::start(const hal::CaptureMode& mode) {
   if (!gone()) return run(mode);
-  if (clock_.now() < due_) return Error{Errc::Disconnected, "the camera is away: check its plug; it is tried again by itself"};
+  if (clock_.now() < due_) return kAway;
   if (const Result<void> back = run(mode); !back) {
     camera_.close();
     ++counts_.refused;
@@ -89,6 +93,7 @@ CameraLink::Verdict CameraLink::judge(const Frame& frame, hal::Instant asked) {
 }
 
 Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled) {
+  if (gone()) return kAway;
   for (;;) {
     Result<Frame> frame = wait(deadline, cancelled);
     if (!frame) {

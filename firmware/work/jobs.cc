@@ -37,8 +37,15 @@ Result<void> PoseJob::run(JobControl& control) {
 }
 
 Result<void> GrabJob::run(JobControl& control) {
-  RELIEVO_TRY(grabber_.start(mode_));  // nothing where the streams run already
-  RELIEVO_TRY_ASSIGN(session_.products().frame, grabber_.grab(session_.slot(), control.cancelled));
+  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));  // nothing where the streams run already
+  BurstOptions options;
+  options.light = board_.shot_light();
+  if (!board_.is_live()) {
+    RELIEVO_TRY_ASSIGN(session_.products().frame, grabber_.grab(session_.slot(), control.cancelled));
+    return {};
+  }
+  RELIEVO_TRY_ASSIGN(const BurstResult burst, burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled));
+  session_.products().frame = burst.frame;
   return {};
 }
 

@@ -7,12 +7,14 @@
 
 #include <functional>
 
+#include "firmware/capture/burst.h"
 #include "firmware/capture/position_guide.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/session.h"
 #include "firmware/work/job_thread.h"
 #include "firmware/work/stage_runner.h"
 #include "hal/base/thread_pool.h"
+#include "hal/board.h"
 #include "hal/clock.h"
 
 namespace relievo::firmware {
@@ -45,16 +47,18 @@ class PoseJob final : public Job {
   const hal::Clock& clock_;
 };
 
+// Before a live board a burst, else the next pair.
 class GrabJob final : public Job {
  public:
-  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode)
-      : grabber_(grabber), session_(session), mode_(mode) {}
+  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board)
+      : grabber_(grabber), session_(session), board_(board), burst_(grabber, board.trigger(), board.clock()) {}
   Result<void> run(JobControl& control) override;
 
  private:
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::CaptureMode mode_;
+  hal::Board& board_;
+  Burst burst_;
 };
 
 class StageJob final : public Job {

@@ -41,6 +41,7 @@ class LinuxBoard final : public Board {
     else trigger_ = std::make_unique<NoLine>(clock_);
     // One device exposes both views at once, with a wire or without.
     together_ = options.trigger.has_value() || !options.right;
+    if (options.trigger && options.trigger->lamp) light_ = Light::Flash;
   }
 
   std::string_view name() const override { return "linux"; }
@@ -49,6 +50,7 @@ class LinuxBoard final : public Board {
   Camera& right() override { return halves_ ? halves_->right() : *second_; }
   TriggerLine& trigger() override { return *trigger_; }
   bool exposes_together() const override { return together_; }
+  Light shot_light() const override { return light_; }
   RemovableMedia& media() override { return media_; }
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return watchdog_; }
@@ -61,6 +63,7 @@ class LinuxBoard final : public Board {
   std::optional<SideBySide> halves_;
   std::unique_ptr<TriggerLine> trigger_;
   bool together_ = true;
+  Light light_ = Light::Off;
   NoStick media_;
   NoWatchdog watchdog_;
 };

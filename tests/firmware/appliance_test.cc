@@ -68,6 +68,7 @@ class TestBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
   hal::Camera& left() override { return left_camera; }
   hal::Camera& right() override { return right_camera; }
   hal::TriggerLine& trigger() override { return line; }
+  bool is_live() const override { return false; }
   hal::RemovableMedia& media() override { return *this; }
   hal::Clock& clock() override { return time; }
   hal::Watchdog& watchdog() override { return *this; }
@@ -119,7 +120,7 @@ class ApplianceTest : public testing::Test {
     return true;
   }
   static BootMemory zeroed() {
-    BootMemory made(7 * 16, 1 << 16, 1 << 16);
+    BootMemory made(2 * 7 * 16, 1 << 16, 1 << 16);
     std::fill(made.frames().begin(), made.frames().end(), std::byte{0});
     std::fill(made.output().begin(), made.output().end(), std::byte{0});
     std::fill(made.scratch().begin(), made.scratch().end(), std::byte{0});
@@ -317,7 +318,7 @@ TEST(ApplianceSelfTest, ACameraThatDoesNotOpenIsAFault) {
   TestBoard board;
   board.left_camera.on_start = Error{Errc::IoFailed, "as the test says"};
   TestStages stages;
-  const BootMemory memory(7 * 16, 1 << 16, 1 << 16);
+  const BootMemory memory(2 * 7 * 16, 1 << 16, 1 << 16);
   ThreadPool pool(1);
   Appliance appliance({board, stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
   while (appliance.state() == State::SelfTest) appliance.step(milliseconds(1));

@@ -12,7 +12,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr std::size_t kFrames = 7 * 64 * 64;
+constexpr std::size_t kFrames = 2 * 7 * 64 * 64;
 constexpr std::size_t kArena = 1 << 20;
 
 class SessionTest : public testing::Test {
@@ -33,6 +33,8 @@ class SessionTest : public testing::Test {
     products.frame.emplace();
     products.frame->left = *session.slot().keep_left(hal::raw_of(picture));
     products.frame->right = *session.slot().keep_right(hal::raw_of(picture));
+    ASSERT_TRUE(session.spare_slot().keep_left(hal::raw_of(picture)));
+    ASSERT_TRUE(session.spare_slot().keep_right(hal::raw_of(picture)));
     products.pair.emplace(&session.output());
     products.pair->left.rgb.assign(64 * 64 * 3, 0xCD);
     products.model.emplace(&session.output());

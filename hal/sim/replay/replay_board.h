@@ -28,6 +28,7 @@ class ReplayBoard final : public Board {
   Camera& right() override { return right_; }
   TriggerLine& trigger() override { return trigger_; }
   bool exposes_together() const override { return together_; }
+  bool is_live() const override { return false; }
   RemovableMedia& media() override { return media_; }
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return watchdog_; }
