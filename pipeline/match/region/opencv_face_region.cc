@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string_view>
 #include <vector>
@@ -12,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 
-#include "pipeline/match/region/checksum.h"
+#include "pipeline/match/region/checked_file.h"
 #include "pipeline/match/region/face_region.h"
 
 namespace relievo::pipeline {
@@ -28,20 +27,6 @@ constexpr std::array<CascadeFile, 4> kFiles = {{
     {"haarcascade_profileface.xml", "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d"},
 }};
 constexpr std::size_t kProfile = 3;
-constexpr std::uintmax_t kLargestFile = 4 << 20;
-
-Result<std::string> read_checked(const std::filesystem::path& path, std::string_view expected) {
-  std::error_code problem;
-  const std::uintmax_t size = std::filesystem::file_size(path, problem);
-  if (problem) return Error{Errc::NotFound, "no such face cascade: install the package opencv-data"}.at(path.string());
-  const Error strange{Errc::StoreCorrupt, "not the face cascade of opencv-data 4.6.0: reinstall the package"};
-  if (size > kLargestFile) return strange.at(path.string());
-  std::string text(static_cast<std::size_t>(size), '\0');
-  std::ifstream in(path, std::ios::binary);
-  if (!in.read(text.data(), static_cast<std::streamsize>(size))) return strange.at(path.string());
-  if (!reads_as(sha256(std::as_bytes(std::span(text.data(), text.size()))), expected)) return strange.at(path.string());
-  return text;
-}
 
 // One look at the picture. Cheap and likely ones first.
 struct Try {

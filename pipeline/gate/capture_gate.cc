@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/capture_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kFaceWidthMm = 150;   // what a cascade's box stands for
+constexpr double kSecondFaceShare = 0.4;   // smaller ones are passers-by far away
+constexpr int kSecondFaceVotes = 8;
+constexpr double kTurnSmoothing = 0.5;
+
+// A second face must be as wide as one at its own distance, where that is known.
+bool is_face(const Relief& relief, const FaceHit& hit) {
+  const int x = static_cast<int>(std::lround(hit.centre_px.x)), y = static_cast<int>(std::lround(hit.centre_px.y));
+  if (!relief.inside(x, y) || !relief.known(x, y)) return hit.votes >= 2 * kSecondFaceVotes;
+  const double width_mm = hit.width_px * static_cast<double>(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
+  return hit.votes >= kSecondFaceVotes && width_mm > 90 && width_mm < 240;
+}
+
+int count_faces(const Relief& relief, const FaceHits& hits) {
+  int faces = std::min(hits.count, 1);
+  for (int i = 1; i < hits.count; ++i) {
+    const FaceHit& hit = hits.hit[static_cast<std::size_t>(i)];
+    if (hit.width_px > kSecondFaceShare * hits.hit[0].width_px && is_face(relief, hit)) ++faces;
+  }
+  return faces;
+}
+
+void measure_picture(const Relief& relief, GateMeasures& m) {
+  std::size_t dark = 0, bright = 0;
+  for (const std::uint8_t v : relief.grey) {
+    dark += v <= 25 ? 1U : 0U;
+    bright += v >= 247 ? 1U : 0U;
+  }
+  const auto all = static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
+  m.picture_dark_share = static_cast<double>(dark) / all;
+  m.picture_bright_share = static_cast<double>(bright) / all;
+}
+
+// Where the head was a moment ago, as a face to look for.
+HeadHint expected(const Relief& relief, const GateHistory& history) {
+  const Vec2d at = relief.pixel(history.tip_mm);
+  const double width = kFaceWidthMm * relief.focal_px / history.tip_mm.z;
+  return {{at.x, at.y - 0.08 * width}, width};
+}
+
+void measure_motion(GateTime now, const GateHistory& history, GateMeasures& m) {
+  if (!history.seen || now <= history.last) return;
+  const double seconds = std::chrono::duration<double>(now - history.last).count();
+  const Vec3d& a = history.tip_mm;
+  const Vec3d& b = m.head.tip_mm;
+  const double speed = std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z)) / seconds;
+  // The tip of a nose at rest wanders by a millimetre from picture to picture: two pictures speak together.
+  m.speed_mm_s = kTurnSmoothing * speed + (1 - kTurnSmoothing) * std::min(history.speed_mm_s, 2 * speed);
+  const double turn = std::abs(m.head.yaw_deg - history.yaw_deg) / seconds;
+  m.turn_deg_s = kTurnSmoothing * turn + (1 - kTurnSmoothing) * std::min(history.turn_deg_s, 2 * turn);
+}
+
+void remember(GateTime now, const GateMeasures& m, GateHistory& history) {
+  history.seen = m.head.known;
+  history.last = now;
+  if (!m.head.known) return;
+  if (!m.tracked) history.last_by_cascade = now;
+  history.tip_mm = m.head.tip_mm;
+  history.yaw_deg = m.head.yaw_deg;
+  history.speed_mm_s = m.speed_mm_s;
+  history.turn_deg_s = m.turn_deg_s;
+  history.face = m.face;
+}
+
+// What is said changes when two pictures in a row say otherwise; that all is well, only when both say so.
+void settle(GateTime now, GateAnswer& answer, GateHistory& history) {
+  const bool otherwise = answer.reason != history.said && history.heard != history.said && answer.reason != Advice::None;
+  if (answer.reason == history.heard || otherwise) history.said = answer.reason;
+  history.heard = answer.reason;
+  answer.advice = history.said;
+  const bool good = answer.reason == Advice::None;
+  if (good && !history.good) history.good_since = now;
+  history.good = good;
+  answer.steady = good ? now - history.good_since : GateTime{0};
+}
+
+}  // namespace
+
+Result<CaptureGate> CaptureGate::open(const CaptureGateOptions& options) {
+  RELIEVO_TRY(options.relief.check());
+  RELIEVO_TRY(options.limits.check());
+  RELIEVO_TRY_ASSIGN(FaceWatch watch, FaceWatch::open(options.faces));
+  return CaptureGate(std::move(watch), options);
+}
+
+Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now, GateHistory& history, StageContext& context) {
+  RELIEVO_TRY_ASSIGN(Relief relief, relief_.look(frame, calibration, context));
+  RELIEVO_TRY_ASSIGN(const FaceHits hits, watch_.look(relief));
+  GateAnswer answer;
+  GateMeasures& m = answer.measures;
+  measure_picture(relief, m);
+  m.faces = count_faces(relief, hits);
+  if (hits.count > 0) {
+    m.face = {hits.hit[0].centre_px, hits.hit[0].width_px};
+    m.guessed_mm = kFaceWidthMm * relief.focal_px / m.face.width_px;
+    m.head = measure_head(relief, m.face, context);
+  }
+  if (!m.head.known && history.seen && now - history.last_by_cascade < options_.keeps_track) {
+    m.face = expected(relief, history);
+    m.head = measure_head(relief, m.face, context);
+    m.tracked = m.head.known;
+    m.faces = std::max(m.faces, m.tracked ? 1 : 0);
+  }
+  if (m.head.known) {
+    m.off_right_mm = m.head.tip_mm.x - relief.baseline_mm / 2;
+    m.off_down_mm = m.head.tip_mm.y;
+    m.light = measure_light(relief, m.head);
+    // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
+    if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(now, history, m);
+    m.sharpness = measure_sharpness(frame, calibration, relief, m.head);
+  }
+  answer.reason = judge(m, options_.limits, history.said);
+  remember(now, m, history);
+  settle(now, answer, history);
+  return GateLook{answer, std::move(relief)};
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/objdetect.hpp>
+
+#include "pipeline/gate/face/face_watch.h"
+#include "pipeline/match/region/checked_file.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// opencv-data 4.6.0, as FaceFinder.
+constexpr std::string_view kFrontal = "haarcascade_frontalface_alt2.xml";
+constexpr std::string_view kFrontalSha = "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4";
+constexpr std::string_view kProfile = "haarcascade_profileface.xml";
+constexpr std::string_view kProfileSha = "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d";
+
+Result<void> read_cascade(const std::filesystem::path& path, std::string_view sha, cv::CascadeClassifier& cascade) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, sha));
+  const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
+  if (!cascade.read(file.getFirstTopLevelNode()))
+    return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}.at(path.string());
+  return {};
+}
+
+bool same_face(const FaceHit& a, const FaceHit& b) {
+  return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) < 0.6 * std::max(a.width_px, b.width_px);
+}
+
+}  // namespace
+
+struct FaceWatch::Cascades {
+  FaceWatchOptions options;
+  cv::CascadeClassifier frontal, profile;
+
+  void look(cv::CascadeClassifier& cascade, const cv::Mat& grey, double scale, bool mirrored, FaceHits& hits) {
+    const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
+    std::vector<cv::Rect> boxes;
+    std::vector<int> votes;
+    cascade.detectMultiScale(grey, boxes, votes, 1.12, options.least_votes - 1, 0, {least, least});
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const cv::Rect& box = boxes[i];
+      double x = box.x + (box.width - 1) / 2.0;
+      if (mirrored) x = grey.cols - 1 - x;
+      add({{(x + 0.5) * scale - 0.5, (box.y + (box.height - 1) / 2.0 + 0.5) * scale - 0.5}, box.width * scale, votes[i], &cascade == &frontal}, hits);
+    }
+  }
+
+  // Keeps the more certain of two that are one face.
+  static void add(const FaceHit& hit, FaceHits& hits) {
+    for (int i = 0; i < hits.count; ++i)
+      if (FaceHit& known = hits.hit[static_cast<std::size_t>(i)]; same_face(known, hit)) {
+        if (hit.votes > known.votes) known = hit;
+        return;
+      }
+    if (hits.count < static_cast<int>(hits.hit.size())) hits.hit[static_cast<std::size_t>(hits.count++)] = hit;
+  }
+};
+
+Result<void> FaceWatchOptions::check() const {
+  if (search_height_px < 60 || search_height_px > 2000) return Error{Errc::InvalidInput, "search_height_px must lie in 60 .. 2000"}.at("face-watch");
+  if (!(smallest_face > 0.02 && smallest_face < 1)) return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-watch");
+  if (least_votes < 1 || least_votes > 1000) return Error{Errc::InvalidInput, "least_votes must lie in 1 .. 1000"}.at("face-watch");
+  return {};
+}
+
+FaceWatch::FaceWatch(std::unique_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
+FaceWatch::FaceWatch(FaceWatch&&) noexcept = default;
+FaceWatch& FaceWatch::operator=(FaceWatch&&) noexcept = default;
+FaceWatch::~FaceWatch() = default;
+
+Result<FaceWatch> FaceWatch::open(const FaceWatchOptions& options) {
+  RELIEVO_TRY(options.check());
+  try {
+    auto cascades = std::make_unique<Cascades>();
+    cascades->options = options;
+    const std::filesystem::path dir(options.cascade_dir);
+    RELIEVO_TRY(read_cascade(dir / kFrontal, kFrontalSha, cascades->frontal));
+    RELIEVO_TRY(read_cascade(dir / kProfile, kProfileSha, cascades->profile));
+    return FaceWatch(std::move(cascades));
+  } catch (const cv::Exception&) {
+    return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}.at(options.cascade_dir);
+  }
+}
+
+Result<FaceHits> FaceWatch::look(const Relief& relief) {
+  if (relief.width_px <= 0 || relief.height_px <= 0) return Error{Errc::InvalidInput, "a picture without pixels has no face"}.at("face-watch");
+  try {
+    const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1, const_cast<std::uint8_t*>(relief.grey.data()));
+    const double scale = std::max(1.0, static_cast<double>(relief.height_px) / cascades_->options.search_height_px);
+    cv::Mat grey;
+    cv::resize(picture, grey, {static_cast<int>(std::lround(relief.width_px / scale)), static_cast<int>(std::lround(relief.height_px / scale))}, 0, 0, cv::INTER_AREA);
+    FaceHits hits{};
+    cascades_->look(cascades_->frontal, grey, scale, false, hits);
+    if (hits.count == 0) {  // poor or one-sided light
+      cv::createCLAHE(3, {8, 8})->apply(grey, grey);
+      cascades_->look(cascades_->frontal, grey, scale, false, hits);
+    }
+    if (hits.count == 0) {  // turned aside; the profile cascade knows one side only
+      cascades_->look(cascades_->profile, grey, scale, false, hits);
+      cv::Mat other;
+      cv::flip(grey, other, 1);
+      cascades_->look(cascades_->profile, other, scale, true, hits);
+    }
+    // The most certain to the front; among equals the wider, which is nearer.
+    const auto worth = [](const FaceHit& hit) { return hit.votes * hit.width_px; };
+    for (std::size_t i = 1; i < static_cast<std::size_t>(hits.count); ++i)
+      if (worth(hits.hit[i]) > worth(hits.hit[0])) std::swap(hits.hit[i], hits.hit[0]);
+    return hits;
+  } catch (const cv::Exception&) {
+    return Error{Errc::LibraryFailed, "OpenCV gave up looking for faces in the live picture"}.at("face-watch");
+  }
+}
+
+}  // namespace relievo::pipeline

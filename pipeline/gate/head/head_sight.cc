@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/head/head_sight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/gate/head/mirror_plane.h"
+#include "pipeline/match/region/face_reach.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kReachMm = 78;            // of the tip of the nose: brows and chin, little hair
+constexpr double kStickOutMm = 60;         // nothing of a face is nearer than its middle by more
+constexpr std::size_t kLeastPoints = 60;
+constexpr double kNoseReachMm = 27;        // left out where the slope of the face is measured
+constexpr double kMeanSlopeDeg = 2.6;      // of the average head that looks straight (hal/sim, seeds 1 and 2)
+constexpr double kBowedDeg = 7;            // from here on the nose may not be what is nearest
+constexpr double kLeastNoseMm = 10;        // a nose stands out further
+constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3d mix(double s, const Vec3d& a, double t, const Vec3d& b) { return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z}; }
+
+// The middle of the face: points of the depth most of them share.
+bool find_tip(const Relief& relief, const HeadHint& hint, StageContext& context, Vec3d& tip) {
+  std::pmr::vector<Vec3d> middle(&context.scratch);
+  std::pmr::vector<float> depth(&context.scratch);
+  const double reach = kNoseReach * hint.width_px;
+  const int x0 = std::max(0, static_cast<int>(hint.centre_px.x - reach)), x1 = std::min(relief.width_px - 1, static_cast<int>(hint.centre_px.x + reach));
+  const int y0 = std::max(0, static_cast<int>(hint.centre_px.y - reach)), y1 = std::min(relief.height_px - 1, static_cast<int>(hint.centre_px.y + 1.3 * reach));
+  if (x1 <= x0 || y1 <= y0) return false;
+  const auto room = static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1));
+  middle.reserve(room);
+  depth.reserve(room);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x)
+      if (relief.known(x, y)) depth.push_back(relief.depth_mm[relief.index(x, y)]);
+  if (depth.size() < kLeastPoints || depth.size() < room / 4) return false;
+  const auto median = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
+  std::nth_element(depth.begin(), median, depth.end());
+  const double z = static_cast<double>(*median);
+  // Most of what is there: a box as wide as a face of this distance, or it is none.
+  const double width_mm = hint.width_px * z / relief.focal_px;
+  if (width_mm < 85 || width_mm > 260) return false;
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) {
+      if (!relief.known(x, y)) continue;
+      const Vec3d p = relief.point(x, y);
+      if (std::abs(p.z - z) < kStickOutMm) middle.push_back(p);
+    }
+  if (middle.size() < kLeastPoints) return false;
+  tip = nearest_tip(middle);
+  return true;
+}
+
+std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
+  std::pmr::vector<Vec3d> points(&context.scratch);
+  const Vec2d at = relief.pixel(tip);
+  const int reach = static_cast<int>(kReachMm * relief.focal_px / tip.z) + 1;
+  const int stride = std::max(1, reach / 14);
+  points.reserve(static_cast<std::size_t>((2 * reach / stride + 1) * (2 * reach / stride + 1)));
+  for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; y += stride)
+    for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
+      if (!relief.inside(x, y) || !relief.known(x, y)) continue;
+      const Vec3d p = relief.point(x, y), d = minus(p, tip);
+      if (dot(d, d) < kReachMm * kReachMm && d.z > -12 && points.size() < points.capacity()) points.push_back(p);
+    }
+  return points;
+}
+
+// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares, twice: the second time without
+// what the first calls strange.
+struct FaceForm {
+  double level = 0, slope = 0, bend = 0;
+  bool known = false;
+  double behind(double right, double down) const { return level + slope * down + bend * right * right; }
+};
+
+bool solve3(std::array<std::array<double, 4>, 3>& m) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t pivot = i;
+    for (std::size_t r = i + 1; r < 3; ++r)
+      if (std::abs(m[r][i]) > std::abs(m[pivot][i])) pivot = r;
+    std::swap(m[i], m[pivot]);
+    if (std::abs(m[i][i]) < 1e-9) return false;
+    for (std::size_t r = 0; r < 3; ++r) {
+      if (r == i) continue;
+      const double by = m[r][i] / m[i][i];
+      for (std::size_t c = i; c < 4; ++c) m[r][c] -= by * m[i][c];
+    }
+  }
+  return true;
+}
+
+FaceForm fit_form(std::span<const Vec3d> points, const HeadSight& head) {
+  FaceForm form;
+  for (int round = 0; round < 3; ++round) {
+    std::array<std::array<double, 4>, 3> m{};
+    for (const Vec3d& p : points) {
+      const Vec3d d = minus(p, head.tip_mm);
+      const double right = dot(d, head.right), down = dot(d, head.down), behind = dot(d, head.away);
+      if (right * right + down * down < kNoseReachMm * kNoseReachMm) continue;
+      if (form.known && std::abs(behind - form.behind(right, down)) > 15) continue;
+      const std::array<double, 4> row{1, down, right * right, behind};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) m[i][j] += row[i] * row[j];
+    }
+    if (!solve3(m)) return {};
+    form = {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2], true};
+  }
+  return form;
+}
+
+// How far the cheeks beside the nose lie behind its tip; both sides together, so that a turn hardly matters.
+double nose_height(std::span<const Vec3d> points, const HeadSight& head) {
+  std::array<double, 2> sum{}, count{};
+  for (const Vec3d& p : points) {
+    const Vec3d d = minus(p, head.tip_mm);
+    const double right = dot(d, head.right), down = dot(d, head.down);
+    if (std::abs(right) < 22 || std::abs(right) > 46 || down < -14 || down > 22) continue;
+    sum[right > 0 ? 1 : 0] += dot(d, head.away);
+    count[right > 0 ? 1 : 0] += 1;
+  }
+  if (count[0] < 3 && count[1] < 3) return 0;
+  if (count[0] < 3 || count[1] < 3) return (sum[0] + sum[1]) / (count[0] + count[1]);  // the far cheek is out of sight
+  return (sum[0] / count[0] + sum[1] / count[1]) / 2;
+}
+
+// What of the face is hidden: by something before it, or from one of the cameras.
+void measure_cover(const Relief& relief, const FaceForm& form, HeadSight& head) {
+  const double pixel_mm = head.tip_mm.z / relief.focal_px, step = std::max(1.5, pixel_mm);
+  int all = 0, before = 0, unknown = 0;
+  for (double down = -kUpMm; down <= kDownMm; down += step)
+    for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
+      const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
+      if (u * u + v * v > 1) continue;
+      const Vec3d guess = minus(head.tip_mm, mix(-1, mix(right, head.right, down, head.down), -std::max(0.0, form.behind(right, down)), head.away));
+      const Vec2d at = relief.pixel(guess);
+      const int x = static_cast<int>(std::lround(at.x)), y = static_cast<int>(std::lround(at.y));
+      ++all;
+      if (!relief.inside(x, y) || !relief.known(x, y)) {
+        ++unknown;
+        continue;
+      }
+      const double behind = dot(minus(relief.point(x, y), head.tip_mm), head.away);
+      const bool nose = std::abs(right) < 25 && down > -50 && down < 15;
+      if (behind < (nose ? -12 : form.behind(right, down) - 16)) ++before;
+    }
+  head.in_front_share = static_cast<double>(before) / std::max(1, all);
+  head.unknown_share = static_cast<double>(unknown) / std::max(1, all);
+}
+
+// Axes of a head whose mirror plane this is, upright but for its roll.
+void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadSight& head) {
+  head.right = normal_of(plane, axes);
+  const double along = dot(axes.down, head.right);
+  head.down = mix(1, axes.down, -along, head.right);
+  const double length = std::sqrt(dot(head.down, head.down));
+  head.down = mix(1 / length, head.down, 0, head.down);
+  head.away = {head.right.y * head.down.z - head.right.z * head.down.y, head.right.z * head.down.x - head.right.x * head.down.z,
+               head.right.x * head.down.y - head.right.y * head.down.x};
+}
+
+// Everything that follows from where the tip is. False where no face can be fitted.
+bool measure_about(const Relief& relief, StageContext& context, HeadSight& head, FaceForm& form) {
+  const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
+  if (points.size() < kLeastPoints) return false;
+  const HeadAxes axes = axes_facing_the_rig(head.tip_mm, relief.baseline_mm);
+  HeadSight best;
+  for (const MirrorPlane& plane : find_mirror_planes(relief, points, head.tip_mm, axes, kAsymmetryLimitMm)) {
+    HeadSight tried = head;
+    take_axes(plane, axes, tried);
+    tried.yaw_deg = plane.yaw_deg;
+    tried.roll_deg = plane.roll_deg;
+    tried.asymmetry_mm = plane.rms_mm;
+    tried.relief_mm = nose_height(points, tried);
+    tried.known = true;
+    const bool has_nose = tried.relief_mm > kLeastNoseMm, best_has = best.relief_mm > kLeastNoseMm;
+    if (!best.known || (has_nose != best_has ? has_nose : tried.asymmetry_mm < best.asymmetry_mm)) best = tried;
+  }
+  form = fit_form(points, best);
+  best.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
+  head = best;
+  return form.known;
+}
+
+// The nearest place of a bowed head is its forehead: the tip is looked for again, out of the face as it is held.
+bool find_tip_of_bowed(const Relief& relief, StageContext& context, HeadSight& head) {
+  const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
+  const double pitch = head.pitch_deg * kDegree;
+  const Vec3d out = mix(-std::cos(pitch), head.away, std::sin(pitch), head.down);
+  const Vec3d old = head.tip_mm;
+  double most = -1e9;
+  for (const Vec3d& p : points) {
+    const Vec3d d = minus(p, old);
+    if (std::abs(dot(d, head.right)) > 18 || dot(d, out) <= most) continue;
+    most = dot(d, out);
+    head.tip_mm = p;
+  }
+  const Vec3d moved = minus(head.tip_mm, old);
+  return dot(moved, moved) > 15 * 15;
+}
+
+}  // namespace
+
+HeadSight measure_head(const Relief& relief, const HeadHint& hint, StageContext& context) {
+  HeadSight head;
+  if (!(hint.width_px > 0) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px)) return head;
+  Arena::Mark mark(context.scratch);
+  if (!find_tip(relief, hint, context, head.tip_mm)) return head;
+  FaceForm form;
+  if (!measure_about(relief, context, head, form)) return {};
+  if (std::abs(head.pitch_deg) > kBowedDeg) {
+    HeadSight again = head;
+    FaceForm form_again;
+    if (find_tip_of_bowed(relief, context, again) && measure_about(relief, context, again, form_again) && again.relief_mm > head.relief_mm) {
+      head = again;
+      form = form_again;
+    }
+  }
+  measure_cover(relief, form, head);
+  return head;
+}
+
+FacePlace place_on(const Relief& relief, const HeadSight& head, double right_mm, double down_mm) {
+  Vec3d p = {head.tip_mm.x + right_mm * head.right.x + down_mm * head.down.x, head.tip_mm.y + right_mm * head.right.y + down_mm * head.down.y,
+             head.tip_mm.z + right_mm * head.right.z + down_mm * head.down.z};
+  FacePlace place;
+  for (int round = 0; round < 3; ++round) {  // along the line of sight onto the surface
+    const Vec2d at = relief.pixel(p);
+    place.x = static_cast<int>(std::lround(at.x)), place.y = static_cast<int>(std::lround(at.y));
+    place.inside = relief.inside(place.x, place.y);
+    if (!place.inside || !relief.known(place.x, place.y)) return place;
+    const double behind = dot(minus(relief.point(place.x, place.y), p), head.away);
+    p = mix(1, p, behind, head.away);
+  }
+  return place;
+}
+
+}  // namespace relievo::pipeline

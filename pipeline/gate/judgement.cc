@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/judgement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::pipeline {
+namespace {
+
+struct Judge {
+  const GateMeasures& m;
+  const GateLimits& l;
+  Advice said;
+
+  // While it is said, an advice holds from a little before its limit on.
+  bool above(double value, double limit, Advice advice) const { return value > (said == advice ? limit * l.leave : limit); }
+  bool below(double value, double limit, Advice advice) const { return value < (said == advice ? limit / l.leave : limit); }
+
+  // The relief knows no head: what can be said of the picture alone.
+  Advice without_head() const {
+    if (m.picture_dark_share > 0.97) return Advice::TooDark;
+    if (m.picture_bright_share > 0.5) return Advice::TooBright;
+    if (m.faces == 0) return Advice::NoFace;
+    if (m.guessed_mm < l.nearest_mm) return Advice::TooClose;
+    if (m.guessed_mm > l.farthest_mm) return Advice::TooFar;
+    return Advice::NoFace;
+  }
+  Advice place() const {
+    const double z = m.head.tip_mm.z, slack = 12;
+    if (z < l.nearest_mm + (said == Advice::TooClose ? slack : 0)) return Advice::TooClose;
+    if (z > l.farthest_mm - (said == Advice::TooFar ? slack : 0)) return Advice::TooFar;
+    if (above(std::abs(m.off_right_mm), l.off_right_mm, Advice::OffCentre) || above(std::abs(m.off_down_mm), l.off_down_mm, Advice::OffCentre)) return Advice::OffCentre;
+    return Advice::None;
+  }
+  Advice pose() const {
+    // Of a face that something covers no pose can be told.
+    if (m.head.relief_mm < l.relief_mm) return Advice::FaceHidden;
+    if (above(std::abs(m.head.yaw_deg), l.yaw_deg, Advice::TurnedAside)) return Advice::TurnedAside;
+    if (above(std::abs(m.head.pitch_deg), l.pitch_deg, Advice::LooksUpOrDown)) return Advice::LooksUpOrDown;
+    if (above(std::abs(m.head.roll_deg), l.roll_deg, Advice::Tilted)) return Advice::Tilted;
+    if (above(m.speed_mm_s, l.speed_mm_s, Advice::Moved) || above(m.turn_deg_s, l.turn_deg_s, Advice::Moved)) return Advice::Moved;
+    return Advice::None;
+  }
+  Advice light() const {
+    const FaceLight& f = m.light;
+    if (!f.known) return Advice::NoFace;
+    if (below(f.luminance_mean, l.darkest_mean, Advice::TooDark) || above(f.dark_share, l.dark_share, Advice::TooDark)) return Advice::TooDark;
+    if (above(f.luminance_mean, l.brightest_mean, Advice::TooBright) || above(f.bright_share, l.bright_share, Advice::TooBright)) return Advice::TooBright;
+    if (below(f.side_ratio, l.side_ratio, Advice::UnevenLight)) return Advice::UnevenLight;
+    if (above(f.glossy_share, l.glossy_share, Advice::Highlights)) return Advice::Highlights;
+    if (below(m.sharpness, l.sharpness, Advice::Blurred)) return Advice::Blurred;
+    return Advice::None;
+  }
+  Advice cover() const {
+    const HeadSight& h = m.head;
+    const bool hidden = above(h.in_front_share, l.in_front_share, Advice::FaceHidden) || above(h.unknown_share, l.unknown_share, Advice::FaceHidden) ||
+                        above(h.asymmetry_mm, l.asymmetry_mm, Advice::FaceHidden);
+    return hidden ? Advice::FaceHidden : Advice::None;
+  }
+};
+
+}  // namespace
+
+Result<void> GateLimits::check() const {
+  const auto sane = [](double v) { return v > 0 && std::isfinite(v); };
+  if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
+    return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
+  for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
+                         side_ratio, glossy_share, sharpness, in_front_share, unknown_share, asymmetry_mm, relief_mm, leave})
+    if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
+  if (leave > 1) return Error{Errc::InvalidInput, "leave is a share of a limit: 1 at most"}.at("gate");
+  return {};
+}
+
+Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said) {
+  const Judge judge{measures, limits, said};
+  if (!measures.head.known) return judge.without_head();
+  if (measures.faces > 1) return Advice::MoreThanOneFace;
+  for (const Advice advice : {judge.place(), judge.pose(), judge.light(), judge.cover()})
+    if (advice != Advice::None) return advice;
+  return measures.tracked ? Advice::NoFace : Advice::None;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is measured of a live pair, the limits it is held against, and the one piece of advice that follows. Plain data and a
+// pure function. Directions are those of the left camera's picture, not mirrored; frame of points: that of the relief.
+#pragma once
+
+#include "hal/base/result.h"
+#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/light/face_light.h"
+#include "pipeline/model/advice.h"
+
+namespace relievo::pipeline {
+
+struct GateMeasures {
+  int faces = 0;                    // SingleFacePresent asks for one
+  bool tracked = false;             // no cascade sees the face; the relief still does, where it was a moment ago
+  double guessed_mm = 0;            // distance by the width of the face, for one too near or too far for the relief; 0: none seen
+  double picture_dark_share = 0;    // of the whole picture, luminance 0 .. 25
+  double picture_bright_share = 0;  // 247 .. 255
+  HeadHint face;                    // where on the small picture
+  HeadSight head;
+  double off_right_mm = 0, off_down_mm = 0;  // the tip of the nose from the middle of the capture volume
+  double speed_mm_s = 0, turn_deg_s = 0;
+  FaceLight light;
+  double sharpness = 0;
+};
+
+// A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
+struct GateLimits {
+  double nearest_mm = 430, farthest_mm = 700;      // the stated capture volume, along the rectified z axis
+  double off_right_mm = 60, off_down_mm = 55;
+  double yaw_deg = 15, pitch_deg = 13, roll_deg = 15;
+  double speed_mm_s = 70, turn_deg_s = 60;
+  double darkest_mean = 0.16, brightest_mean = 0.80;  // LuminanceMean; OFIQ's slopes are at 0.2 and 0.8
+  double dark_share = 0.45, bright_share = 0.12;
+  double side_ratio = 0.48;                        // least
+  double glossy_share = 0.10;
+  double sharpness = 0.016;                        // least
+  double in_front_share = 0.05, unknown_share = 0.45;
+  double asymmetry_mm = 5.5;
+  double relief_mm = 8;                            // a nose stands out further: else something flat is before it
+  double leave = 0.85;                             // share of a limit
+  Result<void> check() const;
+};
+
+// The first that holds, in the order of Advice; `said` is what was said of the picture before.
+Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/capture_gate.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "pipeline/workspace.h"
+#include "tests/support/head_album.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::Album;
+using test::Developing;
+using test::standing;
+
+constexpr std::uint32_t kPerson = 3;  // not one of those the limits were set with
+constexpr GateTime kFrame = std::chrono::milliseconds(66);
+
+// RELIEVO_ALBUM names a folder where photographs are kept from run to run.
+Album& album() {
+  static const char* folder = std::getenv("RELIEVO_ALBUM");
+  static Album once(folder != nullptr ? folder : "");
+  return once;
+}
+
+struct Rig {
+  Rig() : work(2, std::size_t{8} << 20, std::size_t{64} << 20), gate(open()) {}
+  static CaptureGate open() {
+    CaptureGateOptions options;
+    options.relief.reduction = 1;  // the album's pictures are a quarter of the rig's
+    auto made = CaptureGate::open(options);
+    EXPECT_TRUE(made);
+    return *std::move(made);
+  }
+  GateAnswer look(const test::Shot& shot, const Developing& how) {
+    const hal::sim::PicturePair pair = album().develop(shot, how);
+    work.output.reset();
+    const auto look = run_stage(work.context, [&](StageContext& c) { return gate.look({pair.left.view(), pair.right.view()}, album().calibration(), now, history, c); });
+    EXPECT_TRUE(look);
+    now += kFrame;
+    if (!look) return {};
+    truth = test::true_head(shot, look->relief);
+    return look->answer;
+  }
+  Workspace work;
+  CaptureGate gate;
+  GateHistory history;
+  GateTime now{};
+  test::TrueHead truth{};
+};
+
+hal::sim::HeadPose nobody() {
+  hal::sim::HeadPose pose;
+  pose.distance_mm = 0;
+  return pose;
+}
+
+struct Step {
+  const char* event;
+  hal::sim::HeadPose pose;
+  Developing how;
+  int pictures;
+  Advice expected;  // after the last of them
+};
+
+// A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, and they leave and come back.
+TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
+  const hal::sim::HeadPose right = standing(560);
+  const Step steps[] = {
+      {"nobody", nobody(), {}, 2, Advice::NoFace},
+      {"too near", standing(400), {}, 3, Advice::TooClose},
+      {"stands right", right, {}, 4, Advice::None},
+      {"looks aside", standing(560, 0, 0, 25), {}, 3, Advice::TurnedAside},
+      {"looks ahead", right, {}, 4, Advice::None},
+      {"the lamps fail", right, {.exposure = 0.02}, 3, Advice::TooDark},
+      {"the lamps return", right, {}, 4, Advice::None},
+      {"too much light", right, {.exposure = 8}, 3, Advice::TooBright},
+      {"one lamp fails", right, {.one_sided = 0.02}, 3, Advice::UnevenLight},
+      {"all is well", right, {}, 4, Advice::None},
+      {"steps out", nobody(), {}, 2, Advice::NoFace},
+      {"comes back", right, {}, 4, Advice::None},
+  };
+  Rig rig;
+  std::uint64_t noise = 1;
+  for (const Step& step : steps) {
+    GateAnswer answer;
+    for (int i = 0; i < step.pictures; ++i) {
+      Developing how = step.how;
+      how.noise_seed = noise++;
+      answer = rig.look(album().shoot(kPerson, step.pose), how);
+      if (step.expected != Advice::None) {
+        EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
+      }
+    }
+    EXPECT_EQ(answer.advice, step.expected) << step.event << ": yaw " << answer.measures.head.yaw_deg << " pitch " << answer.measures.head.pitch_deg << " light "
+                                            << answer.measures.light.luminance_mean << " sides " << answer.measures.light.side_ratio << " sharp " << answer.measures.sharpness
+                                            << " speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
+    EXPECT_EQ(answer.steady > GateTime{0}, step.expected == Advice::None) << step.event;
+  }
+}
+
+// Of a face turned far one camera does not see the other cheek: that it is turned, and which way, is all that is asked.
+TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
+  for (const double distance_mm : {400.0, 560.0}) {
+    Rig rig;
+    const GateAnswer answer = rig.look(album().shoot(kPerson, standing(distance_mm)), {});
+    const HeadSight& head = answer.measures.head;
+    ASSERT_TRUE(head.known);
+    EXPECT_NEAR(head.tip_mm.z, distance_mm - 26, 10);  // the nose before the middle of the face
+    EXPECT_NEAR(answer.measures.off_right_mm, 0, 6);
+    EXPECT_NEAR(head.yaw_deg, rig.truth.yaw_deg, 5);
+    EXPECT_NEAR(head.pitch_deg, rig.truth.pitch_deg, 6);
+    EXPECT_NEAR(head.roll_deg, rig.truth.roll_deg, 4);
+    EXPECT_GT(head.relief_mm, 15);
+  }
+  Rig rig;
+  const HeadSight turned = rig.look(album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
+  EXPECT_NEAR(turned.yaw_deg, rig.truth.yaw_deg, 9);
+}
+
+TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
+  Rig a, b;
+  const test::Shot& shot = album().shoot(kPerson, standing(560));
+  for (int i = 0; i < 2; ++i) {
+    const GateAnswer one = a.look(shot, {}), two = b.look(shot, {});
+    EXPECT_EQ(one.advice, two.advice);
+    EXPECT_EQ(one.measures.head.yaw_deg, two.measures.head.yaw_deg);
+    EXPECT_EQ(one.measures.sharpness, two.measures.sharpness);
+  }
+}
+
+TEST(CaptureGate, WithoutItsCascadesItDoesNotOpen) {
+  CaptureGateOptions options;
+  options.faces.cascade_dir = "/nonexistent";
+  const auto gate = CaptureGate::open(options);
+  ASSERT_FALSE(gate);
+  EXPECT_EQ(gate.error().code, Errc::NotFound);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline

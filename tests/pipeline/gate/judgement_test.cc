@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/judgement.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace relievo::pipeline {
+namespace {
+
+// Somebody who does everything right.
+GateMeasures good() {
+  GateMeasures m;
+  m.faces = 1;
+  m.head.known = true;
+  m.head.tip_mm = {70, 10, 540};
+  m.head.relief_mm = 28;
+  m.light.known = true;
+  m.light.luminance_mean = 0.5;
+  m.sharpness = 0.08;
+  return m;
+}
+
+struct Row {
+  const char* what;
+  Advice expected;
+  std::function<void(GateMeasures&)> spoil;
+};
+
+// In the order in which a person can act: the test below leans on it.
+const std::vector<Row>& rows() {
+  static const GateLimits l;
+  static const std::vector<Row> table{
+      {"a friend looks in", Advice::MoreThanOneFace, [](GateMeasures& m) { m.faces = 2; }},
+      {"too near", Advice::TooClose, [](GateMeasures& m) { m.head.tip_mm.z = l.nearest_mm - 1; }},
+      {"too far", Advice::TooFar, [](GateMeasures& m) { m.head.tip_mm.z = l.farthest_mm + 1; }},
+      {"to the left", Advice::OffCentre, [](GateMeasures& m) { m.off_right_mm = -l.off_right_mm - 1; }},
+      {"too low", Advice::OffCentre, [](GateMeasures& m) { m.off_down_mm = l.off_down_mm + 1; }},
+      {"something flat before it", Advice::FaceHidden, [](GateMeasures& m) { m.head.relief_mm = 2; }},
+      {"turned", Advice::TurnedAside, [](GateMeasures& m) { m.head.yaw_deg = -l.yaw_deg - 1; }},
+      {"bowed", Advice::LooksUpOrDown, [](GateMeasures& m) { m.head.pitch_deg = l.pitch_deg + 1; }},
+      {"tilted", Advice::Tilted, [](GateMeasures& m) { m.head.roll_deg = l.roll_deg + 1; }},
+      {"moving", Advice::Moved, [](GateMeasures& m) { m.speed_mm_s = l.speed_mm_s + 1; }},
+      {"turning", Advice::Moved, [](GateMeasures& m) { m.turn_deg_s = l.turn_deg_s + 1; }},
+      {"dark", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.5 * l.darkest_mean; }},
+      {"half of it black", Advice::TooDark, [](GateMeasures& m) { m.light.dark_share = l.dark_share + 0.01; }},
+      {"bright", Advice::TooBright, [](GateMeasures& m) { m.light.luminance_mean = l.brightest_mean + 0.01; }},
+      {"burnt out", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.bright_share + 0.01; }},
+      {"one lamp", Advice::UnevenLight, [](GateMeasures& m) { m.light.side_ratio = l.side_ratio - 0.01; }},
+      {"oily", Advice::Highlights, [](GateMeasures& m) { m.light.glossy_share = l.glossy_share + 0.01; }},
+      {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.sharpness = 0.5 * l.sharpness; }},
+      {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
+      {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
+      {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
+  };
+  return table;
+}
+
+TEST(Judgement, TakesWhoDoesEverythingRight) { EXPECT_EQ(judge(good(), {}, Advice::NoFace), Advice::None); }
+
+TEST(Judgement, EveryFaultAloneGetsItsAdvice) {
+  for (const Row& row : rows()) {
+    GateMeasures m = good();
+    row.spoil(m);
+    EXPECT_EQ(judge(m, {}, Advice::None), row.expected) << row.what;
+  }
+}
+
+// Of two faults, the one a person can mend first. Pairs of the same measure cannot both be.
+TEST(Judgement, OfTwoFaultsTheEarlierOneIsSaid) {
+  for (std::size_t i = 0; i < rows().size(); ++i)
+    for (std::size_t j = i + 1; j < rows().size(); ++j) {
+      GateMeasures m = good();
+      rows()[i].spoil(m);
+      rows()[j].spoil(m);
+      if (rows()[i].expected == Advice::TooClose && rows()[j].expected == Advice::TooFar) continue;
+      if (rows()[i].expected == Advice::TooDark && rows()[j].expected == Advice::TooBright) continue;
+      EXPECT_EQ(judge(m, {}, Advice::None), rows()[i].expected) << rows()[i].what << " and " << rows()[j].what;
+    }
+}
+
+TEST(Judgement, WhatWasSaidIsNotTakenBackByNoise) {
+  const GateLimits l;
+  GateMeasures m = good();
+  m.head.yaw_deg = l.yaw_deg - 0.5;
+  EXPECT_EQ(judge(m, l, Advice::None), Advice::None);
+  EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::TurnedAside);
+  m.head.yaw_deg = l.leave * l.yaw_deg - 0.1;
+  EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::None);
+}
+
+TEST(Judgement, WithoutAHeadThePictureSpeaks) {
+  GateMeasures m;
+  EXPECT_EQ(judge(m, {}, Advice::None), Advice::NoFace);
+  m.picture_dark_share = 1;
+  EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooDark);
+  m = {};
+  m.picture_bright_share = 0.9;
+  EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooBright);
+  m = {};
+  m.faces = 1;
+  m.guessed_mm = 200;
+  EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooClose);
+  m.guessed_mm = 1500;
+  EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooFar);
+}
+
+TEST(Judgement, LimitsThatCannotBeAreRefused) {
+  GateLimits l;
+  EXPECT_TRUE(l.check());
+  l.farthest_mm = l.nearest_mm;
+  EXPECT_FALSE(l.check());
+  l = {};
+  l.yaw_deg = 0;
+  EXPECT_FALSE(l.check());
+  l = {};
+  l.leave = 1.5;
+  EXPECT_FALSE(l.check());
+}
+
+}  // namespace
+}  // namespace relievo::pipeline

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/head_album.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+#include "hal/sim/head/head_traits.h"
+#include "hal/sim/noise.h"
+#include "hal/sim/target/artefact_scene.h"
+#include "pipeline/gate/head/mirror_plane.h"
+#include "tests/support/rig_calibration.h"
+
+namespace relievo::test {
+namespace {
+
+namespace sim = hal::sim;
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kWidth = 480, kHeight = 300;
+
+// The nearer of two; neither throws a shadow on the other.
+class Both final : public sim::Scene {
+ public:
+  Both(std::unique_ptr<sim::Scene> a, std::unique_ptr<sim::Scene> b) : a_(std::move(a)), b_(std::move(b)) {}
+  sim::Sight look(sim::Vec3 o, sim::Vec3 d) const override {
+    sim::Sight a = a_->look(o, d), b = b_->look(o, d);
+    if (b.body < 0) return a;
+    if (a.body >= 0 && a.distance_mm <= b.distance_mm) return a;
+    b.body += 100000;
+    return b;
+  }
+  bool solid(sim::Vec3 o, sim::Vec3 d, sim::SolidPoint& out) const override { return a_->solid(o, d, out); }
+  bool blocked(sim::Vec3 from, sim::Vec3 d, double far_mm) const override { return a_->blocked(from, d, far_mm) || b_->blocked(from, d, far_mm); }
+  sim::Mesh solid_mesh() const override { return a_->solid_mesh(); }
+
+ private:
+  std::unique_ptr<sim::Scene> a_, b_;
+};
+
+// Nobody: the room, which the head's scene shows where its rays meet nothing.
+class Room final : public sim::Scene {
+ public:
+  sim::Sight look(sim::Vec3, sim::Vec3 d) const override {
+    const double grey = 0.035 + 0.010 * sim::value_noise(d * 6, 99) - 0.02 * d.y;
+    return {{grey, grey * 1.02, grey * 1.06}, sim::RayCaster::kFar, -1, false};
+  }
+  bool solid(sim::Vec3, sim::Vec3, sim::SolidPoint&) const override { return false; }
+  bool blocked(sim::Vec3, sim::Vec3, double) const override { return false; }
+  sim::Mesh solid_mesh() const override { return {}; }
+};
+
+sim::RigOptions rig_options() {
+  sim::RigOptions options;
+  options.width_px = kWidth, options.height_px = kHeight;
+  return options;
+}
+
+std::vector<std::uint16_t> kept(const sim::LightPicture& light) {
+  std::vector<std::uint16_t> out(light.rgb.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint16_t>(std::clamp(kLightUnit * static_cast<double>(light.rgb[i]) + 0.5, 0.0, 65535.0));
+  return out;
+}
+
+std::string name_of(const Shot& s) {
+  char text[160];
+  std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d", s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
+                s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
+  return text;
+}
+
+void smear(sim::LightPicture& light, double length_px) {
+  const int n = std::max(1, static_cast<int>(std::lround(length_px)));
+  if (n <= 1) return;
+  const std::vector<float> from = light.rgb;
+  for (int y = 0; y < light.height_px; ++y)
+    for (int x = 0; x < light.width_px; ++x)
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (int k = 0; k < n; ++k) sum += from[static_cast<std::size_t>(3 * (y * light.width_px + std::clamp(x + k - n / 2, 0, light.width_px - 1)) + c)];
+        light.rgb[static_cast<std::size_t>(3 * (y * light.width_px + x) + c)] = sum / static_cast<float>(n);
+      }
+}
+
+void blur(sim::LightPicture& light, double deviation_px) {
+  if (deviation_px < 0.05) return;
+  // Three boxes make a bell (Wells 1986).
+  // Odd widths only, the nearest one.
+  const int n = 1 + 2 * static_cast<int>(std::lround((std::sqrt(4 * deviation_px * deviation_px + 1) - 1) / 2));
+  for (int round = 0; round < 3; ++round) {
+    smear(light, n);
+    const std::vector<float> from = light.rgb;
+    for (int y = 0; y < light.height_px; ++y)
+      for (int i = 0; i < 3 * light.width_px; ++i) {
+        float sum = 0;
+        for (int k = -(n / 2); k <= n / 2; ++k) sum += from[static_cast<std::size_t>(3 * light.width_px * std::clamp(y + k, 0, light.height_px - 1) + i)];
+        light.rgb[static_cast<std::size_t>(3 * light.width_px * y + i)] = sum / static_cast<float>(n);
+      }
+  }
+}
+
+}  // namespace
+
+Album::Album(std::filesystem::path cache) : cache_(std::move(cache)), rig_(sim::make_rig(rig_options())), calibration_(true_calibration(rig_)) {
+  if (!cache_.empty()) std::filesystem::create_directories(cache_);
+}
+
+void Album::expose(Shot& shot) {
+  std::unique_ptr<sim::Scene> scene;
+  const auto head = [&](std::uint32_t seed, const sim::HeadPose& pose) {
+    auto& model = heads_[seed];
+    if (!model) model = sim::make_head(sim::traits_of(seed), pool_);
+    return sim::make_head_scene(model, pose, pool_);
+  };
+  if (shot.pose.distance_mm <= 0) scene = std::make_unique<Room>();
+  else scene = head(shot.seed, shot.pose);
+  if (shot.extra == Extra::HandBefore) {
+    const sim::ArtefactPose place{sim::rotation(0.1, 0.15, 0.3), {shot.pose.right_mm + 4, shot.pose.down_mm + 30, shot.pose.distance_mm - 75}};
+    scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
+  }
+  if (shot.extra == Extra::Friend) {
+    sim::HeadPose other = shot.pose;
+    other.right_mm += 175, other.distance_mm += 260, other.yaw_deg += 14;
+    scene = std::make_unique<Both>(std::move(scene), head(shot.seed + 1, other));
+  }
+  const sim::SensorOptions lens;
+  shot.left = kept(sim::expose(*scene, rig_.left, lens, pool_));
+  shot.right = kept(sim::expose(*scene, rig_.right, lens, pool_));
+}
+
+const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra extra) {
+  Shot shot{seed, pose, extra, {}, {}};
+  const std::string name = name_of(shot);
+  if (const auto known = shots_.find(name); known != shots_.end()) return known->second;
+  constexpr std::size_t kValues = 3 * static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(kHeight);
+  const std::filesystem::path file = cache_ / (name + ".light");
+  std::ifstream in;
+  if (!cache_.empty()) in.open(file, std::ios::binary);
+  shot.left.resize(kValues), shot.right.resize(kValues);
+  const auto bytes = static_cast<std::streamsize>(2 * kValues);
+  if (!(in && in.read(reinterpret_cast<char*>(shot.left.data()), bytes) && in.read(reinterpret_cast<char*>(shot.right.data()), bytes))) {
+    expose(shot);
+    if (!cache_.empty()) {
+      std::ofstream out(file, std::ios::binary);
+      out.write(reinterpret_cast<const char*>(shot.left.data()), bytes);
+      out.write(reinterpret_cast<const char*>(shot.right.data()), bytes);
+    }
+  }
+  return shots_.emplace(name, std::move(shot)).first->second;
+}
+
+sim::PicturePair Album::develop(const Shot& shot, const Developing& how) const {
+  sim::SensorOptions sensor;
+  sensor.exposure = how.exposure;
+  const auto one = [&](const std::vector<std::uint16_t>& kept_light, const sim::SimView& view, std::uint64_t seed) {
+    sim::LightPicture light{kWidth, kHeight, std::vector<float>(kept_light.size())};
+    const sim::Pixel middle = view.project({shot.pose.right_mm, shot.pose.down_mm, std::max(shot.pose.distance_mm, 300.0)});
+    const double reach = 60 * view.fx_px / std::max(shot.pose.distance_mm, 300.0);
+    for (std::size_t i = 0; i < kept_light.size(); ++i) {
+      const double x = static_cast<double>(i / 3 % kWidth), share = std::clamp(0.5 + (x - middle.x) / (2 * reach), 0.0, 1.0);
+      light.rgb[i] = static_cast<float>(kept_light[i] / kLightUnit * (1 + (how.one_sided - 1) * share));
+    }
+    blur(light, how.defocus_px);
+    smear(light, how.motion_px);
+    return sim::read_sensor(light, sensor, seed);
+  };
+  return {one(shot.left, rig_.left, 2 * how.noise_seed), one(shot.right, rig_.right, 2 * how.noise_seed + 1)};
+}
+
+sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, double yaw_deg, double pitch_deg, double roll_deg) {
+  // Frame: x along the baseline, z the mean of both optical axes, origin in the left camera; then into the left camera's.
+  static const sim::SimRig rig = sim::make_rig(rig_options());
+  const sim::Vec3 baseline = rig.right.centre(), x = sim::normalised(baseline);
+  const sim::Vec3 right_axis = rig.right.view_from_world.transposed() * sim::Vec3{0, 0, 1};
+  sim::Vec3 z = sim::Vec3{0, 0, 1} + right_axis;
+  z = sim::normalised(z - x * sim::dot(z, x));
+  const sim::Vec3 y = sim::cross(z, x), middle = baseline * 0.5;
+  const sim::Vec3 at = middle + x * right_mm + y * down_mm + z * distance_mm;
+  const sim::Vec3 to = sim::normalised(middle - at);
+  sim::HeadPose pose;
+  pose.right_mm = at.x, pose.down_mm = at.y, pose.distance_mm = at.z;
+  pose.yaw_deg = std::atan2(to.x, -to.z) / kDegree + yaw_deg;
+  pose.pitch_deg = std::asin(to.y) / kDegree + pitch_deg;
+  pose.roll_deg = roll_deg;
+  return pose;
+}
+
+TrueHead true_head(const Shot& shot, const pipeline::Relief& relief) {
+  const auto in_relief = [&](sim::Vec3 v) { return pipeline::apply(relief.rectified_from_left, {v.x, v.y, v.z}); };
+  const sim::Mat3 turn = shot.pose.world_from_head();
+  const pipeline::Vec3d out = in_relief(turn * sim::Vec3{0, 0, 1}), up = in_relief(turn * sim::Vec3{0, 1, 0});
+  const pipeline::Vec3d at = in_relief({shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm});
+  const pipeline::HeadAxes axes = pipeline::axes_facing_the_rig(at, relief.baseline_mm);
+  const auto dot = [](const pipeline::Vec3d& a, const pipeline::Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+  return {std::atan2(dot(out, axes.right), -dot(out, axes.away)) / kDegree, std::asin(dot(out, axes.down)) / kDegree,
+          std::atan2(-dot(up, axes.right), -dot(up, axes.down)) / kDegree};
+}
+
+}  // namespace relievo::test
