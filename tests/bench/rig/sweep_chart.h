@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/rig_plan.h"
+#include "tests/bench/rig/rig_plan.h"
 
 namespace relievo::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/bench/svg_canvas.h"
+#include "tests/bench/rig/svg_canvas.h"
 
 #include <cstdio>
 

@@ -18,8 +18,8 @@
 #include <string>
 #include <thread>
 
-#include "tests/bench/rig_plan.h"
-#include "tests/bench/sweep_chart.h"
+#include "tests/bench/rig/rig_plan.h"
+#include "tests/bench/rig/sweep_chart.h"
 
 namespace relievo::bench {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/bench/rig_plan.h"
+#include "tests/bench/rig/rig_plan.h"
 
 #include <cstdio>
 #include <sstream>

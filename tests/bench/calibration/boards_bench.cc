@@ -19,7 +19,7 @@
 #include "hal/sim/noise.h"
 #include "hal/sim/photo/exposure.h"
 #include "pipeline/calibrate/board/board_finder.h"
-#include "tests/bench/board_peers.h"
+#include "tests/bench/calibration/board_peers.h"
 
 namespace relievo::bench {
 namespace {

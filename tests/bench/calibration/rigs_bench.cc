@@ -16,7 +16,7 @@
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
-#include "tests/bench/rig_peer.h"
+#include "tests/bench/calibration/rig_peer.h"
 
 namespace relievo::bench {
 namespace {

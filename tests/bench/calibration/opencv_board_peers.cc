@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/bench/board_peers.h"
+#include "tests/bench/calibration/board_peers.h"
 
 namespace relievo::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/rig_trial.h"
+#include "tests/bench/rig/rig_trial.h"
 
 namespace relievo::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/bench/rig_trial.h"
+#include "tests/bench/rig/rig_trial.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/bench/rig_peer.h"
+#include "tests/bench/calibration/rig_peer.h"
 
 namespace relievo::bench {
 namespace {
