@@ -62,6 +62,7 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
 constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
+constexpr double kCostOfOneSide = 2;        // mm: a chin may stand out further than a nose, seen from the neck
 constexpr double kMostOfANose = 16;         // mm: what stands out further is no better nose, but hair
 
 // Points within half a face of `centre`, still in the frame of `points`.
@@ -136,19 +137,19 @@ RigidTransform to_transform(const Frame& frame) {
   return t;
 }
 
-// The place that stands out most of those on the plane of symmetry: a chin lies on it too, but stands
-// out a third as far as a nose; a shoulder or an ear lies beside it.
-Vector3d nose_on_plane(const NoseCandidates& noses, const Frame& upright) {
-  constexpr double kBeside = 15;  // mm; a candidate is a sample point, not yet a tip
-  Vector3d best = Vector3d::Zero();
-  double protrusion = 0;
-  for (std::size_t i = 0; i < noses.count; ++i) {
-    const Vector3d at = upright.rows * (noses.best[i].at_mm - upright.origin);
-    if (std::abs(at.x()) > kBeside || noses.best[i].protrusion_mm <= protrusion) continue;
-    protrusion = noses.best[i].protrusion_mm;
-    best = at;
+// How one-sided the surface around the origin is, 0 as around a nose to 1: a chin has a face above it and next to
+// nothing below, a forehead the other way round. y is up to some tens of degrees.
+double one_sidedness(std::span<const SurfacePoint> points) {
+  constexpr double kBeside = 15;    // mm: the place itself is on neither side
+  constexpr double kBalanced = 0.25;  // a nose has at least so much of its face below it, and above
+  double above = 0;
+  double below = 0;
+  for (const SurfacePoint& p : points) {
+    above += p.at_mm.y() > kBeside ? 1 : 0;
+    below += p.at_mm.y() < -kBeside ? 1 : 0;
   }
-  return {0, best.y(), best.z()};
+  if (!(above + below > 0)) return 1;
+  return std::max(0.0, 1 - std::min(above, below) / (above + below) / kBalanced);
 }
 
 // The frame of the most mirror-like face around one of the places that stand out like a nose: x is
@@ -162,6 +163,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
     Points face = around(points, noses.best[i].at_mm, context.scratch);
     const Frame guess = first_guess(face, noses.best[i].at_mm, across);
     move_into(face, guess);
+    const double one_sided = one_sidedness(face);
     const Result<SymmetryPlane> plane = find_symmetry_plane(face, context);
     if (!plane) {
       if (plane.error().code == Errc::Cancelled) return plane.error();
@@ -169,7 +171,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
       continue;
     }
     // A nose stands out three times as far as anything else on a head that is mirror-like.
-    const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose);
+    const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose) + kCostOfOneSide * one_sided;
     if (score >= best_score) continue;
     best_score = score;
     best = *plane;
@@ -181,9 +183,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
     frame = chained(guess, upright);
   }
   if (best_score > 1e8) return why;
-  Frame at_nose;
-  at_nose.origin = nose_on_plane(noses, frame);
-  return chained(frame, at_nose);
+  return frame;
 }
 
 void move(Frame& frame, Points& points, const Frame& step) {
@@ -287,12 +287,14 @@ Core core_of(const FaceMesh& mesh, const Frame& frame, Arena& scratch) {
 }
 
 Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, StageContext& context) {
+  constexpr double kFurthest = 25;  // mm from the candidate: further on lies the chin, where this would walk along a nose that is missing
+  const Vector3d start = frame.origin;
   for (int round = 0; round < 8; ++round) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
     const Core core = core_of(mesh, frame, context.scratch);
     Frame tip;
     tip.origin = core.tip;
-    move(frame, points, tip);
+    if ((chained(frame, tip).origin - start).norm() < kFurthest) move(frame, points, tip);
     turn(frame, points, core.nod_rad);
     if (core.tip.norm() < 1e-2 && std::abs(core.nod_rad) < 1e-4) break;
   }

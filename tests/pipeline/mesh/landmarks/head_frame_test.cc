@@ -59,18 +59,20 @@ RigidTransform about_the_face(const FaceMesh& mesh, const Rotation& rotation, co
 }
 
 // An egg with a nose, a brow and a chin, mirror-like in x = 0; its tip is foremost at (0, 0).
-PointCloud egg_head() {
-  return test::formula_cloud(2, 420, [](double sx, double sy) {
+// `neck_mm`: below y = 75 the surface lies so far behind the chin.
+PointCloud egg_head(double nose_mm = 26, double chin_mm = 6, double neck_mm = 0) {
+  return test::formula_cloud(2, 420, [=](double sx, double sy) {
     const double x = 520 * sx;
     const double y = 520 * sy;
     const double r = (x / 78) * (x / 78) + ((y + 5) / 105) * ((y + 5) / 105);
     if (r > 0.98) return std::numeric_limits<double>::quiet_NaN();
     const double skull = 85 * (1 - std::sqrt(1 - r));
     const auto bump = [](double u, double v) { return std::exp(-u * u - v * v); };
-    const double nose = 26 * bump(x / 14, y / (y < 0 ? 30 : 10));
-    const double chin = 6 * bump(x / 20, (y - 65) / 15);
+    const double nose = nose_mm * bump(x / 14, y / (y < 0 ? 30 : 10));
+    const double chin = chin_mm * bump(x / 20, (y - 65) / 15);
+    const double neck = y > 75 ? neck_mm * std::min(1.0, (y - 75) / 6) : 0;
     const double eyes = -6 * (bump((x - 32) / 13, (y + 38) / 10) + bump((x + 32) / 13, (y + 38) / 10));
-    return 520 + skull - nose - chin - eyes;
+    return 520 + skull - nose - chin - eyes + neck;
   });
 }
 
@@ -133,6 +135,16 @@ TEST(HeadFrame, FollowsAHeadThatTurns) {
   const FaceMesh mesh = mesh_of(egg_head(), room);
   for (const auto& [yaw, pitch, roll] : {std::array{20.0, 0.0, 0.0}, {-20.0, 0.0, 0.0}, {0.0, 15.0, 0.0}, {0.0, -15.0, 0.0}, {0.0, 0.0, 12.0}, {15.0, 8.0, -9.0}})
     expect_follows(mesh, room, yaw, pitch, roll);
+}
+
+// Over a neck a chin stands out further than a small nose does; but a face lies above it and next to nothing below.
+TEST(HeadFrame, AChinOverANeckIsNoNose) {
+  StageRoom room;
+  const auto frame = frame_of(mesh_of(egg_head(14, 22, 40), room), room);
+  ASSERT_TRUE(frame);
+  const Vec3d tip = apply(inverse(frame->head_from_camera), Vec3d{});
+  EXPECT_NEAR(tip.x, 0, 1.5);
+  EXPECT_NEAR(tip.y, 0, 20) << "the chin is at 65";
 }
 
 TEST(HeadFrame, RotationIsProper) {
