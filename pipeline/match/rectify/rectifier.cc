@@ -64,7 +64,7 @@ void sample_rgb(const ImageView& image, int ix, int iy, float tx, float ty, std:
     const auto d = static_cast<float>(lower[3 * ix + c]);
     const auto e = static_cast<float>(lower[3 * ix + 3 + c]);
     const float top = a + tx * (b - a);
-    to[c] = static_cast<std::uint8_t>(top + ty * (d + tx * (e - d) - top) + 0.5F);
+    to[c] = static_cast<std::uint8_t>(top + ty * (d + tx * (e - d) - top) + 0.5F);  // NOLINT(bugprone-incorrect-roundings): never negative
   }
 }
 
@@ -82,6 +82,7 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
     return source_pixel(geometry.camera, geometry.rectified_from_camera, pair.focal_px,
                         geometry.centre_px, {static_cast<double>(x), static_cast<double>(y)});
   };
+  Span span{};
   for (int y = begin; y < end; ++y) {
     const int y0 = y / kKnotPx * kKnotPx;
     const double ty = static_cast<double>(y - y0) / kKnotPx;
@@ -97,7 +98,6 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
       const double dx = (to.x - from.x) / kKnotPx;
       const double dy = (to.y - from.y) / kKnotPx;
       // The source runs along a line, so the pixels of it that the picture holds are a run.
-      Span span;
       int first = 0;
       int count = 0;
       for (int i = 0; i < std::min(width - x0, kKnotPx); ++i) {

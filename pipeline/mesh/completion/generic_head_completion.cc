@@ -48,7 +48,7 @@ Fit fit_head(const UnrolledHead& head, const GenericHeadOptions& options) {
         const double seen = static_cast<double>(head.own.z(c, r)) - place.mean_mm;
         const double off = std::abs(seen - modes.dot(fit.weight)) / options.misfit_mm;
         const double weight = (round == 0 || off < kHuber ? 1 : kHuber / off) / (noise * noise);
-        normal.selfadjointView<Eigen::Lower>().rankUpdate(modes, weight);
+        normal += weight * modes * modes.transpose();
         right += weight * seen * modes;
       }
     const Eigen::LLT<ModesSquare> solved(normal);
