@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/head_sewing.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
-#include "pipeline/mesh/landmarks/head_frame.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -98,19 +98,12 @@ Result<void> GenericHeadOptions::check() const {
 }
 
 Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const {
-  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
-  if (!frame) {
-    if (frame.error().code == Errc::PoorGeometry) return mesh;
-    return frame.error();
-  }
-  const Arena::Mark mark(context.scratch);
-  UnrolledHead head(mesh, frame->head_from_camera, options_.cell_mm, context.scratch);
-  const Fit fit = fit_head(head, options_);
-  if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
-  const FittedHead fitted(head, fit, options_);
-  head.add([&fitted](int c, int r) { return fitted.radius.z(c, r); }, options_.cell_mm, context.scratch);
-  if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
-  return sewn(std::move(mesh), head, inverse(frame->head_from_camera), {options_.cell_mm, options_.longest_edge_mm, 0, 0, &fitted.sigma}, context);
+  const auto fit = [&](UnrolledHead& head) {
+    FittedHead fitted(head, fit_head(head, options_), options_);
+    head.add([&fitted](int c, int r) { return fitted.radius.z(c, r); }, options_.cell_mm, context.scratch);
+    return SewingRules{options_.longest_edge_mm, 0, 0, std::move(fitted.sigma)};
+  };
+  return complete_head(std::move(mesh), across, options_.cell_mm, fit, context);
 }
 
 }  // namespace relievo::pipeline

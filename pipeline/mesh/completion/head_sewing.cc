@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/mesh/completion/gap_triangulation.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/mesh/vector_math.h"
 
@@ -47,15 +48,15 @@ struct Addition {
 };
 
 // Not where the border's own triangles still lie.
-std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head, const SewingRules& rules, Arena& scratch) {
+std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head, double cell_mm, const SewingRules& rules, Arena& scratch) {
   std::pmr::vector<Addition> all(&scratch);
   for (int r = 0; r < head.own.rows(); ++r)
     for (int c = 0; c < head.own.columns(); ++c) {
       const float radius = head.added.z(c, r);
       const float away = head.distance_mm[head.index(c, r)];
-      if (std::isnan(radius) || away < 1.5F * static_cast<float>(rules.cell_mm)) continue;
+      if (std::isnan(radius) || away < 1.5F * static_cast<float>(cell_mm)) continue;
       const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
-      const double sigma = rules.sigma != nullptr ? static_cast<double>(rules.sigma->z(c, r)) : rules.sigma_mm + rules.sigma_per_mm * static_cast<double>(away);
+      const double sigma = rules.sigma ? static_cast<double>(rules.sigma->z(c, r)) : rules.sigma_mm + rules.sigma_per_mm * static_cast<double>(away);
       all.push_back({narrow(apply(camera_from_head, rolled(arc, y, static_cast<double>(radius)))),
                      {static_cast<float>(arc), static_cast<float>(y)}, static_cast<float>(sigma)});
     }
@@ -120,9 +121,22 @@ FaceMesh joined(const FaceMesh& mesh, const UnrolledHead& head, std::span<const 
 
 }  // namespace
 
-FaceMesh sewn(FaceMesh mesh, UnrolledHead& head, const RigidTransform& camera_from_head, const SewingRules& rules, StageContext& context) {
-  const auto added = additions(head, camera_from_head, rules, context.scratch);
-  return added.empty() ? mesh : joined(mesh, head, added, rules.longest_edge_mm, context);
+Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm, const std::function<SewingRules(UnrolledHead&)>& propose,
+                               StageContext& context) {
+  const Error stopped{Errc::Cancelled, "completion was stopped"};
+  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
+  if (!frame) {
+    if (frame.error().code == Errc::PoorGeometry) return mesh;
+    return frame.error();
+  }
+  const Arena::Mark mark(context.scratch);
+  UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
+  if (context.stop()) return stopped;
+  const SewingRules rules = propose(head);
+  if (context.stop()) return stopped;
+  const auto added = additions(head, inverse(frame->head_from_camera), cell_mm, rules, context.scratch);
+  if (added.empty()) return mesh;
+  return joined(mesh, head, added, rules.longest_edge_mm, context);
 }
 
 }  // namespace relievo::pipeline

@@ -6,6 +6,9 @@
 // Memory: the mesh in `output`, the rest in scratch; CGAL's triangulation of the gap takes from the heap. Thread: any.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/model/geometry.h"
 #include "pipeline/stage.h"
@@ -13,14 +16,16 @@
 namespace relievo::pipeline {
 
 struct SewingRules {
-  double cell_mm = 1.5;          // of the head laid flat
   double longest_edge_mm = 12;   // wider gaps stay open
   double sigma_mm = 0;           // of an added place at the seam,
   double sigma_per_mm = 0;       // and how much more for each mm from it;
-  const FaceRelief* sigma = nullptr;  // or of every cell, where a completion knows it better
+  std::optional<FaceRelief> sigma{};  // or of every cell, where a completion knows it better
 };
 
-// `mesh` is the measured surface that `head` was made of.
-FaceMesh sewn(FaceMesh mesh, UnrolledHead& head, const RigidTransform& camera_from_head, const SewingRules& rules, StageContext& context);
+// Lays the measured surface flat on cells of `cell_mm`, lets `propose` add to it (UnrolledHead::add), and sews that on.
+// A surface in which no head is found, or to which nothing was added, comes back as it is.
+// `across`: as find_head_frame() wants it. Errors: Cancelled, OutOfMemory.
+Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm, const std::function<SewingRules(UnrolledHead&)>& propose,
+                               StageContext& context);
 
 }  // namespace relievo::pipeline

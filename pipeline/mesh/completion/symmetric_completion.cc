@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/mesh/completion/symmetric_completion.h"
 
+#include <utility>
+
 #include "pipeline/mesh/completion/head_sewing.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
-#include "pipeline/mesh/landmarks/head_frame.h"
 
 namespace relievo::pipeline {
 
@@ -18,17 +18,11 @@ Result<void> SymmetricCompletionOptions::check() const {
 }
 
 Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const {
-  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
-  if (!frame) {
-    if (frame.error().code == Errc::PoorGeometry) return mesh;
-    return frame.error();
-  }
-  const Arena::Mark mark(context.scratch);
-  UnrolledHead head(mesh, frame->head_from_camera, options_.cell_mm, context.scratch);
-  head.add([&](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, options_.cell_mm, context.scratch);
-  if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
-  return sewn(std::move(mesh), head, inverse(frame->head_from_camera),
-              {options_.cell_mm, options_.longest_edge_mm, options_.sigma_mm, options_.sigma_per_mm, nullptr}, context);
+  const auto mirror = [&](UnrolledHead& head) {
+    head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, options_.cell_mm, context.scratch);
+    return SewingRules{options_.longest_edge_mm, options_.sigma_mm, options_.sigma_per_mm};
+  };
+  return complete_head(std::move(mesh), across, options_.cell_mm, mirror, context);
 }
 
 }  // namespace relievo::pipeline
