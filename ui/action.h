@@ -15,7 +15,7 @@ enum class ActionKind : std::uint8_t {
   Back, Leave, LeaveNow, Stay,           // and off it
   ShowLanguages, ChooseLanguage, ShowHelp, CloseOverlay,
   BiggerText, Contrast,
-  TypeKey, Erase, Shift,                 // value: a space types one, else the node's text
+  TypeKey, Erase, Shift, Accents,        // value: a space types one, else the node's text
   TakePicture, Accept, Retake,
   TurnFace,                              // dragged
   TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <string_view>
 
@@ -14,6 +15,7 @@
 #include "pipeline/model/advice.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/stereo_frame.h"
+#include "ui/language/language.h"
 
 namespace relievo::ui {
 
@@ -70,6 +72,8 @@ struct ViewState {
   const pipeline::FaceModel* model = nullptr;    // from Review on
   std::uint32_t model_number = 0;                // another for every model
   const pipeline::FaceModel* showpiece = nullptr;  // a simulated head for the page that invites
+  std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
+  Language home = Language::English;   // the one a visit begins in; one of them
 };
 
 }  // namespace relievo::ui

@@ -40,6 +40,7 @@ void Visit::forget() {
   shot_ = false;
   overlay = Overlay::None;
   capitals = true;
+  accents = false;
   language = Language::English;
   text_size = 0;
   high_contrast = false;
@@ -58,6 +59,7 @@ void Visit::type(std::string_view letter) {
   letter.copy(name_.data() + length_, letter.size());
   length_ += letter.size();
   capitals = letter == " " || letter == "-";
+  accents = false;
 }
 
 void Visit::erase_letter() {
@@ -123,6 +125,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::ShowShape: look_at(action.kind); break;
     case ActionKind::Erase: erase_letter(); break;
     case ActionKind::Shift: capitals = !capitals; break;
+    case ActionKind::Accents: accents = !accents; break;
     case ActionKind::Start:
     case ActionKind::Agree:
     case ActionKind::Decline:

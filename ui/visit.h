@@ -41,6 +41,7 @@ class Visit {
   std::size_t text_size = 0;       // index into kTextPercents
   bool high_contrast = false;
   bool capitals = true;
+  bool accents = false;            // the keyboard shows á, ß, ø ...
   FaceLook look;
   int touches = 0;                 // since "I agree", typing not counted
 

@@ -12,7 +12,8 @@ using ui::Screen;
 using ui::Step;
 using ui::Trouble;
 
-constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "ليلى حسن"};
+constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre", "Iñaki Muñoz",
+                                                      "ليلى حسن", "נועה לוי", "Wang Wei", "Sato Yuki"};
 
 class Gallery {
  public:

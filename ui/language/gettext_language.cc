@@ -15,13 +15,26 @@ namespace {
 constexpr std::array<LanguageInfo, kLanguages> kInfo{{
     {"en", "English", false},
     {"de", "Deutsch", false},
+    {"fr", "Français", false},
+    {"es", "Español", false},
     {"ar", "العربية", true},
+    {"he", "עברית", true},
+    {"zh-Hans", "简体中文", false},
+    {"ja", "日本語", false},
 }};
-constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-ar"};
+constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-fr", "relievo-es",
+                                                       "relievo-ar", "relievo-he", "relievo-zh", "relievo-ja"};
 
 const char* domain_of(Language language) { return kDomains[static_cast<std::size_t>(language)]; }
 
 }  // namespace
+
+Language staff_language(Language language) {
+  for (const Language known : kStaffLanguages) {
+    if (known == language) return language;
+  }
+  return Language::English;
+}
 
 const LanguageInfo& info_of(Language language) { return kInfo[static_cast<std::size_t>(language)]; }
 

@@ -47,11 +47,16 @@ PangoWeight pango_weight(Weight weight) {
   return PANGO_WEIGHT_NORMAL;
 }
 
-// Arabic fonts bring much room of their own; headings need less than what is read.
+bool is(const TextStyle& style, const char* language) { return std::strcmp(style.language, language) == 0; }
+
+// Arabic, Chinese and Japanese fonts bring much room of their own; headings need less than what is read.
 float line_spacing(const TextStyle& style) {
   if (style.icon) return 1.0F;
-  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * (std::strcmp(style.language, "ar") == 0 ? 0.76F : 1.0F);
+  const float script = is(style, "ar") ? 0.76F : is(style, "zh-Hans") || is(style, "ja") ? 0.92F : 1.0F;
+  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * script;
 }
+
+const char* families_of(const TextStyle& style) { return style.icon ? kIconFamily : is(style, "ja") ? kJapaneseFamilies : kFamilies; }
 
 class PangoTextEngine final : public TextEngine {
  public:
@@ -67,7 +72,7 @@ class PangoTextEngine final : public TextEngine {
   }
 
   Result<void> check_fonts() {
-    for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans CJK SC", kIconFamily}) {
+    for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans Hebrew", "Noto Sans CJK SC", "Noto Sans CJK JP", kIconFamily}) {
       PangoFontDescription* wanted = pango_font_description_from_string(family);
       Owned<PangoFont> font(pango_font_map_load_font(map_.get(), context_.get(), wanted));
       pango_font_description_free(wanted);
@@ -124,7 +129,7 @@ class PangoTextEngine final : public TextEngine {
   void set_out(std::string_view text, const TextStyle& style, int width) {
     PangoLayout* layout = layout_.get();
     PangoFontDescription* font = pango_font_description_new();
-    pango_font_description_set_family_static(font, style.icon ? kIconFamily : kFamilies);
+    pango_font_description_set_family_static(font, families_of(style));
     pango_font_description_set_weight(font, style.icon ? PANGO_WEIGHT_NORMAL : pango_weight(style.weight));
     pango_font_description_set_absolute_size(font, style.size_px * kScale);
     pango_context_set_base_dir(context_.get(), style.right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR);

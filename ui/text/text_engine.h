@@ -18,6 +18,8 @@
 namespace relievo::ui {
 
 inline constexpr const char* kFamilies = "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK SC";
+// Japanese writes some letters it shares with Chinese in forms of its own.
+inline constexpr const char* kJapaneseFamilies = "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK JP";
 inline constexpr const char* kIconFamily = "Material Design Icons";
 
 enum class Weight : std::uint8_t { Regular, Medium, Bold };

@@ -45,10 +45,12 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
   }
   static void TearDownTestSuite() { delete screen_; }
 
+  // One pass over all screens: to lay them out costs more than to look at them.
   template <typename Look>
   void over_all(Look look) {
     for (const Shown shown : kScreens) {
       for (std::size_t text = 0; text < ui::kTextPercents.size(); ++text) {
+        if (text == 1 && shown.width_px != 1280) continue;  // 125 %: where there is least room
         for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), text, false)) {
           screen_->resize(shown.width_px, shown.height_px);
           screen_->show(exhibit.view, exhibit.visit);
@@ -59,66 +61,71 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
       }
     }
   }
+  static void lies_on_the_screen(const ui::Tree& tree, const ui::Rect& screen);
+  static void every_text_has_its_room(const ui::Tree& tree);
+  static void buttons_are_large_apart_and_named(const ui::Tree& tree, const ui::Rect& screen);
+  static void keypad_reaches_every_button(const ui::Tree& tree);
   static ui::Ui* screen_;
 };
 ui::Ui* GalleryTest::screen_ = nullptr;
 
-TEST_P(GalleryTest, EverythingLiesOnTheScreenOrCanBeScrolledTo) {
+void GalleryTest::lies_on_the_screen(const ui::Tree& tree, const ui::Rect& screen) {
+  for (const ui::Node& node : tree.nodes()) {
+    if (in_a_scroller(tree, node)) continue;
+    EXPECT_GE(node.rect.x, -1) << node.id << " " << node.text;
+    EXPECT_GE(node.rect.y, -1) << node.id << " " << node.text;
+    EXPECT_LE(node.rect.right(), screen.w + 1) << node.id << " " << node.text;
+    EXPECT_LE(node.rect.bottom(), screen.h + 1) << node.id << " " << node.text;
+  }
+}
+
+void GalleryTest::every_text_has_its_room(const ui::Tree& tree) {
+  for (const ui::Node& node : tree.nodes()) {
+    if (node.text.empty()) continue;
+    const ui::TextLabel& label = screen_->text().label(node.text, node.style, std::max(1.0F, node.rect.w - 2 * node.box.pad_x));
+    EXPECT_EQ(label.missing, 0) << node.text;
+    EXPECT_LE(label.size.height_px, node.rect.h + 2) << node.text;
+    EXPECT_LE(label.size.width_px, node.rect.w + 2) << node.text;
+  }
+}
+
+void GalleryTest::buttons_are_large_apart_and_named(const ui::Tree& tree, const ui::Rect& screen) {
+  const float unit = ui::unit_of(screen);
+  std::set<std::string> ids;
+  std::vector<const ui::Node*> buttons;
+  for (const ui::Node& node : tree.nodes()) {
+    if (node.action.kind == ui::ActionKind::None || node.action.kind == ui::ActionKind::TurnFace) continue;
+    EXPECT_GE(node.rect.h, kTouchDp * unit - 1) << node.id;
+    EXPECT_GE(node.rect.w, (node.role == ui::Role::Key ? 44 : kTouchDp) * unit - 1) << node.id;
+    EXPECT_FALSE(node.name.empty() && node.text.empty()) << node.id << " says nothing";
+    buttons.push_back(&node);
+  }
+  const bool modal = tree.find("veil") != nullptr;
+  if (modal) return;
+  for (std::size_t i = 0; i < buttons.size(); ++i) {
+    EXPECT_TRUE(ids.insert(std::string(buttons[i]->id)).second) << buttons[i]->id << " twice";
+    for (std::size_t k = i + 1; k < buttons.size(); ++k) EXPECT_FALSE(overlap(buttons[i]->rect, buttons[k]->rect)) << buttons[i]->id << " " << buttons[k]->id;
+  }
+}
+
+void GalleryTest::keypad_reaches_every_button(const ui::Tree& tree) {
+  std::set<std::string> reached;
+  const ui::Node* at = tree.after("", 1);
+  while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at->id, 1);
+  const bool modal = tree.find("veil") != nullptr;
+  for (const ui::Node& node : tree.nodes()) {
+    const bool wanted = node.action.kind != ui::ActionKind::None && node.action.kind != ui::ActionKind::TurnFace && !modal;
+    EXPECT_TRUE(!wanted || reached.count(std::string(node.id)) == 1) << node.id;
+  }
+  EXPECT_FALSE(modal && reached.empty());
+}
+
+TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
   over_all([](const ui::Tree& tree, const ui::Rect& screen) {
-    for (const ui::Node& node : tree.nodes()) {
-      if (in_a_scroller(tree, node)) continue;
-      EXPECT_GE(node.rect.x, -1) << node.id << " " << node.text;
-      EXPECT_GE(node.rect.y, -1) << node.id << " " << node.text;
-      EXPECT_LE(node.rect.right(), screen.w + 1) << node.id << " " << node.text;
-      EXPECT_LE(node.rect.bottom(), screen.h + 1) << node.id << " " << node.text;
-    }
-  });
-}
-
-TEST_P(GalleryTest, EveryTextHasItsRoom) {
-  over_all([this](const ui::Tree& tree, const ui::Rect&) {
-    for (const ui::Node& node : tree.nodes()) {
-      if (node.text.empty()) continue;
-      const ui::TextLabel& label = screen_->text().label(node.text, node.style, std::max(1.0F, node.rect.w - 2 * node.box.pad_x));
-      EXPECT_EQ(label.missing, 0) << node.text;
-      EXPECT_LE(label.size.height_px, node.rect.h + 2) << node.text;
-      EXPECT_LE(label.size.width_px, node.rect.w + 2) << node.text;
-    }
-  });
-}
-
-TEST_P(GalleryTest, ButtonsAreLargeEnoughApartAndNamed) {
-  over_all([](const ui::Tree& tree, const ui::Rect& screen) {
-    const float unit = ui::unit_of(screen);
-    std::set<std::string> ids;
-    std::vector<const ui::Node*> buttons;
-    for (const ui::Node& node : tree.nodes()) {
-      if (node.action.kind == ui::ActionKind::None || node.action.kind == ui::ActionKind::TurnFace) continue;
-      EXPECT_GE(node.rect.h, kTouchDp * unit - 1) << node.id;
-      EXPECT_GE(node.rect.w, (node.role == ui::Role::Key ? 44 : kTouchDp) * unit - 1) << node.id;
-      EXPECT_FALSE(node.name.empty() && node.text.empty()) << node.id << " says nothing";
-      buttons.push_back(&node);
-    }
-    const bool modal = tree.find("veil") != nullptr;
-    if (modal) return;
-    for (std::size_t i = 0; i < buttons.size(); ++i) {
-      EXPECT_TRUE(ids.insert(std::string(buttons[i]->id)).second) << buttons[i]->id << " twice";
-      for (std::size_t k = i + 1; k < buttons.size(); ++k) EXPECT_FALSE(overlap(buttons[i]->rect, buttons[k]->rect)) << buttons[i]->id << " " << buttons[k]->id;
-    }
-  });
-}
-
-TEST_P(GalleryTest, TheKeypadReachesEveryButton) {
-  over_all([](const ui::Tree& tree, const ui::Rect&) {
-    std::set<std::string> reached;
-    const ui::Node* at = tree.after("", 1);
-    while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at->id, 1);
-    const bool modal = tree.find("veil") != nullptr;
-    for (const ui::Node& node : tree.nodes()) {
-      const bool wanted = node.action.kind != ui::ActionKind::None && node.action.kind != ui::ActionKind::TurnFace && !modal;
-      EXPECT_TRUE(!wanted || reached.count(std::string(node.id)) == 1) << node.id;
-    }
-    EXPECT_FALSE(modal && reached.empty());
+    lies_on_the_screen(tree, screen);
+    every_text_has_its_room(tree);
+    buttons_are_large_apart_and_named(tree, screen);
+    keypad_reaches_every_button(tree);
   });
 }
 
@@ -133,8 +140,9 @@ TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
   }
 }
 
-std::string name(const testing::TestParamInfo<ui::Language>& info) { return ui::info_of(info.param).code; }
-INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, testing::Values(ui::Language::English, ui::Language::German, ui::Language::Arabic), name);
+std::string name(const testing::TestParamInfo<ui::Language>& info) { return std::string(ui::info_of(info.param).code).substr(0, 2); }
+INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, testing::Values(ui::Language::English, ui::Language::German, ui::Language::French, ui::Language::Spanish,
+                                                                ui::Language::Arabic, ui::Language::Hebrew, ui::Language::Chinese, ui::Language::Japanese), name);
 
 }  // namespace
 }  // namespace relievo::firmware

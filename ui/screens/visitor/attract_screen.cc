@@ -15,16 +15,22 @@ void face(Page& page) {
   page.tree.leaf(node);
 }
 
-void language_row(Page& page) {
-  page.tree.open(page.box(Flow::Row, space::kS));
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    const auto language = static_cast<Language>(i);
-    if (language == page.visit.language) continue;
-    page.button(info_of(language).code, info_of(language).own_name, nullptr, ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(i)}, 1);
-  }
+void tools(Page& page) {
+  Node row = page.box(Flow::Row, space::kS);
+  row.box.along = Along::End;
+  page.tree.open(row);
   page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  page.square_button("contrast", page.tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.tree.close();
+}
+
+// All languages are to be seen, each in its own letters; where large letters leave no room, behind one button.
+void languages(Page& page) {
+  const std::size_t count = page.view.languages.count();
+  if (count < 2) return;
+  if (page.portrait || page.text_share < 1.2F || count <= 4) return language_grid(page, 4);
+  page.button("language", page.tr("Language"), icon::kTranslate, ButtonLook::Quiet, {ActionKind::ShowLanguages, 0});
 }
 
 void words(Page& page) {
@@ -38,7 +44,8 @@ void words(Page& page) {
   page.body("what", page.tr("Two cameras look at you for a moment. You see your 3D portrait, and you decide whether it is kept."));
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
-  language_row(page);
+  languages(page);
+  if (page.portrait) tools(page);
   page.tree.close();
 }
 
@@ -52,7 +59,12 @@ void attract_screen(Page& page) {
   page.tree.open(root);
   if (page.portrait) face(page);
   words(page);
-  if (!page.portrait) face(page);
+  if (!page.portrait) {
+    page.tree.open(page.grown(page.box(Flow::Column, space::kM)));
+    face(page);
+    tools(page);
+    page.tree.close();
+  }
   page.tree.close();
 }
 

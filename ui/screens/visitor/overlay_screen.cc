@@ -77,12 +77,7 @@ void help(Page& page) {
 
 void languages(Page& page) {
   page.heading("overlay_title", page.tr("Choose your language"));
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    const auto language = static_cast<Language>(i);
-    const bool now = language == page.visit.language;
-    page.button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, now ? ButtonLook::Main : ButtonLook::Quiet,
-                {ActionKind::ChooseLanguage, static_cast<int>(i)});
-  }
+  language_grid(page, 2);
 }
 
 void leave(Page& page) {

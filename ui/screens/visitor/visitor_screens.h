@@ -17,6 +17,9 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 // The pictures and the model that it shows.
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit);
 
+// The languages a visitor may choose, each in its own letters, so many abreast.
+void language_grid(Page& page, std::size_t columns);
+
 void attract_screen(Page& page);
 void consent_screen(Page& page);
 void name_screen(Page& page);
