@@ -3,6 +3,7 @@
 #include "pipeline/match/coarse/semi_global.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -16,12 +17,16 @@ constexpr int kHalfHeight = 3;
 constexpr std::uint8_t kUnknownCost = 40;   // a candidate outside the other picture: worse than any chance match (31)
 constexpr std::uint16_t kFar = 0x3FFF;
 
-// Path costs of one row of pixels; the candidates are padded by one unreachable cell on both sides.
+// Candidates are worked on sixteen at once; the lanes past the last candidate stay unreachable.
+constexpr int kLanes = 16;
+int lanes_for(int candidates) { return (candidates + kLanes - 1) / kLanes * kLanes; }
+
+// Path costs of one row of pixels. Between two pixels lie as many unreachable cells as there are lanes, so that a neighbour
+// whose band begins elsewhere is read where it is, without a branch.
 struct PathRow {
-  PathRow(std::pmr::memory_resource& memory, int width, int candidates)
-      : stride(candidates + 2), cost(static_cast<std::size_t>(width * (candidates + 2)), kFar, &memory),
-        least(static_cast<std::size_t>(width), 0, &memory) {}
-  std::uint16_t* at(int x) { return cost.data() + static_cast<std::ptrdiff_t>(x) * stride + 1; }
+  PathRow(std::pmr::memory_resource& memory, int width, int lanes)
+      : stride(2 * lanes), cost(static_cast<std::size_t>((width + 1) * stride), kFar, &memory), least(static_cast<std::size_t>(width), 0, &memory) {}
+  std::uint16_t* at(int x) { return cost.data() + static_cast<std::ptrdiff_t>(x) * stride + stride / 2; }
   int stride;
   std::pmr::vector<std::uint16_t> cost;
   std::pmr::vector<std::uint16_t> least;
@@ -39,47 +44,67 @@ RELIEVO_SIMD void matching_costs(const CensusPair& pair, const std::int16_t* fir
       std::memset(cost, kUnknownCost, static_cast<std::size_t>(candidates));
       continue;
     }
+    const int nearest = x - pair.sign * first[x], last = nearest - pair.sign * (candidates - 1);
+    if (std::min(nearest, last) >= 0 && std::max(nearest, last) < width) {
+      for (int k = 0; k < candidates; ++k) {
+        const int other = nearest - pair.sign * k;
+        const auto bits = static_cast<std::uint8_t>(__builtin_popcountll(from[x] ^ to[other]));
+        cost[k] = to_valid[other] != 0 ? bits : kUnknownCost;
+      }
+      continue;
+    }
     for (int k = 0; k < candidates; ++k) {
-      const int other = x - pair.sign * (first[x] + k);
+      const int other = nearest - pair.sign * k;
       const bool inside = other >= 0 && other < width && to_valid[other] != 0;
       cost[k] = inside ? static_cast<std::uint8_t>(__builtin_popcountll(from[x] ^ to[other])) : kUnknownCost;
     }
   }
 }
 
-// One step of one path: from the neighbour's costs (its first candidate differs by `shift`) to this
-// pixel's, added to the sum. Returns the least.
-RELIEVO_SIMD std::uint16_t path_step(const std::uint16_t* previous, std::uint16_t previous_least, int shift,
-                                     const std::uint8_t* cost, int candidates, const SemiGlobalCosts& costs,
-                                     std::uint16_t* path, std::uint16_t* sum) {
-  const auto p1 = static_cast<std::uint16_t>(costs.step_penalty);
-  const auto jump = static_cast<std::uint16_t>(previous_least + costs.jump_penalty);
-  const int begin = std::clamp(-shift, 0, candidates);
-  const int end = std::clamp(candidates - shift, begin, candidates);
-  const auto fall = [&](int k) {
-    path[k] = static_cast<std::uint16_t>(cost[k] + jump - previous_least);
-  };
-  for (int k = 0; k < begin; ++k) fall(k);
-  const std::uint16_t* p = previous + shift;
-  for (int k = begin; k < end; ++k) {
-    const std::uint16_t side = std::min(p[k - 1], p[k + 1]);
-    const auto step = static_cast<std::uint16_t>(side + p1);
-    const std::uint16_t best = std::min(std::min(p[k], step), jump);
-    path[k] = static_cast<std::uint16_t>(cost[k] + best - previous_least);
-  }
-  for (int k = end; k < candidates; ++k) fall(k);
-  std::uint16_t least = kFar;
-  for (int k = 0; k < candidates; ++k) {
-    least = std::min(least, path[k]);
-    sum[k] = static_cast<std::uint16_t>(sum[k] + path[k]);
-  }
-  return least;
+// Sixteen candidates side by side. Every cost stays below kFar, so that signed and unsigned are one.
+using Lanes = std::int16_t __attribute__((vector_size(2 * kLanes)));
+using Sums = std::uint16_t __attribute__((vector_size(2 * kLanes)));
+#define RELIEVO_INLINE inline __attribute__((always_inline))
+
+template <typename Vector, typename Cell>
+RELIEVO_INLINE void load(const Cell* from, Vector& to) { std::memcpy(&to, from, sizeof to); }
+RELIEVO_INLINE void least_of(Lanes& a, const Lanes& b) { a = a < b ? a : b; }
+// The least of all lanes, in every lane.
+RELIEVO_INLINE void spread_least(Lanes& v) {
+  least_of(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+  least_of(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+  least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+  least_of(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
+}
+
+// One of the four paths into a pixel: the neighbour it comes from, and where its own costs go.
+struct PathStep {
+  const std::uint16_t* previous;  // the neighbour's costs at this pixel's first candidate
+  std::uint16_t previous_least, jump;
+  std::uint16_t* path;
+};
+
+// Sixteen candidates of one path, added to the total; `beyond` is kFar in the lanes that are none.
+RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_penalty, const Lanes& cost, const Lanes& beyond, Sums& total, Lanes& least) {
+  const std::uint16_t* p = step.previous + at;
+  Lanes best, before, after;
+  load(p, best);
+  load(p - 1, before);
+  load(p + 1, after);
+  least_of(before, after);
+  before |= (best == static_cast<std::int16_t>(kFar)) & static_cast<std::int16_t>(kFar);  // a candidate the neighbour has not: only a jump leads there
+  least_of(best, before + static_cast<std::int16_t>(step_penalty));
+  least_of(best, Lanes{} + static_cast<std::int16_t>(step.jump));
+  best = (cost + best - static_cast<std::int16_t>(step.previous_least)) | beyond;
+  std::memcpy(step.path + at, &best, sizeof best);
+  total += reinterpret_cast<const Sums&>(best);
+  least_of(least, best);
 }
 
 struct Volume {
   int width, height, candidates;
-  std::pmr::vector<std::uint8_t> cost;
-  std::pmr::vector<std::uint16_t> sum;
+  std::uint8_t* cost;    // both on scratch, with room for the lanes behind the last pixel
+  std::uint16_t* sum;
   std::size_t cell(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
            static_cast<std::size_t>(candidates);
@@ -88,54 +113,69 @@ struct Volume {
 
 // Four paths in one sweep over the picture: along the row and from the three neighbours of the row
 // before; dir = +1 top to bottom, -1 the other way round.
-void sweep(Volume& volume, const Plane<std::int16_t>& first, const SemiGlobalCosts& costs, int dir,
-           std::pmr::memory_resource& scratch, const std::atomic<bool>* cancelled) {
-  const int w = volume.width;
-  const int n = volume.candidates;
-  PathRow row_path(scratch, 2, n);
-  PathRow rows[3][2] = {{PathRow(scratch, w, n), PathRow(scratch, w, n)},
-                        {PathRow(scratch, w, n), PathRow(scratch, w, n)},
-                        {PathRow(scratch, w, n), PathRow(scratch, w, n)}};
-  const int y0 = dir > 0 ? 0 : volume.height - 1;
-  int now = 0;
-  for (int y = y0; y >= 0 && y < volume.height; y += dir, now ^= 1) {
-    if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return;
-    const std::int16_t* base = first.row(y);
-    const std::int16_t* above = y == y0 ? nullptr : first.row(y - dir);
-    int flip = 0;
-    for (int i = 0; i < w; ++i, flip ^= 1) {
-      const int x = dir > 0 ? i : w - 1 - i;
-      const std::uint8_t* cost = volume.cost.data() + volume.cell(x, y);
-      std::uint16_t* sum = volume.sum.data() + volume.cell(x, y);
-      const auto begin_path = [&](std::uint16_t* path) {
-        std::uint16_t least = kFar;
-        for (int k = 0; k < n; ++k) {
-          path[k] = cost[k];
-          least = std::min(least, path[k]);
-          sum[k] = static_cast<std::uint16_t>(sum[k] + path[k]);
-        }
-        return least;
-      };
-      row_path.least[static_cast<std::size_t>(flip)] =
-          i == 0 ? begin_path(row_path.at(flip))
-                 : path_step(row_path.at(flip ^ 1), row_path.least[static_cast<std::size_t>(flip ^ 1)],
-                             base[x] - base[x - dir], cost, n, costs, row_path.at(flip), sum);
-      for (int d = 0; d < 3; ++d) {
-        const int from = x + d - 1;
-        PathRow& to = rows[d][now];
-        PathRow& prior = rows[d][now ^ 1];
-        to.least[static_cast<std::size_t>(x)] =
-            above == nullptr || from < 0 || from >= w
-                ? begin_path(to.at(x))
-                : path_step(prior.at(from), prior.least[static_cast<std::size_t>(from)], base[x] - above[from],
-                            cost, n, costs, to.at(x), sum);
-      }
-    }
+struct Sweep {
+  Sweep(const CensusPair& views, Volume& cells, const Plane<std::int16_t>& band, const SemiGlobalCosts& costs, int direction, std::pmr::memory_resource& scratch)
+      : pair(views), volume(cells), first(band), dir(direction), lanes(lanes_for(cells.candidates)),
+        step_penalty(static_cast<std::uint16_t>(costs.step_penalty)), jump_penalty(static_cast<std::uint16_t>(costs.jump_penalty)),
+        far(static_cast<std::size_t>(lanes + 2), kFar, &scratch), beyond(static_cast<std::size_t>(lanes), 0, &scratch), line(static_cast<std::size_t>(lanes), 0, &scratch),
+        along(scratch, 2, lanes), rows{{{PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
+                                        {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
+                                        {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)}}} {
+    std::fill(beyond.begin() + cells.candidates, beyond.end(), kFar);
   }
-}
+  // A path that begins: as if from nowhere, at no cost.
+  PathStep beginning(PathRow& to, int x) { return {far.data() + 1, 0, 0, to.at(x)}; }
+  PathStep from(PathRow& row, int from_x, int shift, PathRow& to, int x) {
+    const std::uint16_t least = row.least[static_cast<std::size_t>(from_x)];
+    const std::uint16_t* previous = shift > -lanes && shift < lanes ? row.at(from_x) + shift : far.data() + 1;
+    return {previous, least, static_cast<std::uint16_t>(least + jump_penalty), to.at(x)};
+  }
 
-float best_candidate(const std::uint16_t* sum, int candidates) {
-  const int k = static_cast<int>(std::min_element(sum, sum + candidates) - sum);
+  // The paths into pixel x, the i-th of its row: from the three of the row before, then along the row. `above` is null in the first row.
+  RELIEVO_INLINE std::array<PathStep, 4> into(int x, int i, int now, const std::int16_t* base, const std::int16_t* above) {
+    std::array<PathStep, 4> steps;
+    for (int d = 0; d < 3; ++d) {
+      auto& row = rows[static_cast<std::size_t>(d)];
+      PathRow &target = row[static_cast<std::size_t>(now)], &source = row[static_cast<std::size_t>(now ^ 1)];
+      const int at = x + d - 1;
+      steps[static_cast<std::size_t>(d)] =
+          above == nullptr || at < 0 || at >= volume.width ? beginning(target, x) : from(source, at, base[x] - above[at], target, x);
+    }
+    const int flip = i & 1;
+    steps[3] = i == 0 ? beginning(along, flip) : from(along, flip ^ 1, base[x] - base[x - dir], along, flip);
+    return steps;
+  }
+
+  const CensusPair& pair;
+  Volume& volume;
+  const Plane<std::int16_t>& first;
+  int dir, lanes;
+  std::uint16_t step_penalty, jump_penalty;
+  std::pmr::vector<std::uint16_t> far, beyond, line;
+  PathRow along;
+  std::array<std::array<PathRow, 2>, 3> rows;
+};
+
+// The least of the sums over all candidates, and the first that has it.
+struct Least {
+  Lanes sum = Lanes{} + std::int16_t{0x7FFF}, at{};
+  RELIEVO_INLINE void hear(const Sums& total, const Lanes& beyond, int from) {
+    constexpr Lanes kOrder{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const Lanes own = beyond == 0 ? reinterpret_cast<const Lanes&>(total) : Lanes{} + std::int16_t{0x7FFF};
+    at = own < sum ? kOrder + static_cast<std::int16_t>(from) : at;
+    least_of(sum, own);
+  }
+  RELIEVO_INLINE int candidate() const {
+    Lanes least = sum;
+    spread_least(least);
+    Lanes first = sum == least ? at : Lanes{} + std::int16_t{0x7FFF};
+    spread_least(first);
+    return first[0];
+  }
+};
+
+// Candidate k between its neighbours.
+RELIEVO_INLINE float between(const std::uint16_t* sum, int k, int candidates) {
   if (k == 0 || k == candidates - 1) return static_cast<float>(k);
   const float before = sum[k - 1];
   const float here = sum[k];
@@ -143,6 +183,64 @@ float best_candidate(const std::uint16_t* sum, int candidates) {
   // Equiangular fit: the census cost falls off linearly, a parabola would lock to whole pixels.
   const float slope = std::max(before, after) - here;
   return static_cast<float>(k) + (slope > 0 ? 0.5F * (before - after) / slope : 0.0F);
+}
+
+// One row of a sweep. Downwards the sums are kept; a pixel's lanes reach into the next one's, which is written later. Upwards the
+// second four paths are added to them, and the best candidate is known at once: to[x], when `to` is there.
+RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, float* to) {
+  const int w = s.volume.width, n = s.volume.candidates;
+  const std::int16_t* base = s.first.row(y);
+  const std::int16_t* above = begins ? nullptr : s.first.row(y - s.dir);
+  const std::uint8_t* valid = s.pair.from_valid.row(y);
+  for (int i = 0; i < w; ++i) {
+    const int x = s.dir > 0 ? i : w - 1 - i, flip = i & 1;
+    const std::array<PathStep, 4> steps = s.into(x, i, now, base, above);
+    const std::uint8_t* cost = s.volume.cost + s.volume.cell(x, y);
+    std::uint16_t* sum = s.volume.sum + s.volume.cell(x, y);
+    std::array<Lanes, 4> least;
+    least.fill(Lanes{} + static_cast<std::int16_t>(kFar));
+    Least best;
+    for (int b = 0; b < lanes; b += kLanes) {
+      Sums total{}, other{};
+      Lanes beyond;
+      load(s.beyond.data() + b, beyond);
+      std::uint8_t __attribute__((vector_size(kLanes))) bits;
+      load(cost + b, bits);
+      const Lanes own = __builtin_convertvector(bits, Lanes);
+      for (std::size_t d = 0; d < 4; ++d) sixteen(steps[d], b, s.step_penalty, own, beyond, total, least[d]);
+      if (to != nullptr) {
+        load(sum + b, other);
+        total += other;
+        best.hear(total, beyond, b);
+      }
+      std::memcpy(to == nullptr ? sum + b : s.line.data() + b, &total, sizeof total);
+    }
+    for (Lanes& of : least) spread_least(of);
+    s.along.least[static_cast<std::size_t>(flip)] = static_cast<std::uint16_t>(least[3][0]);
+    for (std::size_t d = 0; d < 3; ++d) s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(least[d][0]);
+    if (to == nullptr) continue;
+    to[x] = kNoDisparity;
+    if (valid[x] == 0) continue;
+    const float d = static_cast<float>(base[x]) + between(s.line.data(), best.candidate(), n);
+    const float other = static_cast<float>(x) - static_cast<float>(s.pair.sign) * d;
+    if (other >= 0 && other <= static_cast<float>(w - 1)) to[x] = d;
+  }
+}
+
+// The common band fits into one set of lanes: then the compiler knows it.
+RELIEVO_SIMD void sweep_row_of_sixteen(Sweep& s, int y, int now, bool begins, float* to) { sweep_row(s, y, kLanes, now, begins, to); }
+RELIEVO_SIMD void sweep_row_of_any(Sweep& s, int y, int now, bool begins, float* to) { sweep_row(s, y, s.lanes, now, begins, to); }
+
+// Down: `disparity` null. False once cancelled.
+bool sweep(Sweep&& s, Plane<float>* disparity, const std::atomic<bool>* cancelled) {
+  const int h = s.volume.height, y0 = s.dir > 0 ? 0 : h - 1;
+  int now = 0;
+  for (int y = y0; y >= 0 && y < h; y += s.dir, now ^= 1) {
+    if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return false;
+    float* to = disparity == nullptr ? nullptr : disparity->row(y);
+    (s.lanes == kLanes ? sweep_row_of_sixteen : sweep_row_of_any)(s, y, now, y == y0, to);
+  }
+  return true;
 }
 
 }  // namespace
@@ -168,25 +266,13 @@ void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int c
                  const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity, const std::atomic<bool>* cancelled) {
   const int w = first.width;
   const int h = first.height;
-  const std::size_t cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
-  Volume volume{w, h, candidates, std::pmr::vector<std::uint8_t>(cells, 0, &scratch),
-                std::pmr::vector<std::uint16_t>(cells, 0, &scratch)};
-  for (int y = 0; y < h; ++y) matching_costs(pair, first.row(y), y, candidates, volume.cost.data() + volume.cell(0, y));
-  sweep(volume, first, costs, +1, scratch, cancelled);
-  sweep(volume, first, costs, -1, scratch, cancelled);
-  if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return;
-  for (int y = 0; y < h; ++y) {
-    const std::int16_t* base = first.row(y);
-    const std::uint8_t* valid = pair.from_valid.row(y);
-    float* to = disparity.row(y);
-    for (int x = 0; x < w; ++x) {
-      to[x] = kNoDisparity;
-      if (valid[x] == 0) continue;
-      const float d = static_cast<float>(base[x]) + best_candidate(volume.sum.data() + volume.cell(x, y), candidates);
-      const float other = static_cast<float>(x) - static_cast<float>(pair.sign) * d;
-      if (other >= 0 && other <= static_cast<float>(w - 1)) to[x] = d;
-    }
-  }
+  const std::size_t cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates) + kLanes;
+  // Every cell is written before it is read: nothing is cleared.
+  Volume volume{w, h, candidates, static_cast<std::uint8_t*>(scratch.allocate(cells, 1)),
+                static_cast<std::uint16_t*>(scratch.allocate(cells * sizeof(std::uint16_t), alignof(std::uint16_t)))};
+  std::memset(volume.cost + cells - kLanes, 0, kLanes);
+  for (int y = 0; y < h; ++y) matching_costs(pair, first.row(y), y, candidates, volume.cost + volume.cell(0, y));
+  if (sweep(Sweep(pair, volume, first, costs, +1, scratch), nullptr, cancelled)) sweep(Sweep(pair, volume, first, costs, -1, scratch), &disparity, cancelled);
 }
 
 void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px) {

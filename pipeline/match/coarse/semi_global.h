@@ -36,7 +36,7 @@ struct CensusPair {
 };
 
 // Fills `disparity` (same size; kNoDisparity where nothing can be known) with sub-pixel minima.
-// Returns early, with nothing filled, once `cancelled` is set.
+// Returns early, once `cancelled` is set: what is filled then is of no use.
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
                  const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch,
                  Plane<float>& disparity, const std::atomic<bool>* cancelled = nullptr);

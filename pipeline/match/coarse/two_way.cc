@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
+
+#include "hal/base/simd.h"
 
 namespace relievo::pipeline {
 
@@ -20,11 +23,11 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
   });
   // One arena for two threads: each gets a block of its own, taken here.
   const auto cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
-  const std::size_t share = 3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 4) + 65536;
-  std::pmr::vector<std::byte> blocks(2 * share, &context.scratch);
+  const std::size_t share = 3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 16) + 65536;
+  const std::span<std::byte> blocks(static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
   context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
     for (int side = begin; side < end; ++side) {
-      Arena own{std::span<std::byte>(blocks).subspan(static_cast<std::size_t>(side) * share, share)};
+      Arena own{blocks.subspan(static_cast<std::size_t>(side) * share, share)};
       if (side == 0)
         semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates, costs, own, both.left, &context.cancelled);
       else
@@ -52,14 +55,14 @@ void predict(const Plane<float>& coarse, int band, int whole_first, int whole_la
 
 namespace {
 
-void order(float& a, float& b) {
+inline void order(float& a, float& b) {
   const float least = std::min(a, b);
   b = std::max(a, b);
   a = least;
 }
 
 // The median of nine by nineteen exchanges (Paeth, Median finding on a 3x3 grid, Graphics Gems, 1990).
-float median_of_nine(float* v) {
+inline float median_of_nine(float* v) {
   order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
   order(v[0], v[1]), order(v[3], v[4]), order(v[6], v[7]);
   order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
@@ -70,18 +73,31 @@ float median_of_nine(float* v) {
   return v[4];
 }
 
-void median_row(const Plane<float>& from, int y, float* to) {
+// As if all nine were known, as they are nearly everywhere, without a branch; the least and the most of the nine tell whether they are.
+RELIEVO_SIMD void medians_of_nine(const float* above, const float* row, const float* below, int width, float* median, float* least, float* most) {
+  for (int x = 1; x < width - 1; ++x) {
+    float v[9] = {above[x - 1], above[x], above[x + 1], row[x - 1], row[x], row[x + 1], below[x - 1], below[x], below[x + 1]};
+    float low = v[0], high = v[0];
+    for (int i = 1; i < 9; ++i) low = std::min(low, v[i]), high = std::max(high, v[i]);
+    least[x] = low;
+    most[x] = high;
+    median[x] = median_of_nine(v);
+  }
+}
+
+// `least`, `most`: a row of room each.
+void median_row(const Plane<float>& from, int y, float* least, float* most, float* to) {
+  medians_of_nine(from.row(y - 1), from.row(y), from.row(y + 1), from.width, to, least, most);
   for (int x = 1; x < from.width - 1; ++x) {
+    if (least[x] != kNoDisparity) continue;
+    to[x] = from.row(y)[x];
+    if (most[x] == kNoDisparity) continue;
     float near[9];
     int n = 0;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
         if (from.row(y + j)[x + i] != kNoDisparity) near[n++] = from.row(y + j)[x + i];
-    if (n == 0 || (from.row(y)[x] == kNoDisparity && n < 5)) continue;
-    if (n == 9) {
-      to[x] = median_of_nine(near);
-      continue;
-    }
+    if (to[x] == kNoDisparity && n < 5) continue;
     std::nth_element(near, near + n / 2, near + n);
     to[x] = near[n / 2];
   }
@@ -93,8 +109,10 @@ void median3(Plane<float>& field, StageContext& context) {
   Arena::Mark mark(context.scratch);
   Plane<float> copy(&context.scratch, field.width, field.height);
   copy.values = field.values;
-  context.pool.for_each_band(field.height, 16, [&](int begin, int end, int) {
-    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y) median_row(copy, y, field.row(y));
+  constexpr int kBands = 16;
+  Plane<float> least(&context.scratch, field.width, kBands), most(&context.scratch, field.width, kBands);
+  context.pool.for_each_band(field.height, kBands, [&](int begin, int end, int band) {
+    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y) median_row(copy, y, least.row(band), most.row(band), field.row(y));
   });
 }
 

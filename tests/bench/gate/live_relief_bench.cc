@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What one live relief costs, and how true it is, with OpenCV's semi-global matcher (three-way mode) on the same
+// What one live relief and one whole look of the gate cost, with OpenCV's semi-global matcher (three-way mode) on the same
 // quarter-size pair in the same run. Compare processor times and their ratio; wall times on a busy machine say little.
 //   live_relief_bench LEFT RIGHT RIG.yml [ROUNDS] [OUT.png]
 // OUT.png: the depth as grey values, near is bright, black is unknown.
@@ -15,6 +15,7 @@
 
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/relief/live_relief.h"
 #include "pipeline/gate/relief/small_pair.h"
 #include "pipeline/match/rectify/rectifier.h"
@@ -78,6 +79,15 @@ int run(int argc, char** argv) {
   const Time ours = median_of(rounds, [&] { look(); });
   std::printf("live relief   %6.1f ms processor, %6.1f ms wall: %.1f a second on two free cores or more; scratch %.1f MB, output %.1f MB\n", ours.cpu_ms,
               ours.wall_ms, 2000 / ours.cpu_ms, 1e-6 * static_cast<double>(work.scratch.high_water()), 1e-6 * static_cast<double>(work.output.high_water()));
+  auto gate = need(pipeline::CaptureGate::open());
+  pipeline::GateHistory history;
+  pipeline::GateTime now{};
+  const Time whole = median_of(2 * rounds, [&] {
+    work.output.reset();
+    now += std::chrono::milliseconds(66);
+    need(pipeline::run_stage(work.context, [&](auto& context) { return gate.look(frame, calibration, now, history, context); }));
+  });
+  std::printf("whole look    %6.1f ms processor, %6.1f ms wall: %.1f a second on one core\n", whole.cpu_ms, whole.wall_ms, 1000 / whole.cpu_ms);
   if (argc > 5) draw(look(), argv[5]);
   work.output.reset();
   pipeline::StageContext& c = work.context;
