@@ -64,20 +64,21 @@ pipeline::Vec2d project(const pipeline::CameraIntrinsics& camera, const pipeline
 
 class Package : public testing::Test {
  protected:
-  void done(const std::vector<std::string>& words) {
+  testing::AssertionResult done(const std::vector<std::string>& words) {
     const Said said = run_program(words, here.path());
-    ASSERT_EQ(said.exit_code, 0) << words[0] << " " << words[1] << "\n" << said.out << said.err;
+    if (said.exit_code == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << words[0] << " " << words[1] << "\n" << said.out << said.err;
   }
   TemporaryFolder here;
 };
 
 TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
-  done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()});
-  done({RELIEVO_CMAKE, "-S", RELIEVO_EXAMPLES "/two_pictures_to_ply", "-B", "example", "-DCMAKE_BUILD_TYPE=Release",
-        "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER, "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()});
-  done({RELIEVO_CMAKE, "--build", "example"});
-  done({RELIEVO_BINARY, "simulate", "face", "--seed", "4", "--scale", "0.5", "--truth", "-o", "face"});
-  done({(here / "example" / "two_pictures_to_ply").string(), "face/left.png", "face/right.png", "face/rig.yml", "face.ply"});
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()}));
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "-S", RELIEVO_EXAMPLES "/two_pictures_to_ply", "-B", "example", "-G", RELIEVO_GENERATOR, "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER, "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}));
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--build", "example"}));
+  ASSERT_TRUE(done({RELIEVO_BINARY, "simulate", "face", "--seed", "4", "--scale", "0.5", "--truth", "-o", "face"}));
+  ASSERT_TRUE(done({(here / "example" / "two_pictures_to_ply").string(), "face/left.png", "face/right.png", "face/rig.yml", "face.ply"}));
 
   const Ply ply = read_ply(here / "face.ply");
   ASSERT_TRUE(ply.whole);
@@ -105,9 +106,9 @@ TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
 
 // Who links an older or a newer library than the program was written for is told.
 TEST_F(Package, AnotherVersionIsRefused) {
-  done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()});
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()}));
   write_text(here / "CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(relievo 7.0 REQUIRED)\n");
-  const Said said = run_program({RELIEVO_CMAKE, "-S", ".", "-B", "b", "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
+  const Said said = run_program({RELIEVO_CMAKE, "-S", ".", "-B", "b", "-G", RELIEVO_GENERATOR, "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
                                  "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}, here.path());
   EXPECT_NE(said.exit_code, 0);
   EXPECT_NE(said.err.find("relievo"), std::string::npos) << said.err;

@@ -10,6 +10,7 @@
 #include "firmware/checks/target_calibration.h"
 #include "hal/sim/rig.h"
 #include "tests/firmware/checks/target_rig.h"
+#include "tests/support/proof.h"
 
 namespace relievo::firmware {
 namespace {
@@ -79,6 +80,7 @@ TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
 }
 
 TEST(OpticalCheck, ABaselineWrongByOnePercentFailsTheSphereSpacing) {
+  RELIEVO_MANY_TRIALS();
   pipeline::StereoCalibration wrong = calibrated();
   wrong.right_from_left.translation_mm.x *= 1.01;
   wrong.right_from_left.translation_mm.y *= 1.01;
@@ -94,6 +96,7 @@ TEST(OpticalCheck, ABaselineWrongByOnePercentFailsTheSphereSpacing) {
 }
 
 TEST(OpticalCheck, ALensTermOfTheWrongSignFailsTheFlatness) {
+  RELIEVO_MANY_TRIALS();
   pipeline::StereoCalibration wrong = calibrated();
   wrong.right.distortion[0] = -wrong.right.distortion[0];
   OpticalCheckOptions options = few();
@@ -105,6 +108,7 @@ TEST(OpticalCheck, ALensTermOfTheWrongSignFailsTheFlatness) {
 }
 
 TEST(OpticalCheck, SpheresThatAreNotAsCertifiedFailSizeAndSpacing) {
+  RELIEVO_MANY_TRIALS();
   TargetRig rig;
   rig.true_targets.emplace();
   rig.true_targets->sphere_diameter_mm = 61;

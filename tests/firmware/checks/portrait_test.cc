@@ -16,6 +16,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/firmware/checks/target_rig.h"
 #include "tests/support/lying_sensor.h"
+#include "tests/support/proof.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -90,6 +91,7 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
 
 // Pictures that nobody turns back give the same face, upright in its own frame.
 TEST(Portrait, LyingSensorsGiveTheSameFace) {
+  RELIEVO_MANY_TRIALS();
   const test::TemporaryFolder folder;
   hal::sim::SimulationOptions face;
   face.rig = portrait();

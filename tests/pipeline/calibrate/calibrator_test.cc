@@ -12,6 +12,7 @@
 #include "pipeline/calibrate/report/calibration_report.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 #include "tests/support/lying_sensor.h"
+#include "tests/support/proof.h"
 
 namespace relievo::tests {
 namespace {
@@ -75,6 +76,7 @@ TEST(Calibrator, FindsARigOfLyingSensors) {
 
 // The noise of the corners and nothing else: no view may be called wrong.
 TEST(Calibrator, KeepsAllViewsOfAFirmRig) {
+  RELIEVO_MANY_TRIALS();
   const SimulatedRig rig;
   int left_out = 0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -105,7 +107,7 @@ TEST_P(CalibratorWithMovedViews, NamesThemAllAndKeepsTheRest) {
   const SimulatedRig rig;
   const Disturbed& p = GetParam();
   int wrongly_out = 0;
-  for (unsigned seed = 1; seed <= 5; ++seed) {
+  for (unsigned seed = 1; seed <= test::trials(5); ++seed) {
     BoardSimulator boards(rig, 0.08, 100 + seed);
     std::vector<bool> moved;
     for (int i = 0; i < p.good + p.bad; ++i) {
@@ -138,6 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Shares, CalibratorWithMovedViews,
 
 // A rig that always shakes a little: that is said, and what shakes as usual stays in.
 TEST(Calibrator, SaysThatARigDoesNotHoldStill) {
+  RELIEVO_MANY_TRIALS();
   int left_out = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     BoardSimulator boards(SimulatedRig{}, 0.08, 200 + seed);

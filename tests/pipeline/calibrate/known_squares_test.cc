@@ -6,6 +6,7 @@
 
 #include "pipeline/calibrate/calibrator.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
+#include "tests/support/proof.h"
 
 namespace relievo::tests {
 namespace {
@@ -44,6 +45,7 @@ TEST(KnownSquares, GrowsWithTheNoise) {
 // A right camera that turns along the rows by `turn` misplaces depth by turn * z² / baseline, and leaves
 // the epipolar lines alone.
 TEST(KnownSquares, MeasureATurnThatEpipolarLinesDoNotShow) {
+  RELIEVO_MANY_TRIALS();
   const SimulatedRig rig;
   BoardSimulator boards(rig, 0.02, 13);
   constexpr double kMost = 7e-4;

@@ -7,6 +7,7 @@
 
 #include "pipeline/calibrate/quality/uncertainty.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
+#include "tests/support/proof.h"
 
 namespace relievo::tests {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 // Error over predicted sigma of every number of the calibration, on many rigs: were the sigmas true, it
 // would be a standard normal deviate (but for k1, k2, k3, which the priors hold between the views).
 TEST(ParameterUncertainty, ErrorsAreAsLargeAsSaid) {
+  RELIEVO_MANY_TRIALS();
   constexpr int kRigs = 30;
   double lens = 0;
   double relation = 0;
@@ -48,6 +50,7 @@ TEST(ParameterUncertainty, ErrorsAreAsLargeAsSaid) {
 
 // The rotation vector of the rig is (turn) itself, so its error can be read off.
 TEST(ParameterUncertainty, TurnsAreInDegrees) {
+  RELIEVO_MANY_TRIALS();
   double square = 0;
   constexpr int kSets = 24;
   const SimulatedRig rig;

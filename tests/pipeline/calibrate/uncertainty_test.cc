@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/calibrate/predicted_error.h"
+#include "tests/support/proof.h"
 
 namespace relievo::tests {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 // A smoke of what tests/bench/calibration_coverage proves with 600 rigs: bounds are three standard
 // errors of so few cases wide.
 TEST(CalibrationUncertainty, TheTrueErrorLiesInThePredictedBand) {
+  RELIEVO_MANY_TRIALS();
   PredictedError error;
   for (unsigned seed = 1; seed <= 40; ++seed)
     ASSERT_TRUE(error.add(seed, seed % 2 == 0 ? 0.05 : 0.2, 6 + static_cast<int>(seed % 10)));

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/calibrate/simulated_boards.h"
+#include "tests/support/proof.h"
 
 namespace relievo::tests {
 namespace {
@@ -62,6 +63,7 @@ TEST(Verdict, AllAlike) {
 }
 
 TEST(Verdict, NotExposedTogether) {
+  RELIEVO_MANY_TRIALS();
   for (unsigned seed = 1; seed <= 4; ++seed) {
     BoardSimulator boards(SimulatedRig{}, 0.05, 20 + seed);
     for (int i = 0; i < 16; ++i) {
@@ -77,6 +79,7 @@ TEST(Verdict, NotExposedTogether) {
 }
 
 TEST(Verdict, CamerasThatShake) {
+  RELIEVO_MANY_TRIALS();
   for (unsigned seed = 1; seed <= 4; ++seed) {
     BoardSimulator boards(SimulatedRig{}, 0.05, 30 + seed);
     for (int i = 0; i < 16; ++i) {

@@ -9,6 +9,7 @@
 
 #include "pipeline/workspace.h"
 #include "tests/support/head_album.h"
+#include "tests/support/proof.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -123,6 +124,7 @@ TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
 }
 
 TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
+  RELIEVO_MANY_TRIALS();
   Rig a, b;
   const test::Shot& shot = album().shoot(kPerson, standing(560));
   for (int i = 0; i < 2; ++i) {

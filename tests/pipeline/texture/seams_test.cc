@@ -14,6 +14,7 @@
 #include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/two_view_texturer.h"
 #include "tests/support/colour_difference.h"
+#include "tests/support/proof.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/stage_bench.h"
 #include "tests/support/texture_seams.h"
@@ -117,6 +118,7 @@ hal::sim::SimRig* SeamsOfAFace::rig = nullptr;
 hal::sim::Scene* SeamsOfAFace::scene = nullptr;
 
 TEST_F(SeamsOfAFace, CannotBeSeenHoweverUnequalTheExposures) {
+  RELIEVO_MANY_TRIALS();
   for (const double exposure : {1.0, 0.6}) {
     const test::SeamReport report = seams(exposure);
     print(exposure, report);

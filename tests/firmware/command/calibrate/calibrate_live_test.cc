@@ -11,6 +11,7 @@
 #include "hal/sim/board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/pipeline/calibrate/live/held_board_pictures.h"
+#include "tests/support/proof.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::tests {
@@ -47,6 +48,7 @@ Practice practise(unsigned seed, const firmware::HandOptions& options = {}) {
 }
 
 TEST(AdvisedHand, ReachesTheGoalInFewViewsAndTheErrorIsAsPredicted) {
+  RELIEVO_MANY_TRIALS();
   constexpr unsigned kSeeds = 10;
   double squared = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {

@@ -11,6 +11,7 @@
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/stage_room.h"
+#include "tests/support/proof.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -53,6 +54,7 @@ void expect_same_frame(const Look& a, const Look& b) {
 }
 
 TEST(Landmarks, TheFrameOfAHeadThatTurnsStaysWithin07) {
+  RELIEVO_MANY_TRIALS();
   StageRoom room;
   for (const std::uint32_t seed : {3U}) {
     const FieldHead head(seed);

@@ -15,6 +15,7 @@
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/stage_room.h"
+#include "tests/support/proof.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -72,6 +73,7 @@ RigidFace moved(RigidFace face, const RigidTransform& t) {
 }
 
 TEST(FaceComparison, TheSameHeadTurnedIsNearerThanAnyOther) {
+  RELIEVO_MANY_TRIALS();
   StageRoom room;
   const Seen straight = see(3, 0, room), turned = see(3, 25, room);
   const FaceDifference same = compared(straight.face, turned.face);
