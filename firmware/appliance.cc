@@ -105,7 +105,40 @@ void Appliance::note(const pipeline::DriftJudgement& drift) {
     calibration_note_ = pipeline::sentence(drift);
 }
 
+JobThread& Appliance::thread_at(JobPlace place) {
+  return place == JobPlace::Capture ? capture_ : place == JobPlace::Worker ? worker_ : keeper_;
+}
+
+Result<void> Appliance::start_side_job(JobPlace place, Job& job) {
+  RELIEVO_TRY_ASSIGN(side_jobs_[static_cast<std::size_t>(place)], thread_at(place).start(job));
+  return {};
+}
+
+void Appliance::cancel_side_job(JobPlace place) {
+  if (side_jobs_[static_cast<std::size_t>(place)] != 0) thread_at(place).cancel();
+}
+
+void Appliance::end_side_job(JobPlace place) {
+  if (side_jobs_[static_cast<std::size_t>(place)] == 0) return;
+  thread_at(place).cancel();
+  thread_at(place).wait_until_idle();
+  side_jobs_[static_cast<std::size_t>(place)] = 0;
+}
+
+float Appliance::side_progress(JobPlace place) const {
+  const JobThread& thread = place == JobPlace::Capture ? capture_ : place == JobPlace::Worker ? worker_ : keeper_;
+  return side_jobs_[static_cast<std::size_t>(place)] == 0 ? 0 : thread.progress();
+}
+
+void Appliance::heard_side(std::size_t place, const JobReport& report) {
+  side_jobs_[place] = 0;
+  if (side_listener_) side_listener_(static_cast<JobPlace>(place), report.error);
+}
+
 void Appliance::heard(const JobReport& report) {
+  for (std::size_t i = 0; i < kJobPlaces; ++i) {
+    if (report.job == side_jobs_[i] && report.job != 0) return heard_side(i, report);
+  }
   if (report.job != job_) return;  // of a state that was left
   running_ = nullptr;
   job_ = 0;
@@ -122,6 +155,10 @@ void Appliance::heard(const JobReport& report) {
 }
 
 void Appliance::start(JobThread& thread, Job& job) {
+  if (thread.busy()) {  // with work of the staff's pages: a visitor comes first, its report still comes
+    thread.cancel();
+    thread.wait_until_idle();
+  }
   const Result<JobId> id = thread.start(job);
   RELIEVO_ASSERT(id.has_value());  // entered() has stopped the job before
   running_ = &thread;
@@ -208,13 +245,11 @@ void Appliance::entered(const Change& change) {
       break;
     case State::Idle:
     case State::Fault: session_.close(); break;
-    case State::Calibrate:
-    case State::Export:
-      note(Error{Errc::Unsupported, "is not done at the screen yet: use the command of that name"}.at(name_of(change.to)));
-      return handle(Event::StageFailed);
     case State::Review:
       if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
       break;
+    case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
+    case State::Export:
     case State::Technician:
     case State::Count: break;
   }

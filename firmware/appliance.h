@@ -11,6 +11,8 @@
 // Thread: main. Errors: none are returned; problem() holds the last one, for screen and command.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,6 +26,10 @@
 #include "ui/intent.h"
 
 namespace relievo::firmware {
+
+// The three threads, as a place for work that belongs to no visitor's state.
+enum class JobPlace : std::uint8_t { Capture, Worker, Keeper };
+inline constexpr std::size_t kJobPlaces = 3;
 
 class Appliance {
  public:
@@ -63,6 +69,18 @@ class Appliance {
   LiveFeed& live() { return session_.live(); }
   // Of the present or last session; kept until the next begins.
   const std::vector<StageRecord>& records() const { return records_; }
+  // Work of the staff's pages, beside the states' own (firmware/service/errands.h). InvalidState: the
+  // thread is busy. A state that needs the thread stops such work and waits for it to end.
+  Result<void> start_side_job(JobPlace place, Job& job);
+  void cancel_side_job(JobPlace place);
+  void end_side_job(JobPlace place);   // waits until it has stopped; it is not reported any more
+  float side_progress(JobPlace place) const;
+  void on_side_report(std::function<void(JobPlace, const std::optional<Error>&)> listener) { side_listener_ = std::move(listener); }
+  // What Calibrate or Export was entered for has ended: back to Technician.
+  void end_service_state(bool done) { handle(done ? Event::StageDone : Event::StageFailed); }
+  // For work on the capture thread.
+  StereoGrabber& grabber() { return grabber_; }
+  EnrolmentSession& session() { return session_; }
   // Called after every change of state, when what it starts has started.
   void on_change(std::function<void(const Change&)> listener) { listener_ = std::move(listener); }
 
@@ -74,6 +92,8 @@ class Appliance {
   bool open_session();
   void start(JobThread& thread, Job& job);
   void stop_job();
+  JobThread& thread_at(JobPlace place);
+  void heard_side(std::size_t place, const JobReport& report);
   void heard(const JobReport& report);
   void note(const Error& error);
   void note(const pipeline::DriftJudgement& drift);
@@ -97,6 +117,8 @@ class Appliance {
   std::function<void(const Change&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
   JobId job_ = 0;
+  std::array<JobId, kJobPlaces> side_jobs_{};
+  std::function<void(JobPlace, const std::optional<Error>&)> side_listener_;
   JobReports reports_;
   JobThread capture_;
   JobThread worker_;

@@ -3,7 +3,10 @@
 //
 // The one file that names implementations: which board, which store, which simulation.
 #include <stdlib.h>
+#include <time.h>
 
+#include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -158,6 +161,16 @@ Result<pipeline::StereoCalibration> simulated_calibration() {
   return read;
 }
 
+Result<void> set_system_clock(std::chrono::system_clock::time_point time) {
+  const auto since = time.time_since_epoch();
+  const auto whole = std::chrono::floor<std::chrono::seconds>(since);
+  timespec at{};
+  at.tv_sec = static_cast<time_t>(whole.count());
+  at.tv_nsec = std::chrono::nanoseconds(since - whole).count();
+  if (clock_settime(CLOCK_REALTIME, &at) != 0) return Error{Errc::Unsupported, "the system's clock may not be set by this program: set it with timedatectl", errno};
+  return {};
+}
+
 }  // namespace
 }  // namespace relievo::firmware
 
@@ -165,6 +178,6 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock};
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock, fw::set_system_clock};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

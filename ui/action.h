@@ -19,12 +19,18 @@ enum class ActionKind : std::uint8_t {
   TakePicture, Accept, Retake,
   TurnFace,                              // dragged
   TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,
-  Finish
+  Finish,
+  StaffEnter, StaffLeave,                // the staff's side (ui/service.h)
+  StaffOpen,                             // value: a StaffPage
+  StaffDo,                               // value: one of the page's verbs, detail: its number
+  StaffAnswer,                           // the same, and the page's mode is its first again
+  StaffMode, StaffChoose                 // value: the page's mode; a row, detail: the mode
 };
 
 struct Action {
   ActionKind kind = ActionKind::None;
   std::int32_t value = 0;
+  std::int32_t detail = 0;
   bool operator==(const Action&) const = default;
 };
 

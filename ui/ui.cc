@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/screens/service/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
@@ -35,6 +36,8 @@ void Ui::feed(const Input& input, const ViewState& view) {
   if (input.kind != Input::Kind::Quit) {
     const bool asked = visit_.overlay == Overlay::StillThere;
     visit_.touched(view.now);
+    service_.touched(view.now);
+    if (input.kind == Input::Kind::Down) pressed_at_ = view.now;
     if (input.kind == Input::Kind::Down || input.kind == Input::Kind::Activate) ask(Intent::StillHere);
     if (asked && input.kind == Input::Kind::Down) return;  // the touch that wakes does nothing else
   }
@@ -47,7 +50,9 @@ void Ui::feed(const Input& input, const ViewState& view) {
     case Input::Kind::Activate:
       if (const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr) activate(*node, view);
       return;
-    case Input::Kind::Back: return ask(visit_.act({ActionKind::Back, 0}, view));
+    case Input::Kind::Back:
+      if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
+      return ask(visit_.act({ActionKind::Back, 0}, view));
     case Input::Kind::Quit: return;
   }
 }
@@ -93,12 +98,18 @@ void Ui::up(const Input& input, const ViewState& view) {
     if (!finger.down || finger.id != input.finger) continue;
     finger.down = false;
     const Node* node = tree_.at(input.x, input.y);
-    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed) activate(*node, view);
+    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold) activate(*node, view);
     hands_.pressed.clear();
   }
 }
 
 void Ui::activate(const Node& node, const ViewState& view) {
+  if (visit_.overlay == Overlay::None && service_.takes(node.action.kind)) {
+    if (node.action.kind != ActionKind::TypeKey) return service_.act(node.action, view);
+    service_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
+    visit_.capitals = false;
+    return;
+  }
   if (node.action.kind == ActionKind::TypeKey) return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
   ask(visit_.act(node.action, view));
 }
@@ -121,33 +132,52 @@ void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& othe
 }
 
 void Ui::frame(const ViewState& view) {
+  follow_staff(view);
   ask(visit_.follow(view));
-  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_;
+  const std::optional<StaffPage> page = service_.open ? std::optional(service_.page) : std::nullopt;
+  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_ || page != last_page_ || service_.mode != last_mode_;
   if (moved_on) {
     hands_.scrolled.clear();
     hands_.scroll_px = 0;
     hands_.pressed.clear();
     hands_.show_focus = false;
   }
-  if (visit_.step == Step::Attract && last_step_ != Step::Attract) {
+  if ((visit_.step == Step::Attract && last_step_ != Step::Attract) || page != last_page_) {
     forgotten_ = true;
+    visit_.look = {};
     text_->forget();
   }
+  last_page_ = page;
+  last_mode_ = service_.mode;
   last_step_ = visit_.step;
   last_overlay_ = visit_.overlay;
   draw(view);
 }
 
-void Ui::show(const ViewState& view, const Visit& visit) {
+// The way in is held, so that a child's finger does not open it; a keypad opens it at once.
+void Ui::follow_staff(const ViewState& view) {
+  const Node* held = hands_.pressed.empty() ? nullptr : tree_.find(hands_.pressed);
+  if (held != nullptr && held->hold && view.now - pressed_at_ >= kHold) {
+    const Node node = *held;
+    hands_.pressed.clear();
+    activate(node, view);
+  }
+  service_.follow(view);
+  if (service_.open) visit_.touched(view.now);  // a member of staff has a clock of their own
+}
+
+void Ui::show(const ViewState& view, const Visit& visit, const Service& service) {
   visit_ = visit;
+  service_ = service;
   draw(view);
 }
 
 void Ui::draw(const ViewState& view) {
   const Rect screen{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
-  const Palette& palette = build_visitor_screen(tree_, view, visit_, screen);
+  const Palette& palette = service_.open ? build_staff_screen(tree_, view, visit_, service_, screen) : build_visitor_screen(tree_, view, visit_, screen);
   tree_.layout(screen, *text_, hands_);
-  fill_pictures(list_, view, visit_);
+  if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
+  else fill_pictures(list_, view, visit_);
   // A full atlas starts anew: then what was written before it did is written again.
   for (int round = 0; round < 2; ++round) {
     const std::uint32_t generation = text_->atlas().generation();

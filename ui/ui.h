@@ -16,6 +16,7 @@
 
 #include "ui/input.h"
 #include "ui/intent.h"
+#include "ui/service.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"
 #include "ui/view_state.h"
@@ -30,11 +31,12 @@ class Ui {
   void resize(int width_px, int height_px) { width_px_ = width_px, height_px_ = height_px; }
   void feed(const Input& input, const ViewState& view);
   void frame(const ViewState& view);
-  // The frame of another visit: for screenshots and tests.
-  void show(const ViewState& view, const Visit& visit);
+  // The frame of another visit, or of the staff's side: for screenshots and tests.
+  void show(const ViewState& view, const Visit& visit, const Service& service = {});
 
   std::optional<Intent> take_intent();
   Wish wish() const;
+  std::optional<StaffWish> take_staff_wish() { return service_.take_wish(); }
   // The person has gone since the last call: pictures of them in other hands are to be wiped, too.
   bool take_forgotten();
 
@@ -43,6 +45,8 @@ class Ui {
   const Tree& tree() const { return tree_; }
   Visit& visit() { return visit_; }
   const Visit& visit() const { return visit_; }
+  Service& service() { return service_; }
+  const Service& service() const { return service_; }
 
  private:
   struct Finger {
@@ -53,6 +57,7 @@ class Ui {
   };
   static constexpr std::size_t kIntents = 8;
   void draw(const ViewState& view);
+  void follow_staff(const ViewState& view);
   void ask(std::optional<Intent> intent);
   void down(const Input& input);
   void move(const Input& input);
@@ -64,6 +69,7 @@ class Ui {
 
   std::unique_ptr<TextEngine> text_;
   Visit visit_;
+  Service service_;
   Tree tree_;
   Interaction hands_;
   DrawList list_;
@@ -72,6 +78,9 @@ class Ui {
   std::size_t intent_count_ = 0;
   Step last_step_ = Step::Starting;
   Overlay last_overlay_ = Overlay::None;
+  std::optional<StaffPage> last_page_;     // none: the visitor's side
+  int last_mode_ = 0;
+  hal::Instant pressed_at_{};
   bool forgotten_ = false;
   int width_px_ = 1280, height_px_ = 800;
 };

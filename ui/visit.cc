@@ -136,6 +136,13 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Finish: return act_on_path(action.kind, view);
     case ActionKind::TypeKey:
     case ActionKind::TurnFace:
+    case ActionKind::StaffEnter:
+    case ActionKind::StaffLeave:
+    case ActionKind::StaffOpen:
+    case ActionKind::StaffDo:
+    case ActionKind::StaffAnswer:
+    case ActionKind::StaffMode:
+    case ActionKind::StaffChoose:
     case ActionKind::None: break;
   }
   return std::nullopt;

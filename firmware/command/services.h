@@ -37,6 +37,8 @@ struct Services {
   std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display;
   Console& console;
   const hal::Clock& clock;
+  // Sets the system's clock; may be empty. Errors: Unsupported (it may not).
+  std::function<Result<void>(std::chrono::system_clock::time_point)> set_clock{};
 };
 
 // Does what was asked for. Returns the exit code; the error, if any, is told.

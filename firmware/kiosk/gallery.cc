@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/gallery.h"
 
+#include "firmware/kiosk/staff_gallery.h"
+
 namespace relievo::firmware {
 namespace {
 
@@ -43,7 +45,7 @@ class Gallery {
     visit.type(kNames[static_cast<std::size_t>(visit.language)]);
     return visit;
   }
-  void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) { exhibits.push_back({name, view, visit}); }
+  void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) { exhibits.push_back({name, view, visit, {}}); }
 
   void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
     ui::ViewState view = idle();
@@ -116,6 +118,7 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add_trouble("trouble_store", Trouble::Storage, Screen::Fault);
   g.add_trouble("trouble_time", Trouble::TookTooLong, Screen::Idle);
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
+  if (ui::staff_language(language) == language) add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
   return std::move(g.exhibits);
 }
 

@@ -39,6 +39,7 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 }
 
 Kiosk::~Kiosk() {
+  desk_.reset();
   appliance_.reset();
   wipe(receipt_);
 }
@@ -71,6 +72,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   else services.console.fail(piece.error());  // a page without its head is still a page
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
   appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, guide_.get()});
+  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   look();
   return {};
 }
@@ -95,6 +97,12 @@ void Kiosk::look() {
   view_.wall_now = board_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
   if (showpiece_) view_.showpiece = &showpiece_->model();
+  view_.service = &desk_->view();
+}
+
+void Kiosk::feed(const ui::Input& input) {
+  ui_->feed(input, view_);
+  if (ui_->service().open) desk_->touched();
 }
 
 void Kiosk::ask(ui::Intent intent) {
@@ -109,8 +117,15 @@ void Kiosk::ask(ui::Intent intent) {
 
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
+  desk_->turn();
   look();
   ui_->frame(view_);
+  while (const auto wish = ui_->take_staff_wish()) {
+    desk_->ask(*wish);
+    desk_->turn();
+    look();
+    ui_->frame(view_);
+  }
   // What was asked for may have wiped what the frame shows: then it is made again.
   while (const auto intent = ui_->take_intent()) {
     ask(*intent);

@@ -17,6 +17,7 @@
 #include "firmware/appliance.h"
 #include "firmware/command/services.h"
 #include "firmware/kiosk/showpiece.h"
+#include "firmware/service/desk.h"
 #include "firmware/work/pipeline_stages.h"
 #include "ui/ui.h"
 
@@ -29,7 +30,7 @@ class Kiosk {
   Kiosk(const Kiosk&) = delete;
   Kiosk& operator=(const Kiosk&) = delete;
 
-  void feed(const ui::Input& input) { ui_->feed(input, view_); }
+  void feed(const ui::Input& input);
   // One turn of the main loop: hears what has happened, makes the next frame.
   void turn();
   // A visit has ended: what the renderer keeps of it must go.
@@ -38,6 +39,7 @@ class Kiosk {
   ui::Ui& ui() { return *ui_; }
   const ui::ViewState& view() const { return view_; }
   const Appliance& appliance() const { return *appliance_; }
+  const Desk& desk() const { return *desk_; }
   const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
 
  private:
@@ -65,7 +67,8 @@ class Kiosk {
   std::string receipt_;         // written by the keeper while the state is Store
   ui::ViewState view_;
   bool forgotten_ = false;
-  std::unique_ptr<Appliance> appliance_;  // last: its threads use everything above
+  std::unique_ptr<Appliance> appliance_;  // its threads use everything above
+  std::unique_ptr<Desk> desk_;            // last: it uses the appliance
 };
 
 }  // namespace relievo::firmware

@@ -124,7 +124,7 @@ class Photographer {
     picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
     int number = 0;
     for (const Exhibit& exhibit : exhibits) {
-      ui_.show(exhibit.view, exhibit.visit);
+      ui_.show(exhibit.view, exhibit.visit, exhibit.service);
       target->begin();
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);
       renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, size.width_px, size.height_px);

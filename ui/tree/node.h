@@ -47,6 +47,7 @@ struct Node {
   Action action{};
   bool modal = false;        // nothing under it can be touched
   bool drags = false;
+  bool hold = false;         // done by a finger that rests (ui/service.h: kHold), not by a tap
   Mark mark = Mark::Shape;   // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
   float aspect = 0;          // of the picture: width over height

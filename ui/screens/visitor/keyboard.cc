@@ -43,20 +43,20 @@ Node row_box(Page& page) {
   return row;
 }
 
-void last_row(Page& page) {
+void last_row(Page& page, Action done) {
   page.tree.open(page.box(Flow::Row, 10));
   if (has_capitals(page.visit.language)) {
     const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
     key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
   }
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
-  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main, page.visit.name().empty() ? Action{} : Action{ActionKind::Done, 0}, page.portrait ? 1.5F : 1.0F);
+  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main, done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done, page.portrait ? 1.5F : 1.0F);
   page.tree.close();
 }
 
 }  // namespace
 
-void keyboard(Page& page) {
+void keyboard(Page& page, Action done) {
   Node board = page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F);
   board.id = "keyboard";
   board.box.along = Along::End;
@@ -74,7 +74,7 @@ void keyboard(Page& page) {
     if (last) key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0});
     page.tree.close();
   }
-  last_row(page);
+  last_row(page, done);
   page.tree.close();
 }
 

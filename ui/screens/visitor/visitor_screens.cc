@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/visitor/visitor_screens.h"
 
+#include "ui/screens/service/staff_screens.h"
+
 namespace relievo::ui {
 namespace {
 
@@ -40,6 +42,7 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
   root.id = "screen";
   tree.open(root);
   step_screen(page);
+  staff_entrance(page);
   if (visit.overlay != Overlay::None) {
     Page over(tree, view, visit, visit.high_contrast ? kHighContrast : kLight, screen);
     overlay_screen(over);

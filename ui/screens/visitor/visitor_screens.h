@@ -23,7 +23,8 @@ void language_grid(Page& page, std::size_t columns);
 void attract_screen(Page& page);
 void consent_screen(Page& page);
 void name_screen(Page& page);
-void keyboard(Page& page);
+// `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
+void keyboard(Page& page, Action done = {ActionKind::Done, 0});
 void position_screen(Page& page);
 void working_screen(Page& page);
 void review_screen(Page& page);

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/staff_gallery.h"
+
+#include <array>
+#include <deque>
+
+#include "ui/records_view.h"
+#include "ui/staff_views.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::Mood;
+using ui::ServiceView;
+using ui::StaffPage;
+using ui::StaffRole;
+
+constexpr ui::StatisticsView kStatistics{"2026-03-02", 412, 455, 398, 371, 27, {21, 14, 9, 0, 2, 6, 5}, 2.75, 4.25};
+constexpr std::array kGauges{
+    ui::GaugeRow{ui::Gauge::Stages, {}, 311, 960, Mood::Good},
+    ui::GaugeRow{ui::Gauge::Process, {}, 894, 1536, Mood::Good},
+    ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn},
+    ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 61, 0, Mood::Good},
+};
+constexpr std::array<std::string_view, 2> kFaults{"2026-03-14 10:21:09  fault: the camera is away: look at its cable",
+                                                  "2026-03-14 09:02:44  fault: took longer than its limit: try again"};
+constexpr ui::HealthView kHealth{kGauges, kFaults};
+
+constexpr std::array kPeople{
+    ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "000431-87", 1},
+    ui::RecordRow{430, "Jürgen Müller", "2026-03-14 09:03", "000430-89", 2},
+    ui::RecordRow{429, "ليلى حسن", "2026-03-13 16:48", "000429-91", 1},
+    ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
+    ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
+};
+constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, false, false};
+constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, false, false};
+constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, false};
+constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true};
+
+ServiceView at(StaffRole role) {
+  ServiceView view;
+  view.role = role;
+  return view;
+}
+
+// Every page, as a view that lives as long as the program.
+struct Shown {
+  std::string_view name;
+  StaffPage page;
+  int mode;
+  ServiceView view;
+};
+
+std::deque<Shown> make_shown() {
+  std::deque<Shown> all;
+  ServiceView door;
+  all.push_back({"staff_pin", StaffPage::Pin, 0, door});
+  door.access.wait_s = 300;
+  all.push_back({"staff_pin_locked", StaffPage::Pin, 0, door});
+  ServiceView fresh;
+  fresh.access.set_up = false;
+  fresh.access.clock = "2026-03-14 10:21:09";
+  all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
+  all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
+  fresh.access.clock_right = true;
+  fresh.access.fault = ui::PinFault::Simple;
+  all.push_back({"staff_first_pin", StaffPage::FirstStart, 1, fresh});
+  all.push_back({"staff_technician", StaffPage::Menu, 0, at(StaffRole::Technician)});
+  ServiceView leaving = at(StaffRole::Operator);
+  leaving.leaves_in_s = 9;
+  all.push_back({"staff_operator", StaffPage::Menu, 0, leaving});
+  ServiceView records = at(StaffRole::Operator);
+  records.records = &kList;
+  all.push_back({"staff_records", StaffPage::Records, 0, records});
+  all.push_back({"staff_search", StaffPage::Records, 1, records});
+  records.work.outcome = ui::Outcome::StickGone;
+  all.push_back({"staff_stick_gone", StaffPage::Records, 0, records});
+  records.work = {true, 0.6F, ui::Outcome::None, {}};
+  all.push_back({"staff_export", StaffPage::Records, 0, records});
+  records.work = {};
+  records.records = &kNobody;
+  all.push_back({"staff_nobody", StaffPage::Records, 0, records});
+  records.records = &kOne;
+  all.push_back({"staff_record", StaffPage::Records, 0, records});
+  all.push_back({"staff_erase", StaffPage::Records, 2, records});
+  records.records = &kTaken;
+  records.work.outcome = ui::Outcome::Done;
+  all.push_back({"staff_exported", StaffPage::Records, 0, records});
+  ServiceView statistics = at(StaffRole::Operator);
+  statistics.statistics = &kStatistics;
+  all.push_back({"staff_statistics", StaffPage::Statistics, 0, statistics});
+  ServiceView health = at(StaffRole::Technician);
+  health.health = &kHealth;
+  all.push_back({"staff_health", StaffPage::Health, 0, health});
+  ServiceView pins = at(StaffRole::Operator);
+  pins.access.step = ui::PinStep::Own;
+  all.push_back({"staff_new_pin", StaffPage::Pins, 0, pins});
+  return all;
+}
+
+}  // namespace
+
+void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit) {
+  static const std::deque<Shown> all = make_shown();
+  for (const Shown& shown : all) {
+    Exhibit exhibit{shown.name, idle, visit, {}};
+    exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.service = &shown.view;
+    exhibit.service.show(shown.page, shown.mode);
+    exhibits.push_back(exhibit);
+  }
+}
+
+}  // namespace relievo::firmware

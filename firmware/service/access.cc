@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/access.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "firmware/service/pin_hash.h"
+#include "ui/service.h"
+
+namespace relievo::firmware {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr std::string_view kNone = "-";         // no PIN has been chosen
+constexpr int kFreeTries = 4;                  // each makes the next wait a little
+constexpr seconds kFirstLock{300}, kLongestLock{3600};
+
+}  // namespace
+
+seconds wait_after(int wrong) {
+  if (wrong <= 0) return seconds(0);
+  if (wrong <= kFreeTries) return seconds(1 << (wrong - 1));
+  const int doubled = std::min(wrong - kFreeTries - 1, 8);
+  return std::min(kLongestLock, kFirstLock * (1 << doubled));
+}
+
+bool is_simple(std::string_view pin) {
+  bool same = true, up = true, down = true;
+  for (std::size_t i = 1; i < pin.size(); ++i) {
+    same = same && pin[i] == pin[i - 1];
+    up = up && pin[i] == pin[i - 1] + 1;
+    down = down && pin[i] == pin[i - 1] - 1;
+  }
+  return same || up || down;
+}
+
+std::int64_t Access::now_s() const { return std::chrono::floor<seconds>(clock_.wall_now()).time_since_epoch().count(); }
+
+Result<Access::Record> Access::read() {
+  const Result<std::string> text = store_.setting(kAccessSetting);
+  if (!text && text.error().code == Errc::NotFound) return Record{};
+  if (!text) return text.error();
+  std::istringstream in(*text);
+  Record record;
+  std::string version;
+  if (!(in >> version >> record.technician >> record.clerk >> record.wrong >> record.wrong_at_s) || version != "1" || record.wrong < 0)
+    return Error{Errc::StoreCorrupt, "the staff's PINs cannot be read: restore a copy of the store"};
+  if (record.technician == kNone) record.technician.clear();
+  if (record.clerk == kNone) record.clerk.clear();
+  return record;
+}
+
+Result<void> Access::write(const Record& record) {
+  std::ostringstream out;
+  const auto word = [](const std::string& kept) { return kept.empty() ? std::string(kNone) : kept; };
+  out << "1 " << word(record.technician) << ' ' << word(record.clerk) << ' ' << record.wrong << ' ' << record.wrong_at_s;
+  return store_.set_setting(kAccessSetting, out.str());
+}
+
+Result<bool> Access::is_set_up() {
+  RELIEVO_TRY_ASSIGN(const Record record, read());
+  return !record.technician.empty() && !record.clerk.empty();
+}
+
+Result<seconds> Access::wait(Record& record) {
+  const std::int64_t now = now_s();
+  if (record.wrong > 0 && now < record.wrong_at_s) {
+    record.wrong_at_s = now;
+    RELIEVO_TRY(write(record));
+  }
+  return std::max(seconds(0), wait_after(record.wrong) - seconds(now - record.wrong_at_s));
+}
+
+Result<seconds> Access::wait() {
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  return wait(record);
+}
+
+Result<Attempt> Access::attempt(std::string_view pin) {
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  RELIEVO_TRY_ASSIGN(const seconds early, wait(record));
+  if (early > seconds(0)) return Attempt{ui::StaffRole::None, false, early};
+  ++record.wrong;
+  record.wrong_at_s = now_s();
+  RELIEVO_TRY(write(record));
+  // Both are looked at, whichever it is: the time tells nothing.
+  const bool technician = is_pin_of(pin, record.technician), clerk = is_pin_of(pin, record.clerk);
+  if (!technician && !clerk) return Attempt{ui::StaffRole::None, true, wait_after(record.wrong)};
+  record.wrong = 0;
+  RELIEVO_TRY(write(record));
+  return Attempt{technician ? ui::StaffRole::Technician : ui::StaffRole::Operator, false, seconds(0)};
+}
+
+Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
+  const bool digits = std::all_of(pin.begin(), pin.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || pin.size() < ui::kLeastPinDigits || pin.size() > ui::kMostPinDigits)
+    return Error{Errc::InvalidInput, "a PIN has four to eight digits"};
+  if (is_simple(pin)) return Error{Errc::InvalidInput, "this PIN is too easy to guess: choose another"};
+  RELIEVO_TRY_ASSIGN(const Record record, read());
+  if (is_pin_of(pin, role == ui::StaffRole::Technician ? record.clerk : record.technician))
+    return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
+  return {};
+}
+
+Result<void> Access::set(ui::StaffRole role, std::string_view pin) {
+  RELIEVO_TRY(check_new(role, pin));
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  if (record.technician.empty() || record.clerk.empty()) return Error{Errc::InvalidState, "choose both PINs first"};
+  RELIEVO_TRY_ASSIGN(role == ui::StaffRole::Technician ? record.technician : record.clerk, stretched(pin));
+  return write(record);
+}
+
+Result<void> Access::set_up(std::string_view technician, std::string_view clerk) {
+  RELIEVO_TRY(check_new(ui::StaffRole::Technician, technician));
+  RELIEVO_TRY(check_new(ui::StaffRole::Operator, clerk));
+  if (technician == clerk) return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
+  Record record;
+  RELIEVO_TRY_ASSIGN(record.technician, stretched(technician));
+  RELIEVO_TRY_ASSIGN(record.clerk, stretched(clerk));
+  return write(record);
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Access: who may go to the staff's side. Two PINs, kept stretched in the store's setting "access", with
+// the count of wrong tries: it is written before a PIN is looked at, so that pulling the plug gives no
+// further try. A wrong PIN makes the next wait; from the fifth on for minutes, an hour at most.
+// A clock that was set back begins the wait anew.
+//
+// Thread: the keeper, as the store. Errors: the store's; StoreCorrupt (the setting cannot be read).
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "storage/store.h"
+#include "ui/service_view.h"
+
+namespace relievo::firmware {
+
+inline constexpr const char* kAccessSetting = "access";
+
+struct Attempt {
+  ui::StaffRole role = ui::StaffRole::None;   // None: wrong, or too early
+  bool wrong = false;
+  std::chrono::seconds wait{0};               // until the next try
+};
+
+// How long the next try is put off after so many wrong ones in a row.
+std::chrono::seconds wait_after(int wrong);
+// All digits alike, or one after the other.
+bool is_simple(std::string_view pin);
+
+class Access {
+ public:
+  Access(storage::Store& store, const hal::Clock& clock) : store_(store), clock_(clock) {}
+
+  Result<bool> is_set_up();
+  Result<std::chrono::seconds> wait();
+  Result<Attempt> attempt(std::string_view pin);
+  // InvalidInput: not four to eight digits, or too simple. InvalidState: the other role has it.
+  Result<void> check_new(ui::StaffRole role, std::string_view pin);
+  Result<void> set(ui::StaffRole role, std::string_view pin);
+  // Both at once: a device is set up or it is not.
+  Result<void> set_up(std::string_view technician, std::string_view clerk);
+
+ private:
+  struct Record {
+    std::string technician, clerk;   // stretched
+    int wrong = 0;
+    std::int64_t wrong_at_s = 0;     // seconds since 1970, of the last wrong try
+  };
+  Result<Record> read();
+  Result<void> write(const Record& record);
+  Result<std::chrono::seconds> wait(Record& record);
+  std::int64_t now_s() const;
+
+  storage::Store& store_;
+  const hal::Clock& clock_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// DeskPage: what lies behind one page of the staff's side: the real objects. The screen's half is a
+// function in ui/screens/service/; this half answers its verbs and fills its view.
+//
+//   opened() -> ask(wish) ... show(view) every frame -> closed()
+//
+// What takes longer than a glance goes to Errands. closed() leaves nothing of anybody in memory.
+// Thread: main. Errors: told in ServiceView::work.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string_view>
+
+#include "firmware/service/errands.h"
+#include "firmware/service/event_log.h"
+#include "firmware/service/statistics.h"
+#include "hal/board.h"
+#include "storage/store.h"
+#include "ui/service.h"
+#include "ui/view_state.h"
+
+namespace relievo::firmware {
+
+// What a page may use. Borrowed; everything outlives the pages.
+struct DeskTools {
+  Appliance& appliance;
+  hal::Board& board;
+  storage::Store& store;   // on the keeper only
+  Errands& errands;
+  EventLog& log;
+  Statistics& statistics;
+  std::filesystem::path folder;   // of the store
+  std::chrono::seconds staff_patience{120};  // without a touch, until somebody is signed out
+};
+
+class DeskPage {
+ public:
+  explicit DeskPage(DeskTools& tools) : tools_(tools) {}
+  virtual ~DeskPage() = default;
+  DeskPage(const DeskPage&) = delete;
+  DeskPage& operator=(const DeskPage&) = delete;
+
+  virtual void opened() {}
+  virtual void ask(const ui::StaffWish&) {}
+  virtual void show(ui::ServiceView& view) = 0;
+  virtual void closed() {}
+
+ protected:
+  DeskTools& tools() { return tools_; }
+
+ private:
+  DeskTools& tools_;
+};
+
+// What an error means to who asked; and what it says to the log's reader.
+ui::Outcome outcome_of(const Error& error);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Errands: work the staff's pages have others do, so that the screen never waits. Each thread does one
+// at a time, the others queue; what an errand found out is handed to `done` on the main thread.
+//
+//   send(thread, work, done) --> work() on that thread --> done(error or nothing) on main
+//
+// Work looks at its JobControl; what it writes to must live as long as it runs: keep it in a
+// shared_ptr that both closures hold. cancel() drops what waits and asks what runs to end: its done()
+// is not called any more.
+// Thread: main. Errors: those of the work.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "firmware/appliance.h"
+
+namespace relievo::firmware {
+
+class Errands {
+ public:
+  using Work = std::function<Result<void>(JobControl&)>;
+  using Done = std::function<void(const std::optional<Error>&)>;
+
+  explicit Errands(Appliance& appliance);
+  ~Errands();
+  Errands(const Errands&) = delete;
+  Errands& operator=(const Errands&) = delete;
+
+  void send(JobPlace place, Work work, Done done);
+  // Starts what waits and can start: once every turn.
+  void turn();
+  // Asks what runs on that thread to end early; its done() hears Cancelled, or that it was done already.
+  void stop(JobPlace place) { appliance_.cancel_side_job(place); }
+  void cancel();
+  bool busy(JobPlace place) const { return lanes_[static_cast<std::size_t>(place)].running != nullptr; }
+  float progress(JobPlace place) const { return appliance_.side_progress(place); }
+
+ private:
+  struct Errand final : Job {
+    Work work;
+    Done done;
+    bool forgotten = false;
+    Result<void> run(JobControl& control) override { return work(control); }
+  };
+  struct Lane {
+    std::unique_ptr<Errand> running;
+    std::deque<std::unique_ptr<Errand>> waiting;
+  };
+  void heard(JobPlace place, const std::optional<Error>& error);
+
+  Appliance& appliance_;
+  std::array<Lane, kJobPlaces> lanes_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// EventLog: the last lines of what has happened, for the technician: a ring of fixed size in memory,
+// and a file that keeps the newest lines over a restart. Nobody's name goes into it: of an error only
+// its sentence is written, never the place, which may be somebody's.
+// Thread: any. Errors of save(): MediaFull, IoFailed.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "hal/clock.h"
+
+namespace relievo::firmware {
+
+class EventLog {
+ public:
+  static constexpr std::size_t kLines = 200, kLineBytes = 200, kFaults = 8;
+
+  // `file` is read where it is there; empty: nothing is kept.
+  EventLog(const hal::Clock& clock, std::filesystem::path file);
+
+  void say(std::string_view what);
+  void fault(const Error& error);
+
+  std::vector<std::string> lines() const;    // oldest first
+  std::vector<std::string> faults() const;   // since the start, newest first
+  bool unsaved() const;
+  Result<void> save();                       // on the keeper
+
+ private:
+  struct Line {
+    std::array<char, kLineBytes> text{};
+    std::size_t length = 0;
+    bool fault = false;
+  };
+  void put(std::string_view what, bool fault);
+
+  const hal::Clock& clock_;
+  std::filesystem::path file_;
+  mutable std::mutex mutex_;
+  std::array<Line, kLines> ring_{};
+  std::size_t first_ = 0, count_ = 0;
+  std::uint64_t said_ = 0, saved_ = 0;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/page/records_desk.h"
+
+#include <string.h>
+
+#include <algorithm>
+
+#include "firmware/command/wall_time.h"
+#include "firmware/kiosk/receipt.h"
+#include "firmware/service/export_records.h"
+#include "firmware/service/pin_hash.h"
+
+namespace relievo::firmware {
+namespace {
+
+// The models on the screen are numbered apart from the visitors'.
+constexpr std::uint32_t kFirstModel = 1U << 20;
+
+}  // namespace
+
+void RecordsDesk::wipe(Found& found) {
+  for (std::string* text : {&found.name, &found.since, &found.code}) wipe_text(*text);
+}
+
+void RecordsDesk::wipe(std::vector<Found>& found) {
+  for (Found& one : found) wipe(one);
+  found.clear();
+}
+
+RecordsDesk::Person::~Person() {
+  wipe(found);
+  wipe_text(consent);
+  if (!model) return;
+  // What a face looks like goes before its memory does.
+  explicit_bzero(model->texture.rgb.data(), model->texture.rgb.size());
+  auto& vertices = model->mesh.vertices_mm;
+  explicit_bzero(vertices.data(), vertices.size() * sizeof(pipeline::Vec3f));
+}
+
+void RecordsDesk::opened() {
+  forget();
+  ++visit_;
+  list();
+}
+
+void RecordsDesk::closed() {
+  ++visit_;
+  if (exporting_) {
+    tools().errands.stop(JobPlace::Keeper);
+    tools().appliance.ask(ui::Intent::Cancel);
+  }
+  exporting_ = false;
+  forget();
+}
+
+void RecordsDesk::forget() {
+  wipe(found_);
+  wipe_text(searched_);
+  person_.reset();
+  rows_.clear();
+  shown_ = {};
+  view_ = {};
+  skip_ = 0;
+  ready_ = erased_ = exported_ = false;
+  outcome_ = ui::Outcome::None;
+}
+
+void RecordsDesk::told(const std::optional<Error>& error) {
+  outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
+  if (error && error->code != Errc::Cancelled) tools().log.fault(*error);
+}
+
+void RecordsDesk::ask(const ui::StaffWish& wish) {
+  if (wish.verb == ui::kExportStop) return tools().errands.stop(JobPlace::Keeper);
+  if (exporting_) return;
+  erased_ = exported_ = false;
+  outcome_ = ui::Outcome::None;
+  switch (wish.verb) {
+    case ui::kRecordsSearch: return search(wish.text());
+    case ui::kRecordsNewer:
+      skip_ = std::max<std::int64_t>(0, skip_ - kPage);
+      return list();
+    case ui::kRecordsOlder:
+      skip_ += more_ ? kPage : 0;
+      return list();
+    case ui::kRecordShow: return load(wish.number);
+    case ui::kRecordErase: return erase(wish.number);
+    case ui::kRecordExport: return take_out(wish.number);
+    default: return;
+  }
+}
+
+void RecordsDesk::search(std::string_view text) {
+  wipe_text(searched_);
+  searched_ = text;
+  while (searched_.ends_with(' ')) searched_.pop_back();
+  skip_ = 0;
+  list();
+}
+
+void RecordsDesk::list() {
+  struct Listed {
+    std::string searched;
+    std::vector<Found> found;
+    ~Listed() {
+      wipe_text(searched);
+      wipe(found);
+    }
+  };
+  const auto listed = std::make_shared<Listed>();
+  listed->searched = searched_;
+  tools().errands.send(
+      JobPlace::Keeper,
+      [this, listed, skip = skip_](JobControl&) -> Result<void> {
+        std::vector<storage::Subject> subjects;
+        // The code that a person quotes for their erasure leads to them, too.
+        if (const auto quoted = subject_of_receipt(listed->searched)) {
+          if (const auto subject = tools().store.subject(*quoted)) subjects.push_back(*subject);
+        } else {
+          RELIEVO_TRY_ASSIGN(subjects, tools().store.subjects({listed->searched, false, skip, kPage + 1}));
+        }
+        for (storage::Subject& subject : subjects) {
+          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject.id), subject.enrolments});
+          wipe_text(subject.name);
+        }
+        return {};
+      },
+      [this, listed, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) return told(error);
+        wipe(found_);
+        found_ = std::move(listed->found);
+        more_ = static_cast<std::int64_t>(found_.size()) > kPage;
+        if (more_) {
+          wipe(found_.back());
+          found_.pop_back();
+        }
+        ready_ = true;
+      });
+}
+
+void RecordsDesk::load(std::int64_t number) {
+  const auto person = std::make_shared<Person>();
+  tools().errands.send(
+      JobPlace::Keeper,
+      [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(storage::Subject subject, tools().store.subject(id));
+        person->found = {static_cast<std::int64_t>(id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(id), subject.enrolments};
+        wipe_text(subject.name);
+        RELIEVO_TRY_ASSIGN(const auto enrolments, tools().store.enrolments(id));
+        if (enrolments.empty()) return {};
+        const storage::Consent& consent = enrolments.back().consent;
+        person->consent = consent.wording + " (" + consent.language + ") " + text_of(consent.given_at).substr(0, 16);
+        RELIEVO_TRY_ASSIGN(auto model, tools().store.load_model(enrolments.back().id, &person->memory));
+        person->model.emplace(std::move(model));
+        return {};
+      },
+      [this, person, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) return told(error);
+        person_ = person;
+        ++model_number_;
+      });
+}
+
+void RecordsDesk::erase(std::int64_t number) {
+  person_.reset();
+  tools().errands.send(
+      JobPlace::Keeper, [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
+      [this, number, visit = visit_](const std::optional<Error>& error) {
+        if (!error) tools().log.say("record " + receipt_of(storage::SubjectId{number}) + " was erased");
+        if (visit != visit_) return;
+        told(error);
+        erased_ = !error;
+        list();
+      });
+}
+
+void RecordsDesk::take_out(std::int64_t number) {
+  tools().appliance.ask(ui::Intent::Export);
+  if (tools().appliance.state() != State::Export) return;
+  std::vector<storage::SubjectId> subjects;
+  if (number != 0) subjects.push_back(storage::SubjectId{number});
+  else
+    for (const Found& found : found_) subjects.push_back(storage::SubjectId{found.number});
+  exporting_ = true;
+  const std::size_t count = subjects.size();
+  tools().errands.send(
+      JobPlace::Keeper, [this, subjects = std::move(subjects)](JobControl& control) { return export_records(tools().store, tools().board.media(), subjects, control); },
+      [this, count, visit = visit_](const std::optional<Error>& error) {
+        if (!error) tools().log.say(std::to_string(count) + (count == 1 ? " record was exported" : " records were exported"));
+        if (visit == visit_) exported(error);
+      });
+}
+
+void RecordsDesk::exported(const std::optional<Error>& error) {
+  exporting_ = false;
+  tools().appliance.end_service_state(!error);
+  told(error);
+  exported_ = !error;
+}
+
+void RecordsDesk::show(ui::ServiceView& view) {
+  view.work.outcome = outcome_;
+  view.work.running = exporting_;
+  view.work.progress = exporting_ ? tools().errands.progress(JobPlace::Keeper) : 0;
+  if (!ready_) return;
+  rows_.clear();
+  for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
+  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, erased_, exported_};
+  if (person_) {
+    const Found& one = person_->found;
+    shown_ = {one.number, one.name, one.since, one.code, one.portraits};
+    view_.shown = &shown_;
+    view_.consent = person_->consent;
+    view.inner = true;
+    if (person_->model) view.model = &*person_->model;
+    view.model_number = kFirstModel + model_number_;
+  }
+  view.records = &view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/statistics.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace relievo::firmware {
+namespace {
+
+bool is_visit(State state) {
+  return state == State::Position || state == State::Capture || state == State::Match || state == State::Reconstruct || state == State::Mesh ||
+         state == State::Texture || state == State::Review;
+}
+
+ui::Refusal refusal_of(const Error& error) {
+  switch (error.code) {
+    case Errc::NoFace: return ui::Refusal::NoFace;
+    case Errc::TooFewMatches: return ui::Refusal::TooFewMatches;
+    case Errc::PoorGeometry: return ui::Refusal::PoorGeometry;
+    case Errc::OutOfMemory: return ui::Refusal::Memory;
+    case Errc::Disconnected: return ui::Refusal::Camera;
+    case Errc::Timeout: return ui::Refusal::Slow;
+    case Errc::InvalidInput:
+    case Errc::NotFound:
+    case Errc::NotCalibrated:
+    case Errc::LibraryFailed:
+    case Errc::MediaMissing:
+    case Errc::MediaFull:
+    case Errc::StoreCorrupt:
+    case Errc::StoreNewer:
+    case Errc::IoFailed:
+    case Errc::Cancelled:
+    case Errc::InvalidState:
+    case Errc::Unsupported: break;
+  }
+  return ui::Refusal::Other;
+}
+
+}  // namespace
+
+void Statistics::noted(const Change& change, const Error* problem, std::chrono::nanoseconds total) {
+  const auto count = [this](std::uint64_t& number) { ++number, ++changes_; };
+  const bool refused = is_visit(change.from) && change.from != State::Review &&
+                       (change.event == Event::AdviceGiven || change.event == Event::StageFailed || change.event == Event::Failed || change.event == Event::Timeout);
+  if (change.from == State::Idle && is_visit(change.to)) count(visits_);
+  if (change.from == State::Capture && change.event == Event::Triggered) count(captures_);
+  if (change.to == State::Review && change.from == State::Texture) {
+    count(models_);
+    ++times_[std::min(kSteps - 1, static_cast<std::size_t>(total / kStep))];
+  }
+  if (change.from == State::Store && change.event == Event::StageDone) count(stored_);
+  if (is_visit(change.from) && change.to == State::Idle) count(left_);
+  if (refused && change.from != State::Position) count(refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)]);
+}
+
+std::string Statistics::text() const {
+  std::ostringstream out;
+  out << "1 " << since_ << ' ' << visits_ << ' ' << captures_ << ' ' << models_ << ' ' << stored_ << ' ' << left_;
+  for (const std::uint64_t n : refused_) out << ' ' << n;
+  for (const std::uint64_t n : times_) out << ' ' << n;
+  return out.str();
+}
+
+bool Statistics::read(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  Statistics seen;
+  std::string version;
+  in >> version >> seen.since_ >> seen.visits_ >> seen.captures_ >> seen.models_ >> seen.stored_ >> seen.left_;
+  for (std::uint64_t& n : seen.refused_) in >> n;
+  for (std::uint64_t& n : seen.times_) in >> n;
+  if (!in || version != "1") return false;
+  *this = seen;
+  return true;
+}
+
+// The upper end of the step below which so large a share lies.
+double Statistics::seconds_within(double share) const {
+  std::uint64_t all = 0, below = 0;
+  for (const std::uint64_t n : times_) all += n;
+  if (all == 0) return 0;
+  std::size_t step = 0;
+  for (; step < kSteps; ++step) {
+    below += times_[step];
+    if (static_cast<double>(below) >= share * static_cast<double>(all)) break;
+  }
+  return std::chrono::duration<double>(kStep * (static_cast<int>(step) + 1)).count();
+}
+
+ui::StatisticsView Statistics::view() const {
+  return {since_, visits_, captures_, models_, stored_, left_, refused_, seconds_within(0.5), seconds_within(0.9)};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The staff's side by synthetic fingers, the whole appliance behind it: first start, both roles, their
+// pages on the real objects, and what is left when they have gone.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "firmware/kiosk/kiosk.h"
+#include "firmware/kiosk/receipt.h"
+#include "firmware/service/access.h"
+#include "hal/monotonic_clock.h"
+#include "hal/picture_file.h"
+#include "hal/sim/board.h"
+#include "hal/sim/replay/replay_board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::StaffPage;
+using ui::StaffRole;
+
+hal::sim::RigOptions tiny_rig() {
+  hal::sim::RigOptions rig;
+  rig.width_px /= 8;
+  rig.height_px /= 8;
+  return rig;
+}
+
+class StaffRoundTest : public testing::Test {
+ protected:
+  StaffRoundTest() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    std::filesystem::create_directories(stick());
+    args.store = folder.path() / "store";
+    args.board = "sim";  // its calibration
+    // Two empty pictures and a folder that is the stick: nobody is photographed here.
+    hal::Picture grey;
+    grey.width_px = tiny_rig().width_px;
+    grey.height_px = tiny_rig().height_px;
+    grey.bytes.assign(std::size_t{3} * static_cast<std::size_t>(grey.width_px) * static_cast<std::size_t>(grey.height_px), std::byte{90});
+    std::filesystem::create_directories(folder.path() / "pairs");
+    for (const char* name : {"left_000000.png", "right_000000.png"}) EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
+    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
+      RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
+      media = &dynamic_cast<hal::ReplayBoard&>(*board).folder_media();
+      media->plug(stick());
+      return board;
+    };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
+      const Path file = folder.path() / "rig.yml";
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(tiny_rig())));
+      return pipeline::read_calibration(file);
+    };
+  }
+  Path stick() const { return folder.path() / "stick"; }
+  void start() {
+    auto opened = Kiosk::open(args, services);
+    ASSERT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+    ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Attract; }));
+  }
+
+  void enrol(const char* name) {
+    auto store = storage::open_sqlite_store(args.store, clock, {});
+    ASSERT_TRUE(store.has_value());
+    const pipeline::FaceModel model = storage::test::sample_model();
+    ASSERT_TRUE((*store)->add_enrolment(storage::NewSubject{name}, {model, {"sample-1", "en", {}}, 0, "", ""}).has_value());
+  }
+  static std::string code_of(std::int64_t number) { return receipt_of(storage::SubjectId{number}); }
+  static std::string text_of_file(const Path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
+  void tap(std::string_view id) {
+    const ui::Node* node = find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
+    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+    kiosk->turn();
+  }
+  // Minutes are "never".
+  bool until(const std::function<bool()>& reached) {
+    for (int turn = 0; turn < 60'000 && !reached(); ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return reached();
+  }
+  // By the keypad, which needs not hold: on until the door has the focus.
+  void knock() {
+    ASSERT_NE(find("staff"), nullptr);
+    std::string_view at;
+    do {
+      kiosk->feed({ui::Input::Kind::Next});
+      at = kiosk->ui().tree().after(at, 1)->id;
+    } while (at != "staff");
+    kiosk->feed({ui::Input::Kind::Activate});
+    kiosk->turn();
+    ASSERT_TRUE(kiosk->ui().service().open);
+  }
+  void type_pin(std::string_view pin) {
+    for (const char digit : pin) tap("digit " + std::string(1, digit));
+    tap("pin done");
+    ASSERT_TRUE(until([this] { return !kiosk->view().service->access.checking; }));
+  }
+  void first_start() {
+    knock();
+    ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
+    tap("go on");
+    tap("clock right");
+    for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
+    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+  }
+  void sign_in(const char* pin, StaffRole role) {
+    if (!kiosk->ui().service().open) knock();
+    type_pin(pin);
+    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Menu; }));
+    EXPECT_EQ(kiosk->view().service->role, role);
+    EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  }
+  void sign_out() {
+    tap("sign out");
+    ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
+    EXPECT_FALSE(kiosk->ui().service().open);
+    EXPECT_EQ(kiosk->view().service->role, StaffRole::None);
+    EXPECT_TRUE(kiosk->take_forgotten());
+  }
+
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  KioskArgs args;
+  hal::FolderMedia* media = nullptr;
+  std::unique_ptr<Kiosk> kiosk;
+};
+
+TEST_F(StaffRoundTest, AFingerThatOnlyPassesDoesNotOpenTheDoor) {
+  start();
+  tap("staff");
+  EXPECT_FALSE(kiosk->ui().service().open);
+}
+
+TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  EXPECT_NE(find("open health"), nullptr);
+  EXPECT_EQ(find("open statistics"), nullptr) << "the technician sees no operator's page";
+  tap("open health");
+  ASSERT_TRUE(until([this] { return find("gauge \u20660\u2069") != nullptr; })) << "the gauges are read beside the screen";
+  tap("back");
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Menu);
+  sign_out();
+  sign_in("80526", StaffRole::Operator);
+  EXPECT_EQ(find("open health"), nullptr);
+  tap("open statistics");
+  EXPECT_NE(find("visits"), nullptr);
+  // A new PIN of one's own, through the page.
+  tap("back");
+  tap("open pins");
+  type_pin("2718");
+  type_pin("2718");
+  sign_out();
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  Access access(**store, clock);
+  EXPECT_EQ(access.attempt("2718")->role, StaffRole::Operator);
+}
+
+// Search, look, export, erase: on the store and on a stick that is a folder.
+TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
+  enrol("Ada Lovelace");
+  enrol("Grace Hopper");
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
+  tap("search");
+  for (const char* key : {"key a", "key d", "key a"}) tap(key);
+  tap("done");
+  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) == nullptr; })) << "only who was searched for";
+  tap("record " + code_of(1));
+  ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().face != nullptr; })) << "the portrait is there to be turned";
+
+  tap("export");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; }));
+  EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::Done);
+  EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  const Path taken = stick() / "relievo" / code_of(1);
+  EXPECT_TRUE(std::filesystem::exists(taken / "model.ply"));
+  EXPECT_NE(text_of_file(taken / "record.txt").find("name: Ada Lovelace"), std::string::npos);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick() / "relievo"), {}), 1) << "nobody else, nothing half-written";
+
+  tap("export");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::Done; }));
+  ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; }));
+  EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::NoStick) << "it was let go after the export";
+
+  tap("erase");
+  tap("yes");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome == ui::Outcome::Done; }));
+  sign_out();
+  for (const ui::Node& node : kiosk->ui().tree().nodes()) EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
+  EXPECT_EQ(kiosk->view().service->records, nullptr) << "no name is left";
+  EXPECT_EQ(kiosk->ui().draw_list().face, kiosk->view().showpiece);
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  const auto left = (*store)->subjects({});
+  ASSERT_TRUE(left.has_value());
+  ASSERT_EQ(left->size(), 1U);
+  EXPECT_EQ(left->front().name, "Grace Hopper");
+}
+
+TEST_F(StaffRoundTest, AWrongPinOpensNothingAndIsCountedOverARestart) {
+  start();
+  first_start();
+  type_pin("1999");
+  EXPECT_TRUE(kiosk->view().service->access.wrong);
+  EXPECT_EQ(kiosk->view().service->role, StaffRole::None);
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+  EXPECT_EQ(kiosk->ui().service().typed(), "") << "what was typed is wiped";
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  const std::string kept = *(*store)->setting(kAccessSetting);
+  EXPECT_NE(kept.find(" 1 "), std::string::npos) << kept;
+}
+
+}  // namespace
+}  // namespace relievo::firmware

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the page of records draws, and the verbs it asks with. Borrowed for one frame. Thread: main.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace relievo::ui {
+
+inline constexpr std::uint8_t kRecordsSearch = 1;  // text: a part of the name, or a number; empty: everyone
+inline constexpr std::uint8_t kRecordsNewer = 2, kRecordsOlder = 3;
+inline constexpr std::uint8_t kRecordShow = 4, kRecordErase = 5;    // number: of the record
+inline constexpr std::uint8_t kRecordExport = 6;   // number: of the record; 0: of everyone who is found
+inline constexpr std::uint8_t kExportStop = 7;
+
+struct RecordRow {
+  std::int64_t number = 0;
+  std::string_view name, since, code;
+  int portraits = 0;
+};
+
+struct RecordsView {
+  std::span<const RecordRow> rows;   // newest first
+  bool newer = false, older = false; // there are more that way
+  std::string_view searched;
+  const RecordRow* shown = nullptr;  // the one that is looked at
+  std::string_view consent;          // its wording, language and date
+  bool erased = false;               // the last thing that was done
+  bool exported = false;
+};
+
+}  // namespace relievo::ui

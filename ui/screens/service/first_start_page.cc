@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first start: language, clock, both PINs; and the page on which somebody changes their own.
+#include "ui/screens/service/pin_verbs.h"
+#include "ui/screens/service/staff_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+enum FirstStartMode : int { kWelcome, kClock, kNewPins };
+constexpr const char* kClockSign = "\uf0f0";
+
+void welcome(StaffFrame& page) {
+  const auto& tr = page.tr;
+  page.heading("welcome", tr("This device is new"), type::kHeading);
+  page.body("what", tr("Choose a language, look at the clock, and choose two PINs: one for the technician, one for the operator."));
+  Node list = page.grown(page.box(Flow::Column, space::kS));
+  list.id = "languages";
+  list.box.scroll = true;
+  page.tree.open(list);
+  for (const Language language : kStaffLanguages) {
+    const bool now = language == page.visit.language;
+    page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(language)});
+  }
+  page.tree.close();
+  page.button("go on", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffMode, kClock});
+}
+
+void mover(StaffFrame& page, const char* label, std::string_view id, int minutes) {
+  page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
+  page.tree.leaf(page.text(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre));
+  Node row = page.box(Flow::Row, space::kXs);
+  row.box.along = Along::Centre;
+  row.box.left_to_right = true;
+  page.tree.open(row);
+  const auto named = [&](std::string_view end) {
+    const std::string_view first = page.tree.keep(id), second = page.tree.keep(end);
+    return std::string_view{first.data(), first.size() + second.size()};
+  };
+  page.square_button(named(" less"), page.tr("Less"), "\uf374", {ActionKind::StaffDo, kClockMove, -minutes});
+  page.square_button(named(" more"), page.tr("More"), "\uf415", {ActionKind::StaffDo, kClockMove, minutes});
+  page.tree.close();
+  page.tree.close();
+}
+
+void clock(StaffFrame& page) {
+  const auto& tr = page.tr;
+  page.heading("clock title", tr("Is this the date and the time?"), type::kHeading);
+  Node room = page.grown(page.box(Flow::Column, space::kL));
+  room.box.along = Along::Centre;
+  room.box.scroll = true;
+  room.id = "clock room";
+  page.tree.open(room);
+  Node time = page.text(page.staff.access.clock, type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  time.id = "clock";
+  time.role = Role::Status;
+  page.tree.leaf(time);
+  page.tree.open(page.box(Flow::Row, space::kM));
+  mover(page, tr("Day"), "day", 24 * 60);
+  mover(page, tr("Hour"), "hour", 60);
+  if (page.portrait) {
+    page.tree.close();
+    page.tree.open(page.box(Flow::Row, space::kM));
+  }
+  mover(page, tr("Ten minutes"), "ten", 10);
+  mover(page, tr("Minute"), "minute", 1);
+  page.tree.close();
+  if (page.staff.access.clock_refused) page.body("refused", tr("The system does not let this program set its clock. Set it there, then start again; or go on with this one."));
+  page.tree.close();
+  page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffDo, kClockSet});
+}
+
+const char* title_of(const Words& tr, PinStep step) {
+  switch (step) {
+    case PinStep::Technician: return tr("Choose the technician's PIN");
+    case PinStep::TechnicianAgain: return tr("The technician's PIN once more");
+    case PinStep::Operator: return tr("Choose the operator's PIN");
+    case PinStep::OperatorAgain: return tr("The operator's PIN once more");
+    case PinStep::Own: return tr("Choose your new PIN");
+    case PinStep::OwnAgain: return tr("Your new PIN once more");
+    case PinStep::Done: break;
+  }
+  return tr("Your PIN has been changed");
+}
+
+const char* words_of(const Words& tr, PinFault fault) {
+  switch (fault) {
+    case PinFault::Differ: return tr("The two were not the same. Choose again.");
+    case PinFault::Simple: return tr("Too easy to guess: no row of one digit, nothing like 1234. Choose another.");
+    case PinFault::Taken: return tr("The other role has this PIN. Choose another.");
+    case PinFault::None: break;
+  }
+  return tr("Four to eight digits. Nobody else should know it.");
+}
+
+void new_pin(StaffFrame& page) {
+  const AccessView& access = page.staff.access;
+  const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking;
+  const bool done = access.step == PinStep::Done;
+  const char* words = access.checking ? page.tr("One moment, please") : done ? page.tr("It holds from now on.") : words_of(page.tr, access.fault);
+  pin_entry(page, title_of(page.tr, access.step), words, access.fault == PinFault::None || access.checking ? done ? Mood::Good : Mood::Plain : Mood::Bad,
+            ready && !done ? Action{ActionKind::StaffDo, kPinOffer} : Action{});
+}
+
+}  // namespace
+
+void first_start_page(StaffFrame& page) {
+  page.begin(page.tr("First start"), kClockSign);
+  if (page.service.mode == kWelcome) welcome(page);
+  else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);
+  else new_pin(page);
+  page.end();
+}
+
+void pins_page(StaffFrame& page) { new_pin(page); }
+
+}  // namespace relievo::ui

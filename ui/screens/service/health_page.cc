@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The memory plan against what was really used, disk, temperatures, the last faults.
+#include <cstdio>
+
+#include "ui/screens/service/staff_screens.h"
+#include "ui/staff_views.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* words_of(const Words& tr, Gauge gauge) {
+  switch (gauge) {
+    case Gauge::Stages: return tr("Memory of the stages");
+    case Gauge::Process: return tr("Memory of the whole program");
+    case Gauge::Disk: return tr("Disk used");
+    case Gauge::Temperature: return tr("Temperature");
+  }
+  return "";
+}
+
+void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
+  char text[64];
+  if (row.gauge == Gauge::Temperature) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0°C\u2069", row.used);
+  else std::snprintf(text, sizeof text, "\u2066%.0f / %.0f\u00a0MiB\u2069", row.used, row.of);
+  const std::string_view id = page.tree.keep("gauge "), which = page.number(static_cast<double>(index));
+  page.row({id.data(), id.size() + which.size()}, row.name.empty() ? std::string_view(words_of(page.tr, row.gauge)) : row.name, page.tree.keep(text), row.mood);
+}
+
+}  // namespace
+
+void health_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  page.begin_list("health");
+  if (page.staff.health == nullptr) {
+    page.line(tr("One moment, please"));
+    return page.tree.close();
+  }
+  page.section(tr("Used at most, and what was planned"));
+  std::size_t index = 0;
+  for (const GaugeRow& row : page.staff.health->gauges) gauge_row(page, row, index++);
+  page.section(tr("Last faults"));
+  for (const std::string_view fault : page.staff.health->faults) page.line(fault, Mood::Warn);
+  if (page.staff.health->faults.empty()) page.line(tr("None since the start."), Mood::Good);
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
+#include "ui/records_view.h"
+
+#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+enum RecordsMode : int { kList, kTyping, kErasing };
+
+Action ask(std::uint8_t verb, std::int64_t number = 0) { return {ActionKind::StaffDo, verb, static_cast<std::int32_t>(number)}; }
+
+std::string_view joined(StaffFrame& page, std::string_view first, std::string_view second) {
+  const std::string_view a = page.tree.keep(first), b = page.tree.keep(second);
+  return {a.data(), a.size() + b.size()};
+}
+
+// What one has typed, and the keys.
+void typing(StaffFrame& page) {
+  Node field = page.box(Flow::Row, 3, 20, 8);
+  field.id = "search field";
+  field.role = Role::Field;
+  field.name = page.tr("Name or number");
+  field.box.min_height = page.px(56);
+  field.box.across = Across::Centre;
+  field.box.fill = page.palette.card;
+  field.box.border = page.palette.accent;
+  field.box.border_px = page.px(3);
+  field.box.radius = page.px(18);
+  page.tree.open(field);
+  const std::string_view typed = page.service.typed();
+  page.tree.leaf(page.text(typed.empty() ? std::string_view(page.tr("Name or number")) : typed, type::kBody, Weight::Medium, typed.empty() ? page.palette.ink_soft : page.palette.ink));
+  page.tree.close();
+  if (page.portrait) page.space(1);
+  keyboard(page, {ActionKind::StaffAnswer, kRecordsSearch});
+}
+
+void working(StaffFrame& page) {
+  page.heading("writing", page.tr("Writing to the stick"), type::kHeading);
+  page.body("do not pull", page.tr("Please do not pull it out."));
+  page.progress("export progress", page.staff.work.progress);
+  page.space(1);
+  page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet, ask(kExportStop));
+}
+
+void said(StaffFrame& page, const RecordsView& seen) {
+  const bool done = page.staff.work.outcome == Outcome::Done;
+  if (done && (seen.erased || seen.exported)) {
+    const char* words = seen.erased ? page.tr("Erased. Nothing of this person is left.") : page.tr("It is all there, and read back. You may pull out the stick.");
+    Node line = page.text(words, type::kSmall, Weight::Medium, page.palette.good);
+    line.id = "outcome";
+    line.role = Role::Status;
+    page.tree.leaf(line);
+  } else {
+    page.outcome();
+  }
+}
+
+void list(StaffFrame& page, const RecordsView& seen) {
+  const auto& tr = page.tr;
+  said(page, seen);
+  page.begin_list("records");
+  for (const RecordRow& row : seen.rows) page.row(joined(page, "record ", row.code), row.name, row.since, Mood::Plain, ask(kRecordShow, row.number));
+  if (seen.rows.empty()) page.line(seen.searched.empty() ? tr("Nobody is kept here.") : tr("Nobody of that name."));
+  page.tree.close();
+  const bool narrow = page.portrait || page.text_share > 1.2F;
+  const float share = narrow ? 1.0F : 0.0F;
+  page.tree.open(page.box(Flow::Row, space::kS));
+  page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping}, share);
+  if (!seen.searched.empty()) page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, ask(kRecordsSearch), share);
+  if (seen.newer) page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, ask(kRecordsNewer), share);
+  if (seen.older) page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, ask(kRecordsOlder), share);
+  if (narrow) {
+    page.tree.close();
+    page.tree.open(page.box(Flow::Row, space::kS));
+  } else {
+    page.space(1);
+  }
+  if (!seen.rows.empty()) page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet, ask(kRecordExport), share);
+  page.tree.close();
+}
+
+void portrait_of(StaffFrame& page) {
+  Node face = page.grown(page.box(Flow::Column), 1.1F);
+  face.id = "face";
+  face.name = page.tr("The portrait, to be turned with a finger");
+  face.role = Role::Picture;
+  face.action = {ActionKind::TurnFace, 0};
+  face.drags = true;
+  face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
+  face.box.fill = page.palette.stage;
+  face.box.radius = page.px(size::kCardRadius);
+  page.tree.leaf(face);
+}
+
+void record(StaffFrame& page, const RecordsView& seen) {
+  const auto& tr = page.tr;
+  page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  portrait_of(page);
+  page.tree.open(page.grown(page.box(Flow::Column, space::kS)));
+  page.begin_list("record");
+  page.row("name", seen.shown->name, {});
+  page.row("code", tr("Code for the erasure"), seen.shown->code);
+  page.row("since", tr("Kept since"), seen.shown->since);
+  page.row("portraits", tr("Portraits"), page.number(seen.shown->portraits));
+  page.row("consent", tr("Consent"), seen.consent);
+  page.tree.close();
+  said(page, seen);
+  page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main, ask(kRecordExport, seen.shown->number));
+  page.small_button("erase", tr("Erase this record"), "\uf1c0", ButtonLook::Quiet, {ActionKind::StaffMode, kErasing});
+  page.tree.close();
+  page.tree.close();
+}
+
+}  // namespace
+
+void records_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  const RecordsView* seen = page.staff.records;
+  if (seen == nullptr) return page.body("wait", tr("One moment, please"));
+  if (page.staff.work.running) return working(page);
+  if (page.service.mode == kTyping) return typing(page);
+  if (seen->shown == nullptr) return list(page, *seen);
+  if (page.service.mode != kErasing) return record(page, *seen);
+  page.question(tr("Erase for ever?"), tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."), tr("Yes, erase"),
+                {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)}, tr("No, keep it"), {ActionKind::StaffMode, kList});
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/service/staff_frame.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace relievo::ui {
+namespace {
+
+constexpr float kMargin = 32, kTop = 20;
+constexpr const char* kLeaveSign = "\uf343";
+constexpr Colour kNone{};
+
+}  // namespace
+
+Colour StaffFrame::ink_of(Mood mood) const {
+  switch (mood) {
+    case Mood::Good: return palette.good;
+    case Mood::Warn: return palette.warn;
+    case Mood::Bad: return palette.bad;
+    case Mood::Plain: break;
+  }
+  return palette.ink;
+}
+
+const char* StaffFrame::sign_of(Mood mood) const {
+  switch (mood) {
+    case Mood::Good: return icon::kGood;
+    case Mood::Warn: return icon::kInfo;
+    case Mood::Bad: return icon::kAlert;
+    case Mood::Plain: break;
+  }
+  return nullptr;
+}
+
+void StaffFrame::begin(const char* title, const char* letter) {
+  Node root = box(Flow::Column, space::kS, kMargin, kTop);
+  root.id = "page";
+  root.box.fill = palette.ground;
+  root.box.fill_end = palette.ground_end;
+  tree.open(root);
+  Node bar = box(Flow::Row, space::kS);
+  bar.box.across = Across::Centre;
+  tree.open(bar);
+  square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
+  const auto name_page = [&] {
+    Node name = grown(box(Flow::Row, space::kS));
+    name.box.across = Across::Centre;
+    tree.open(name);
+    if (letter != nullptr) sign(letter, 34 / text_share, palette.accent);
+    tree.open(grown(box(Flow::Column)));
+    heading("title", title, portrait || text_share < 1.3F ? type::kHeading : type::kBody);
+    tree.close();
+    tree.close();
+  };
+  if (portrait) space(1);
+  else name_page();
+  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  square_button("sign out", tr("Sign out"), kLeaveSign, {ActionKind::StaffLeave, 0});
+  tree.close();
+  if (portrait) {
+    tree.open(box(Flow::Row));
+    name_page();
+    tree.close();
+  }
+  if (staff.leaves_in_s > 0) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%d", staff.leaves_in_s);
+    Node soon = this->text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.", "You are signed out in {} seconds. Touch the screen to stay.", static_cast<unsigned long>(staff.leaves_in_s)), text), type::kSmall, Weight::Bold, palette.warn);
+    soon.id = "leaves";
+    soon.role = Role::Status;
+    tree.leaf(soon);
+  }
+}
+
+void StaffFrame::begin_list(std::string_view id) {
+  Node list = grown(box(Flow::Column, 0, space::kM, 8));
+  list.id = id;
+  list.box.scroll = true;
+  list.box.fill = palette.card;
+  list.box.border = palette.card_border;
+  list.box.border_px = px(1.5F);
+  list.box.radius = px(size::kRadius);
+  tree.open(list);
+}
+
+void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
+  Node row = box(Flow::Row, space::kS, 0, 6);
+  row.id = id;
+  row.box.across = Across::Centre;
+  row.box.min_height = px(action.kind == ActionKind::None ? 44 : size::kStaffTarget);
+  if (action.kind != ActionKind::None) {
+    row.role = Role::Button;
+    row.name = label;
+    row.action = action;
+  }
+  tree.open(row);
+  tree.open(grown(box(Flow::Column), value.empty() ? 1 : 1.2F));
+  tree.leaf(text(label, type::kSmall, Weight::Medium, palette.ink));
+  tree.close();
+  if (!value.empty()) {
+    Node end = grown(box(Flow::Row, space::kXs));
+    end.box.along = Along::End;
+    end.box.across = Across::Centre;
+    tree.open(end);
+    if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
+    tree.leaf(text(value, type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
+    tree.close();
+  }
+  if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
+  tree.close();
+  Node rule = box(Flow::Column);
+  rule.box.height = std::max(1.0F, px(1));
+  rule.box.fill = palette.card_border;
+  tree.leaf(rule);
+}
+
+void StaffFrame::section(std::string_view words) {
+  tree.leaf(sized(box(Flow::Column), 1, 14));
+  Node name = text(words, type::kSmall, Weight::Bold, palette.link);
+  name.role = Role::Heading;
+  tree.leaf(name);
+}
+
+void StaffFrame::line(std::string_view words, Mood mood) {
+  Node said = text(words, 18, Weight::Regular, ink_of(mood));
+  said.box.pad_y = px(4);
+  tree.leaf(said);
+}
+
+void StaffFrame::small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow) {
+  const bool main = look == ButtonLook::Main;
+  Node node = box(Flow::Row, 10, text_share > 1.3F ? 12 : 20, 8);
+  node.id = id;
+  node.name = label;
+  node.role = Role::Button;
+  node.action = action;
+  node.box.along = Along::Centre;
+  node.box.across = Across::Centre;
+  node.box.grow = grow;
+  node.box.min_height = px(size::kStaffTarget);
+  node.box.min_width = px(size::kStaffTarget);
+  node.box.radius = px(18);
+  node.box.fill = main ? palette.accent : palette.quiet;
+  node.box.border = main ? kNone : palette.quiet_border;
+  node.box.border_px = main ? 0 : std::max(1.5F, px(2));
+  const Colour ink = main ? palette.accent_ink : palette.link;
+  tree.open(node);
+  if (letter != nullptr) sign(letter, 26 / (text_share > 1.3F ? 1.2F : 1.0F), ink);
+  if (!label.empty()) tree.leaf(text(label, type::kSmall, Weight::Medium, ink, TextAlign::Centre));
+  tree.close();
+}
+
+void StaffFrame::progress(std::string_view id, float share) {
+  const float done = std::clamp(share, 0.0F, 1.0F);
+  Node track = box(Flow::Row);
+  track.id = id;
+  track.role = Role::Status;
+  track.name = tr("How far it is");
+  track.box.height = px(14);
+  track.box.radius = px(7);
+  track.box.fill = palette.quiet_border;
+  tree.open(track);
+  if (done > 0) {
+    Node bar = grown(box(Flow::Column), std::max(0.02F, done));
+    bar.box.radius = px(7);
+    bar.box.fill = palette.accent;
+    tree.leaf(bar);
+  }
+  if (done < 1) space(1 - done);
+  tree.close();
+}
+
+void StaffFrame::outcome() {
+  const char* words = nullptr;
+  Mood mood = Mood::Bad;
+  switch (staff.work.outcome) {
+    case Outcome::None: return;
+    case Outcome::Done: words = tr("Done."); mood = Mood::Good; break;
+    case Outcome::Cancelled: words = tr("Cancelled. Nothing was left half done."); mood = Mood::Warn; break;
+    case Outcome::NoStick: words = tr("There is no stick. Plug one in, then try again."); break;
+    case Outcome::StickFull: words = tr("There is no room left. Nothing was left half written."); break;
+    case Outcome::StickGone: words = tr("The stick was pulled out too early. What is on it is not complete: do it again."); break;
+    case Outcome::NotFound: words = tr("It is no longer there."); break;
+    case Outcome::Refused: words = tr("This cannot be accepted."); break;
+    case Outcome::Failed: words = tr("It could not be done. The log says why."); break;
+  }
+  Node row = box(Flow::Row, space::kS, 0, 4);
+  row.id = "outcome";
+  row.role = Role::Status;
+  row.name = words;
+  row.box.across = Across::Centre;
+  tree.open(row);
+  sign(sign_of(mood), 28, ink_of(mood));
+  tree.open(grown(box(Flow::Column)));
+  tree.leaf(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
+  tree.close();
+  tree.close();
+}
+
+void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
+  Node room = grown(box(Flow::Column, space::kM));
+  room.id = "question";
+  room.box.along = Along::Centre;
+  room.box.scroll = true;
+  tree.open(room);
+  heading("question title", title, type::kHeading);
+  body("question words", words);
+  tree.close();
+  tree.open(box(portrait || text_share > 1.3F ? Flow::Column : Flow::Row, space::kS));
+  const float grow = portrait || text_share > 1.3F ? 0 : 1;
+  button("no", no, nullptr, ButtonLook::Quiet, no_action, grow);
+  button("yes", yes, nullptr, ButtonLook::Main, yes_action, grow);
+  tree.close();
+}
+
+void StaffFrame::digit(const char* letter) {
+  Node node = text(letter, type::kHeading, Weight::Medium, palette.link, TextAlign::Centre);
+  node.style.size_px = px(type::kHeading);
+  const std::string_view key = tree.keep("digit "), rest = tree.keep(letter);
+  node.id = {key.data(), key.size() + rest.size()};
+  node.role = Role::Key;
+  node.action = {ActionKind::TypeKey, 0};
+  node.box.grow = 1;
+  node.box.min_height = px(size::kKeyLeast);
+  node.box.fill = palette.card;
+  node.box.border = palette.card_border;
+  node.box.border_px = px(1.5F);
+  node.box.radius = px(16);
+  tree.leaf(node);
+}
+
+void StaffFrame::keypad(Action done) {
+  constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
+  Node pad = box(Flow::Column, 10);
+  pad.box.width = px(360);
+  tree.open(pad);
+  for (const auto& keys : kRows) {
+    Node row = box(Flow::Row, 10);
+    row.box.left_to_right = true;
+    tree.open(row);
+    for (const char* key : keys) digit(key);
+    tree.close();
+  }
+  Node row = box(Flow::Row, 10);
+  row.box.left_to_right = true;
+  tree.open(row);
+  const auto key = [&](std::string_view id, const char* spoken, const char* letter, Action action, bool main) {
+    Node node = grown(box(Flow::Row));
+    node.id = id;
+    node.name = spoken;
+    node.role = Role::Key;
+    node.action = action;
+    node.box.along = Along::Centre;
+    node.box.across = Across::Centre;
+    node.box.min_height = px(size::kKeyLeast);
+    node.box.radius = px(16);
+    node.box.fill = main ? palette.accent : palette.card;
+    node.box.border = main ? kNone : palette.card_border;
+    node.box.border_px = main ? 0 : px(1.5F);
+    tree.open(node);
+    sign(letter, 30 / text_share, main ? palette.accent_ink : palette.link);
+    tree.close();
+  };
+  key("erase", tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);
+  digit("0");
+  key("pin done", tr("Done"), icon::kCheck, done, true);
+  tree.close();
+  tree.close();
+}
+
+std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
+  char text[48];
+  std::snprintf(text, sizeof text, "\u2066%.*f%s%s\u2069", decimals, value, *unit_name == 0 ? "" : "\u00a0", unit_name);
+  return tree.keep(text);
+}
+
+}  // namespace relievo::ui

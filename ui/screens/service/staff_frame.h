@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// StaffFrame: what every page of the staff's side is built with: a Page, and the widgets that rows of
+// figures need. Targets are 56 dp high or more (a visitor's are larger). Lengths that go in are dp.
+// Thread: main. Errors: none.
+#pragma once
+
+#include <string_view>
+
+#include "ui/screens/page.h"
+#include "ui/service.h"
+
+namespace relievo::ui {
+
+namespace size {
+inline constexpr float kStaffTarget = 60;
+}  // namespace size
+
+class StaffFrame : public Page {
+ public:
+  StaffFrame(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Service& service_in, const Palette& palette_in, const Rect& screen)
+      : Page(tree_in, view_in, visit_in, palette_in, screen), service(service_in), staff(*view_in.service) {}
+
+  const Service& service;
+  const ServiceView& staff;
+
+  // The frame of every page: bar with the way back, title, room for the rest. Closed by end().
+  void begin(const char* title, const char* letter);
+  void end() { tree.close(); }
+
+  // A card whose rows can be scrolled; it takes the room that is left. Closed by end().
+  void begin_list(std::string_view id);
+  // Label at the start, value at the end; with an action it can be touched.
+  void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain, Action action = {});
+  // A heading between rows.
+  void section(std::string_view words);
+  // A line over the whole width, as a log has them: left to right in every language.
+  void line(std::string_view words, Mood mood = Mood::Plain);
+  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0);
+  void progress(std::string_view id, float share);
+  // How the page's work ended, with a sign; nothing where nothing has.
+  void outcome();
+  // A big question in place of the page: two answers.
+  void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
+  // Digits to be typed; `done` when the tick is touched.
+  void keypad(Action done);
+  // "12.5", kept apart from the direction of the words around.
+  std::string_view number(double value, int decimals = 0, const char* unit_name = "");
+  Colour ink_of(Mood mood) const;
+  const char* sign_of(Mood mood) const;
+
+ private:
+  void digit(const char* letter);
+};
+
+}  // namespace relievo::ui

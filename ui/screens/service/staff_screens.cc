@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/service/staff_screens.h"
+
+#include <array>
+
+#include "ui/screens/visitor/visitor_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+// Marks words for the catalogues; the frame translates them when it draws.
+constexpr const char* mark_tr(const char* english) { return english; }
+
+constexpr const char *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b";
+
+// In the order of the menu.
+constexpr std::array kPages{
+    StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page},
+    StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true, statistics_page},
+    StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page},
+    StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
+};
+
+void draw_page(StaffFrame& page) {
+  if (page.service.page == StaffPage::Pin) return pin_page(page);
+  if (page.service.page == StaffPage::FirstStart) return first_start_page(page);
+  for (const StaffPageInfo& info : kPages) {
+    if (info.page != page.service.page || !may_open(page.staff.role, info)) continue;
+    page.begin(page.tr(info.title), info.letter);
+    info.draw(page);
+    return page.end();
+  }
+  menu_page(page);
+}
+
+}  // namespace
+
+std::span<const StaffPageInfo> staff_pages() { return kPages; }
+
+bool may_open(StaffRole role, const StaffPageInfo& info) {
+  return (role == StaffRole::Technician && info.technician) || (role == StaffRole::Operator && info.clerk);
+}
+
+const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit, const Service& service, const Rect& screen) {
+  const Palette& palette = visit.high_contrast ? kHighContrast : kLight;
+  Visit spoken = visit;
+  spoken.language = staff_language(visit.language);
+  tree.begin(info_of(spoken.language).right_to_left);
+  StaffFrame page(tree, view, spoken, service, palette, screen);
+  Node root = page.box(Flow::Stack);
+  root.id = "screen";
+  tree.open(root);
+  draw_page(page);
+  if (visit.overlay != Overlay::None) overlay_screen(page);
+  tree.close();
+  return palette;
+}
+
+void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& visit, const Service&) {
+  list.pictures = {};
+  list.face = view.service->model;
+  list.face_version = view.service->model == nullptr ? 0 : view.service->model_number;
+  list.face_look = visit.look;
+}
+
+void staff_entrance(Page& page) {
+  if (page.view.service == nullptr || page.visit.overlay != Overlay::None) return;
+  const Step step = page.visit.step;
+  if (step != Step::Attract && step != Step::Trouble) return;
+  Node corner = page.box(Flow::Row, 0, 16, 16);
+  corner.box.along = Along::End;
+  corner.box.across = Across::Start;
+  page.tree.open(corner);
+  Node door = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
+  door.id = "staff";
+  door.name = page.tr("Staff: hold for three seconds");
+  door.role = Role::Button;
+  door.action = {ActionKind::StaffEnter, 0};
+  door.hold = true;
+  door.box.along = Along::Centre;
+  door.box.across = Across::Centre;
+  door.box.radius = page.px(size::kRadius);
+  page.tree.open(door);
+  page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);
+  page.tree.close();
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

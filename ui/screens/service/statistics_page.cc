@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How many came, what became of it, and how long it took: numbers, nobody's name.
+#include "ui/screens/service/staff_screens.h"
+#include "ui/staff_views.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* words_of(const Words& tr, Refusal refusal) {
+  switch (refusal) {
+    case Refusal::NoFace: return tr("No face found");
+    case Refusal::TooFewMatches: return tr("Too little could be matched");
+    case Refusal::PoorGeometry: return tr("The surface was not good enough");
+    case Refusal::Memory: return tr("Not enough memory");
+    case Refusal::Camera: return tr("A camera was silent");
+    case Refusal::Slow: return tr("It took too long");
+    case Refusal::Other:
+    case Refusal::Count: break;
+  }
+  return tr("Another reason");
+}
+
+}  // namespace
+
+void statistics_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  const StatisticsView* seen = page.staff.statistics;
+  page.begin_list("statistics");
+  if (seen == nullptr) {
+    page.line(tr("One moment, please"));
+    return page.tree.close();
+  }
+  const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };
+  page.row("since", tr("Counted since"), seen->since);
+  page.row("visits", tr("Visits begun"), count(seen->visits));
+  page.row("captures", tr("Captures"), count(seen->captures));
+  page.row("models", tr("Portraits made"), count(seen->models));
+  page.row("stored", tr("Portraits kept"), count(seen->stored));
+  page.row("left", tr("Visits left early"), count(seen->left));
+  page.section(tr("Refused captures"));
+  for (std::size_t i = 0; i < kRefusals; ++i) {
+    const auto refusal = static_cast<Refusal>(i);
+    const std::string_view id = page.tree.keep("refused "), which = page.number(static_cast<double>(i));
+    page.row({id.data(), id.size() + which.size()}, words_of(tr, refusal), count(seen->refused[i]));
+  }
+  page.section(tr("From the pictures to the portrait"));
+  page.row("median", tr("Half of them are faster than"), seen->median_s > 0 ? page.number(seen->median_s, 1, "s") : std::string_view("–"));
+  page.row("slow", tr("Nine of ten are faster than"), seen->slow_s > 0 ? page.number(seen->slow_s, 1, "s") : std::string_view("–"));
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

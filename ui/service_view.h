@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ServiceView: what the staff's pages may draw, as plain data; the part of ViewState that a visitor
+// never sees. A page whose data is not here yet has a null pointer and says so.
+// Ownership: everything is borrowed for the length of one frame. Thread: main.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "pipeline/model/face_model.h"
+
+namespace relievo::ui {
+
+enum class StaffRole : std::uint8_t { None, Technician, Operator };
+
+// Every page of the staff's side. Pin and FirstStart need no role; the rest are rows of kStaffPages.
+enum class StaffPage : std::uint8_t {
+  Pin, FirstStart, Menu,
+  Records, Statistics,                             // operator's
+  SelfTest, Trigger, Health, Log, Settings, Touch,  // technician's
+  Pins,                                            // everybody's
+  Count
+};
+
+// How a piece of work ended, as far as it makes a difference to who asked for it.
+enum class Outcome : std::uint8_t {
+  None, Done, Cancelled, NoStick, StickFull, StickGone, NotFound, Refused, Failed
+};
+
+struct Work {
+  bool running = false;
+  float progress = 0;           // 0 to 1
+  Outcome outcome = Outcome::None;
+  std::string_view problem;     // one sentence in English, for the log's reader; may be empty
+};
+
+// Whose PIN is to be typed while new ones are chosen: each is typed twice.
+enum class PinStep : std::uint8_t { Technician, TechnicianAgain, Operator, OperatorAgain, Own, OwnAgain, Done };
+enum class PinFault : std::uint8_t { None, Differ, Simple, Taken };
+
+struct AccessView {
+  bool set_up = true;           // both PINs have been chosen
+  PinStep step = PinStep::Technician;
+  PinFault fault = PinFault::None;
+  std::string_view clock;       // the date and time that is shown for the first start
+  bool clock_right = false;     // somebody has said so
+  bool clock_refused = false;   // the system does not let this program set its clock
+  bool checking = false;
+  bool wrong = false;           // the last one was
+  int wait_s = 0;               // until the next try
+};
+
+enum class Mood : std::uint8_t { Plain, Good, Warn, Bad };
+
+struct ServiceView {
+  StaffRole role = StaffRole::None;
+  int leaves_in_s = 0;          // 0: not soon
+  AccessView access;
+  Work work;                    // of the page that is shown
+  bool inner = false;           // it shows something within itself: Back opens the page anew
+  // The model of the page, to be turned; another number for every model.
+  const pipeline::FaceModel* model = nullptr;
+  std::uint32_t model_number = 0;
+  // The pages' own, in files of their own.
+  const struct RecordsView* records = nullptr;
+  const struct StatisticsView* statistics = nullptr;
+  const struct SelfTestView* self_test = nullptr;
+  const struct TriggerView* trigger = nullptr;
+  const struct HealthView* health = nullptr;
+  const struct LogView* log = nullptr;
+  const struct SettingsView* settings = nullptr;
+  const struct TouchView* touch = nullptr;
+};
+
+}  // namespace relievo::ui

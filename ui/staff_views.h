@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the pages of the staff's side draw, one struct a page, as plain data.
+// Ownership: borrowed for the length of one frame. Thread: main.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "ui/service_view.h"
+
+namespace relievo::ui {
+
+// --- statistics: numbers, nobody's name -----------------------------------------------------------
+enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory, Camera, Slow, Other, Count };
+inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
+
+struct StatisticsView {
+  std::string_view since;                        // a date
+  std::uint64_t visits = 0, captures = 0, models = 0, stored = 0, left = 0;
+  std::array<std::uint64_t, kRefusals> refused{};
+  double median_s = 0, slow_s = 0;               // from the pictures to the model: half, nine of ten are faster
+};
+
+// --- health ---------------------------------------------------------------------------------------
+enum class Gauge : std::uint8_t { Stages, Process, Disk, Temperature };
+
+struct GaugeRow {
+  Gauge gauge = Gauge::Process;
+  std::string_view name;          // of a sensor; empty: the gauge's own
+  double used = 0, of = 0;        // MiB, or degrees Celsius
+  Mood mood = Mood::Plain;
+};
+
+struct HealthView {
+  std::span<const GaugeRow> gauges;
+  std::span<const std::string_view> faults;  // newest first
+};
+
+}  // namespace relievo::ui
