@@ -27,6 +27,7 @@ template <typename Field>
 void describe(RefinedMatcherOptions& o, Field&& field) {
   field("bending", o.refiner.bending, OptionRange{0.005, 5}, "how strongly a face is expected to bend; less is smoother");
   field("crease", o.refiner.crease, OptionRange{0.05, 100}, "second differences beyond this many expected ones count as creases");
+  field("wrinkle", o.refiner.wrinkle, OptionRange{0, 100}, "at full size, patches that bend beyond this many expected ones count as relief; 0: none do");
   field("local_window_px", o.refiner.local_window_px, OptionRange{5, 127}, "window over which offset and gain between the views are constant");
   field("steps", o.refiner.steps, OptionRange{1, 32}, "warps at full size; at a half one less, at a quarter twice that");
   field("solver_steps", o.refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");

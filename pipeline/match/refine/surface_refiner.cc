@@ -7,6 +7,7 @@
 
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/refine/bending_weights.h"
 #include "pipeline/match/refine/score_excess.h"
 #include "pipeline/match/refine/warp_terms.h"
 
@@ -51,11 +52,12 @@ Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
 struct Work {
   Work(std::pmr::memory_resource* memory, int w, int h)
       : system(memory, w, h), pull(memory, w, h), agreed(memory, w, h), d(memory, w, h), delta(memory, w, h),
-        domain(memory, w, h) {}
+        wrinkled(memory, w, h), domain(memory, w, h) {}
   BendingSystem system;
   Plane<float> pull;   // weight * gradient * residual, gathered
   Plane<float> agreed; // weight * agreed, gathered by judge()
   Plane<float> d, delta;
+  Plane<float> wrinkled;
   Plane<std::uint8_t> domain;
 };
 
@@ -82,40 +84,6 @@ void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, W
         system.data.row(j)[i] = a;
         work.pull.row(j)[i] = b;
         work.agreed.row(j)[i] = real;
-      }
-  });
-}
-
-// Weights of the second differences: expected roughness where the surface is smooth, less where it
-// bends beyond what is expected (a Cauchy prior by reweighting).
-void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain, double lambda, double expected,
-                   BendingSystem& s, ThreadPool& pool) {
-  const int w = s.width();
-  const int h = s.height();
-  const auto weight = static_cast<float>(lambda);
-  const auto crease2 = static_cast<float>(1 / (expected * expected));
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < w; ++x) {
-        float& xx = s.bend_xx.row(y)[x];
-        float& yy = s.bend_yy.row(y)[x];
-        float& xy = s.bend_xy.row(y)[x];
-        xx = yy = xy = 0;
-        if (domain.row(y)[x] == 0 || x == 0 || y == 0 || x == w - 1 || y == h - 1) continue;
-        const float here = d.row(y)[x];
-        const auto in = [&](int i, int j) { return domain.row(y + j)[x + i] != 0; };
-        const auto at = [&](int i, int j) { return d.row(y + j)[x + i]; };
-        const bool row = in(-1, 0) && in(1, 0);
-        const bool column = in(0, -1) && in(0, 1);
-        const bool cell = in(1, 0) && in(0, 1) && in(1, 1) && x + 1 < w - 1 && y + 1 < h - 1;
-        const float dxx = row ? at(-1, 0) - 2 * here + at(1, 0) : 0;
-        const float dyy = column ? at(0, -1) - 2 * here + at(0, 1) : 0;
-        const float dxy = cell ? here - at(1, 0) - at(0, 1) + at(1, 1) : 0;
-        const float bend = dxx * dxx + dyy * dyy + 2 * dxy * dxy;
-        const float omega = weight / (1 + bend * crease2);
-        if (row) xx = omega;
-        if (column) yy = omega;
-        if (cell) xy = 2 * omega;
       }
   });
 }
@@ -162,7 +130,8 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
       const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
-      const float xx = work.system.bend_xx.row(y)[x];
+      // Noise that bends the patch loosens its own hold: the reweighted prior curves once more as much less.
+      const float xx = work.system.bend_xx.row(y)[x] / (1 + work.wrinkled.row(y)[x]);
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
           posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
@@ -181,8 +150,8 @@ int steps_at(int level, int steps) {
 }  // namespace
 
 Result<void> SurfaceRefinerOptions::check() const {
-  if (!(bending > 0 && crease > 0 && local_window_px >= 5 && steps >= 1 && solver_steps >= 1))
-    return Error{Errc::InvalidInput, "refined: bending, crease, steps and solver_steps must be positive, local_window_px at least 5"};
+  if (!(bending > 0 && crease > 0 && wrinkle >= 0 && local_window_px >= 5 && steps >= 1 && solver_steps >= 1))
+    return Error{Errc::InvalidInput, "refined: bending, crease, steps and solver_steps must be positive, wrinkle not negative, local_window_px at least 5"};
   return {};
 }
 
@@ -195,7 +164,9 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   const double spacing = field.step_px;
   // Squared second differences over nodes `spacing` apart, one node a spacing^2 of full-size pixels.
   const double lambda = scene.lambda_px / (spacing * spacing);
-  const double expected = options.crease / std::sqrt(lambda);
+  const double expected_bend = 1 / std::sqrt(lambda);
+  // Only the finest size can tell relief from what a smaller one blurs together.
+  const BendingExpectation expected{lambda, options.crease * expected_bend, scene.level == 0 ? options.wrinkle * expected_bend : 0};
   const int steps = steps_at(scene.level, options.steps);
   float hanging = 1;
   for (int k = 0; k < steps; ++k) {
@@ -208,7 +179,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     Plane<float> agreed(&context.scratch, last ? extent.pixels.width : 0, last ? extent.pixels.height : 0);
     form_terms(scene, options, field, extent.pixels, context, terms, last ? &agreed : nullptr);
     gather_data(terms, last ? &agreed : nullptr, step, work, context.pool);
-    weigh_bending(work.d, work.domain, lambda, expected, work.system, context.pool);
+    weigh_bending(work.d, work.domain, expected, context.pool, work.delta, work.wrinkled, work.system);
     if (scene.level == 0 && k == kNoiseStep) hanging = hanging_noise(terms, context.pool);
     for (std::size_t n = 0; n < work.domain.values.size(); ++n) {
       const float share = work.domain.values[n] != 0 ? 1 / hanging : 0;

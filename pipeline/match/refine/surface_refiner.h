@@ -11,7 +11,7 @@
 //
 // so the effective window grows where the skin is plain and shrinks where it is rich, and a curved
 // surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
-// sharply (iteratively reweighted), so that eyelids and nostrils keep their creases.
+// sharply (iteratively reweighted, bending_weights.h), so that eyelids and nostrils keep their creases, lips their wrinkles.
 // sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed form of
 // the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds
 // (score_excess.h).
@@ -42,6 +42,7 @@ struct SurfaceField {
 struct SurfaceRefinerOptions {
   float bending = 0.22F;            // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
   float crease = 0.7F;              // second differences beyond this many expected ones count as creases
+  float wrinkle = 0.6F;             // at full size, 3 x 3 nodes that bend beyond this many expected ones count as relief; 0: none do
   int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
   int smallest_window_px = 9;       // and at least this many pixels of a smaller level
   int steps = 5;                    // warps at full size; one less at half, twice that at a quarter of it
