@@ -40,4 +40,31 @@ struct HealthView {
   std::span<const std::string_view> faults;  // newest first
 };
 
+// --- log: the newest lines, as they were written ---------------------------------------------------
+struct LogView {
+  std::span<const std::string_view> lines;   // newest first
+};
+
+// --- self-test --------------------------------------------------------------------------------------
+inline constexpr std::uint8_t kSelfTestBegin = 1;
+enum class Check : std::uint8_t { Memory, Store, Calibration, Disk, Cameras, Count };
+enum class CheckState : std::uint8_t { NotTested, Running, Good, Bad };
+inline constexpr std::size_t kChecks = static_cast<std::size_t>(Check::Count);
+
+struct SelfTestView {
+  std::array<CheckState, kChecks> states{};
+  std::array<std::string_view, kChecks> problems{};  // English, of those that are bad
+};
+
+// --- trigger test -----------------------------------------------------------------------------------
+inline constexpr std::uint8_t kTriggerBegin = 1;
+
+struct TriggerView {
+  int pulses = 0, pairs = 0;      // given; seen by both cameras
+  double apart_ms = 0;            // between the two exposures, at most
+  double delay_ms = 0;            // from asking to having both pictures, at most
+  std::uint64_t late = 0, lost = 0, damaged = 0;  // of both cameras, in this test
+  bool ended = false;
+};
+
 }  // namespace relievo::ui

@@ -39,6 +39,14 @@ constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, false, 
 constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, false};
 constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true};
 
+constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running, ui::CheckState::NotTested},
+                                   {"", "", "the store has no calibration: run relievo calibrate first", "", ""}};
+constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
+constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
+constexpr std::array<std::string_view, 4> kLines{"2026-03-14 10:21:09  fault: the camera is away: look at its cable", "2026-03-14 10:20:31  technician signed in",
+                                                 "2026-03-14 10:20:20  a wrong PIN was typed", "2026-03-14 07:58:02  started"};
+constexpr ui::LogView kLog{kLines};
+
 ServiceView at(StaffRole role) {
   ServiceView view;
   view.role = role;
@@ -94,6 +102,15 @@ std::deque<Shown> make_shown() {
   ServiceView health = at(StaffRole::Technician);
   health.health = &kHealth;
   all.push_back({"staff_health", StaffPage::Health, 0, health});
+  ServiceView tests = at(StaffRole::Technician);
+  tests.self_test = &kTested;
+  tests.log = &kLog;
+  tests.trigger = &kPulsed;
+  all.push_back({"staff_self_test", StaffPage::SelfTest, 0, tests});
+  all.push_back({"staff_trigger", StaffPage::Trigger, 0, tests});
+  tests.trigger = &kMissed;
+  all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
+  all.push_back({"staff_log", StaffPage::Log, 0, tests});
   ServiceView pins = at(StaffRole::Operator);
   pins.access.step = ui::PinStep::Own;
   all.push_back({"staff_new_pin", StaffPage::Pins, 0, pins});
@@ -103,8 +120,11 @@ std::deque<Shown> make_shown() {
 }  // namespace
 
 void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit) {
-  static const std::deque<Shown> all = make_shown();
-  for (const Shown& shown : all) {
+  static std::deque<Shown> all = make_shown();
+  for (Shown& shown : all) {
+    const bool turns = shown.view.records != nullptr && shown.view.records->shown != nullptr;
+    shown.view.model = turns ? idle.showpiece : nullptr;
+    shown.view.model_number = 1;
     Exhibit exhibit{shown.name, idle, visit, {}};
     exhibit.view.screen = ui::Screen::Technician;
     exhibit.view.service = &shown.view;

@@ -5,6 +5,7 @@
 #include "firmware/service/page/health_desk.h"
 #include "firmware/service/page/records_desk.h"
 #include "firmware/service/page/statistics_desk.h"
+#include "firmware/service/page/test_desks.h"
 #include "ui/screens/service/staff_screens.h"
 
 namespace relievo::firmware {
@@ -13,6 +14,9 @@ void fill_desk_pages(DeskTools& tools, std::span<std::unique_ptr<DeskPage>> page
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<DeskPage>& { return pages[static_cast<std::size_t>(page)]; };
   at(ui::StaffPage::Records) = std::make_unique<RecordsDesk>(tools);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsDesk>(tools);
+  at(ui::StaffPage::SelfTest) = std::make_unique<SelfTestDesk>(tools);
+  at(ui::StaffPage::Trigger) = std::make_unique<TriggerDesk>(tools);
+  at(ui::StaffPage::Log) = std::make_unique<LogDesk>(tools);
   at(ui::StaffPage::Health) = std::make_unique<HealthDesk>(tools);
 }
 

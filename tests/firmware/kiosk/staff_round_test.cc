@@ -20,6 +20,8 @@
 #include "hal/sim/replay/replay_board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "ui/records_view.h"
+#include "ui/staff_views.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -133,6 +135,28 @@ class StaffRoundTest : public testing::Test {
     EXPECT_EQ(kiosk->view().service->role, role);
     EXPECT_EQ(kiosk->appliance().state(), State::Technician);
   }
+  void test_the_device() {
+    tap("open self test");
+    tap("begin");
+    ASSERT_TRUE(until([this] { return !kiosk->view().service->work.running; }));
+    const ui::SelfTestView& tested = *kiosk->view().service->self_test;
+    const auto state = [&](ui::Check check) { return tested.states[static_cast<std::size_t>(check)]; };
+    EXPECT_EQ(state(ui::Check::Store), ui::CheckState::Good);
+    EXPECT_EQ(state(ui::Check::Cameras), ui::CheckState::Good);
+    EXPECT_EQ(state(ui::Check::Calibration), ui::CheckState::Bad) << "known to the store, but none is active";
+    tap("back");
+    tap("open trigger");
+    tap("begin");
+    ASSERT_TRUE(until([this] { return kiosk->view().service->trigger->ended; }));
+    EXPECT_EQ(kiosk->view().service->trigger->pulses, 10);
+    EXPECT_EQ(kiosk->view().service->trigger->pairs, 10);
+    tap("back");
+    tap("open log");
+    bool signed_in = false;
+    for (const std::string_view line : kiosk->view().service->log->lines) signed_in = signed_in || line.find("technician signed in") != std::string_view::npos;
+    EXPECT_TRUE(signed_in);
+    tap("back");
+  }
   void sign_out() {
     tap("sign out");
     ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
@@ -166,6 +190,7 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
   ASSERT_TRUE(until([this] { return find("gauge \u20660\u2069") != nullptr; })) << "the gauges are read beside the screen";
   tap("back");
   EXPECT_EQ(kiosk->ui().service().page, StaffPage::Menu);
+  test_the_device();
   sign_out();
   sign_in("80526", StaffRole::Operator);
   EXPECT_EQ(find("open health"), nullptr);
@@ -185,6 +210,30 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
 }
 
 // Search, look, export, erase: on the store and on a stick that is a folder.
+// A stick that is not there, and one that nothing can be written to: told, and nothing half-written.
+TEST_F(StaffRoundTest, AnExportThatCannotEndWellSaysSoAndTheNextOneDoes) {
+  enrol("Ada Lovelace");
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return find("record " + code_of(1)) != nullptr; }));
+  const auto outcome = [this] {
+    tap("export all");
+    until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; });
+    return kiosk->view().service->work.outcome;
+  };
+  media->unplug();
+  EXPECT_EQ(outcome(), ui::Outcome::NoStick);
+  media->plug(stick());
+  std::ofstream(stick() / "relievo") << "a file where the folder should be";
+  EXPECT_EQ(outcome(), ui::Outcome::Failed);
+  EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  std::filesystem::remove(stick() / "relievo");
+  EXPECT_EQ(outcome(), ui::Outcome::Done);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick()), {}), 1);
+}
+
 TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   enrol("Ada Lovelace");
   enrol("Grace Hopper");

@@ -12,12 +12,15 @@ namespace {
 // Marks words for the catalogues; the frame translates them when it draws.
 constexpr const char* mark_tr(const char* english) { return english; }
 
-constexpr const char *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b";
+constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b";
 
 // In the order of the menu.
 constexpr std::array kPages{
     StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page},
     StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true, statistics_page},
+    StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false, self_test_page},
+    StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false, trigger_page},
+    StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
     StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page},
     StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
 };

@@ -35,6 +35,9 @@ void first_start_page(StaffFrame& page);
 void menu_page(StaffFrame& page);
 void records_page(StaffFrame& page);
 void statistics_page(StaffFrame& page);
+void self_test_page(StaffFrame& page);
+void trigger_page(StaffFrame& page);
+void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
 void pins_page(StaffFrame& page);
 

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/page/test_desks.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "firmware/command/reconstruct/report.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::Check;
+using ui::CheckState;
+
+constexpr std::uintmax_t kLeastRoom = 512U << 20;  // for a few dozen portraits
+constexpr std::chrono::milliseconds kBetweenPulses{100};
+
+Result<void> disk_has_room(const std::filesystem::path& folder) {
+  std::error_code none;
+  const auto room = std::filesystem::space(folder, none);
+  if (none) return Error{Errc::IoFailed, "the disk does not tell how much room it has"};
+  if (room.available < kLeastRoom) return Error{Errc::MediaFull, "less than half a gigabyte is left on the disk: make room"};
+  return {};
+}
+
+// One pair, looked at by nobody and wiped.
+Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
+  StereoGrabber& grabber = tools.appliance.grabber();
+  RELIEVO_TRY(grabber.start(tools.board.preferred_mode()));
+  StereoSlot& slot = tools.appliance.session().slot();
+  const auto pair = grabber.grab(slot, control.cancelled);
+  slot.wipe();
+  return pair;
+}
+
+}  // namespace
+
+void SelfTestDesk::opened() {
+  ++visit_;
+  view_ = {};
+}
+
+void SelfTestDesk::begin(Check check, JobPlace place, Errands::Work work) {
+  const auto at = static_cast<std::size_t>(check);
+  view_.states[at] = CheckState::Running;
+  ++running_;
+  tools().errands.send(place, std::move(work), [this, at, visit = visit_](const std::optional<Error>& error) {
+    --running_;
+    if (error) tools().log.fault(*error);
+    if (visit != visit_) return;
+    view_.states[at] = error ? CheckState::Bad : CheckState::Good;
+    view_.problems[at] = error ? error->what.view() : std::string_view();
+  });
+}
+
+void SelfTestDesk::ask(const ui::StaffWish& wish) {
+  if (wish.verb != ui::kSelfTestBegin || running_ > 0) return;
+  view_ = {};
+  DeskTools& t = tools();
+  t.log.say("self-test begun");
+  begin(Check::Memory, JobPlace::Keeper, [](JobControl&) -> Result<void> {
+    if (peak_rss_bytes() > budget::kApplianceBytes) return Error{Errc::OutOfMemory, "the program has used more memory than was planned: see the page of health"};
+    return {};
+  });
+  begin(Check::Store, JobPlace::Keeper, [&t](JobControl&) { return t.store.check(); });
+  begin(Check::Calibration, JobPlace::Keeper, [&t](JobControl&) -> Result<void> {
+    RELIEVO_TRY(t.store.active_calibration());
+    return {};
+  });
+  begin(Check::Disk, JobPlace::Keeper, [&t](JobControl&) { return disk_has_room(t.folder); });
+  begin(Check::Cameras, JobPlace::Capture, [&t](JobControl& control) -> Result<void> {
+    RELIEVO_TRY(one_pair(t, control));
+    return {};
+  });
+}
+
+void SelfTestDesk::show(ui::ServiceView& view) {
+  view.work.running = running_ > 0;
+  view.self_test = &view_;
+}
+
+void TriggerDesk::opened() {
+  ++visit_;
+  view_ = {};
+}
+
+void TriggerDesk::closed() {
+  ++visit_;
+  if (running_) tools().errands.stop(JobPlace::Capture);
+}
+
+void TriggerDesk::ask(const ui::StaffWish& wish) {
+  if (wish.verb != ui::kTriggerBegin || running_) return;
+  running_ = true;
+  view_ = {};
+  const auto seen = std::make_shared<ui::TriggerView>();
+  DeskTools& t = tools();
+  t.errands.send(
+      JobPlace::Capture,
+      [&t, seen](JobControl& control) -> Result<void> {
+        const GrabCounts before = t.appliance.grabber().counts();
+        std::optional<Error> last;
+        for (; seen->pulses < kPulses && !control.cancelled.load(); ++seen->pulses) {
+          const hal::Instant asked = t.board.clock().now();
+          const auto pair = one_pair(t, control);
+          const std::chrono::duration<double, std::milli> took = t.board.clock().now() - asked;
+          if (pair) {
+            ++seen->pairs;
+            seen->delay_ms = std::max(seen->delay_ms, took.count());
+            seen->apart_ms = std::max(seen->apart_ms, std::abs(static_cast<double>(pair->skew_ns)) * 1e-6);
+          } else {
+            last = pair.error();
+          }
+          control.progress.done.store(static_cast<float>(seen->pulses + 1) / kPulses);
+          std::this_thread::sleep_for(kBetweenPulses);
+        }
+        const GrabCounts& after = t.appliance.grabber().counts();
+        seen->late = after.left.late - before.left.late + after.right.late - before.right.late;
+        seen->lost = after.left.lost - before.left.lost + after.right.lost - before.right.lost;
+        seen->damaged = after.left.damaged - before.left.damaged + after.right.damaged - before.right.damaged;
+        return last ? Result<void>(*last) : Result<void>();
+      },
+      [this, seen, visit = visit_](const std::optional<Error>& error) {
+        running_ = false;
+        if (error) tools().log.fault(*error);
+        if (visit != visit_) return;
+        view_ = *seen;
+        view_.ended = true;
+      });
+}
+
+void TriggerDesk::show(ui::ServiceView& view) {
+  view.work.running = running_;
+  view.trigger = &view_;
+}
+
+void LogDesk::show(ui::ServiceView& view) {
+  lines_ = tools().log.lines();
+  std::reverse(lines_.begin(), lines_.end());
+  if (lines_.size() > kShown) lines_.resize(kShown);
+  shown_.assign(lines_.begin(), lines_.end());
+  view_.lines = shown_;
+  view.log = &view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come out.
+#include "ui/service.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <optional>
+
+#include "ui/view_state.h"
+
+namespace relievo::ui {
+namespace {
+
+class ServiceTest : public testing::Test {
+ protected:
+  ServiceTest() {
+    view.screen = Screen::Idle;
+    view.now = hal::Instant(std::chrono::seconds(1000));
+    view.service = &desk;
+  }
+  void act(ActionKind kind, int value = 0, int detail = 0) { service.act({kind, value, detail}, view); }
+  void sign_in(StaffRole role) {
+    act(ActionKind::StaffEnter);
+    desk.role = role;
+    service.follow(view);
+  }
+  std::optional<StaffWish> last_wish() {
+    std::optional<StaffWish> last;
+    while (auto wish = service.take_wish()) last = wish;
+    return last;
+  }
+  ServiceView desk;
+  ViewState view;
+  Service service;
+};
+
+TEST_F(ServiceTest, OnlyTheApplianceLetsAnybodyIn) {
+  act(ActionKind::StaffEnter);
+  EXPECT_EQ(service.page, StaffPage::Pin);
+  act(ActionKind::StaffOpen, static_cast<int>(StaffPage::Records));
+  service.follow(view);
+  EXPECT_FALSE(service.open) << "without a role there is no page";
+  sign_in(StaffRole::Operator);
+  EXPECT_EQ(service.page, StaffPage::Menu);
+  desk.role = StaffRole::None;
+  service.follow(view);
+  EXPECT_FALSE(service.open);
+}
+
+TEST_F(ServiceTest, APinIsDigitsAndIsWipedWithItsWish) {
+  act(ActionKind::StaffEnter);
+  for (const char* key : {"4", "x", "7", "1", " ", "1"}) service.type(key);
+  EXPECT_EQ(service.typed(), "4711");
+  act(ActionKind::StaffDo, 1);
+  EXPECT_EQ(service.typed(), "");
+  EXPECT_EQ(last_wish()->text(), "4711");
+  for (int i = 0; i < 20; ++i) service.type("9");
+  EXPECT_EQ(service.typed().size(), kMostPinDigits);
+  view.now += kPinPatience + std::chrono::seconds(1);
+  service.follow(view);
+  EXPECT_FALSE(service.open) << "nobody goes on";
+  EXPECT_EQ(service.typed(), "");
+}
+
+TEST_F(ServiceTest, BackLeadsOutOneStepAtATime) {
+  sign_in(StaffRole::Operator);
+  act(ActionKind::StaffOpen, static_cast<int>(StaffPage::Records));
+  act(ActionKind::StaffMode, 1);
+  service.type("A");
+  act(ActionKind::Back);
+  EXPECT_EQ(service.mode, 0);
+  desk.inner = true;
+  act(ActionKind::Back);
+  EXPECT_EQ(service.page, StaffPage::Records) << "what it showed within itself is closed first";
+  EXPECT_EQ(last_wish()->verb, kPageOpened);
+  EXPECT_EQ(service.typed(), "");
+  desk.inner = false;
+  act(ActionKind::Back);
+  EXPECT_EQ(service.page, StaffPage::Menu);
+  act(ActionKind::Back);
+  EXPECT_FALSE(service.open);
+  EXPECT_EQ(last_wish()->verb, kPageLeft);
+}
+
+TEST_F(ServiceTest, ANewDeviceAsksForItsPinsFirst) {
+  desk.access.set_up = false;
+  act(ActionKind::StaffEnter);
+  EXPECT_EQ(service.page, StaffPage::FirstStart);
+  desk.access.set_up = true;
+  service.follow(view);
+  EXPECT_EQ(service.page, StaffPage::Pin);
+}
+
+}  // namespace
+}  // namespace relievo::ui
