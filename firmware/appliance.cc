@@ -59,8 +59,8 @@ Appliance::Appliance(Parts parts)
     : board_(parts.board), machine_(parts.board.clock().now()), session_(parts.memory),
       grabber_(parts.board),
       open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
-      pose_(grabber_, session_, parts.board.preferred_mode(), parts.guide, parts.board.clock()),
-      grab_(grabber_, session_, parts.board),
+      pose_(grabber_, session_, parts.board, parts.pool, parts.judge),
+      grab_(grabber_, session_, parts.board, pose_),
       stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
       capture_(reports_), worker_(reports_), keeper_(reports_) {
   records_.reserve(4 * budget::kCaptureAttempts);

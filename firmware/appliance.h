@@ -39,7 +39,7 @@ class Appliance {
     const BootMemory& memory;
     ThreadPool& pool;
     Keep keep;
-    PositionGuide* guide = nullptr;  // advice for a person at the screen; without one the picture alone is shown
+    LiveJudge* judge = nullptr;  // advice for a person at the screen; without one the picture alone is shown
   };
   explicit Appliance(Parts parts);
   ~Appliance();

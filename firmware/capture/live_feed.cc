@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "firmware/budget.h"
+#include "pipeline/gate/relief/relief_picture.h"
 
 namespace relievo::firmware {
 namespace {
 
+constexpr double kNearestDrawnMm = 350, kFarthestDrawnMm = 1000;
 constexpr auto kSide = static_cast<std::size_t>(budget::kLiveSidePx);
 
 // Means over step x step pixels.
@@ -36,7 +38,10 @@ void shrink(const ImageView& from, int step, int width, int height, std::uint8_t
 }  // namespace
 
 LiveFeed::LiveFeed() {
-  for (Slot& slot : slots_) slot.rgb.resize(kSide * kSide * 3);
+  for (Slot& slot : slots_) {
+    slot.rgb.resize(kSide * kSide * 3);
+    slot.relief.resize(kSide * kSide);
+  }
 }
 
 ImageView LiveFeed::fill(const ImageView& picture) {
@@ -45,8 +50,16 @@ ImageView LiveFeed::fill(const ImageView& picture) {
   const int step = (longer + budget::kLiveSidePx - 1) / budget::kLiveSidePx;
   const int width = picture.width_px / step, height = picture.height_px / step;
   shrink(picture, step, width, height, slot.rgb.data());
+  slot.live.relief = {};
   slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width, PixelFormat::Rgb8};
   return slot.live.picture;
+}
+
+void LiveFeed::fill_relief(const pipeline::Relief& relief) {
+  Slot& slot = slots_[filling_];
+  if (relief.depth_mm.size() > slot.relief.size()) return;
+  pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, slot.relief.data());
+  slot.live.relief = {reinterpret_cast<const std::byte*>(slot.relief.data()), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8};
 }
 
 void LiveFeed::publish(const Guidance& guidance) {
@@ -68,6 +81,7 @@ void LiveFeed::wipe() {
   for (Slot& slot : slots_) {
     if (slot.live.picture.empty()) continue;
     explicit_bzero(slot.rgb.data(), slot.rgb.size());
+    explicit_bzero(slot.relief.data(), slot.relief.size());
     slot.live = {};
   }
   fresh_ = false;

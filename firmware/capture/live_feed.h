@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LiveFeed: the newest small picture of the person, from the capture thread to the screen. Three
+// LiveFeed: the newest small picture of the person, with the relief it is
+// judged by, from the capture thread to the screen. Three
 // buffers of fixed size: one is being filled, one is the newest, one is on the screen; nobody waits.
 // Thread: fill() and publish() capture, newest() main; wipe() main, and only while no job runs.
 #pragma once
@@ -11,13 +12,15 @@
 #include <mutex>
 #include <vector>
 
-#include "firmware/capture/position_guide.h"
+#include "firmware/capture/guidance.h"
 #include "hal/base/image_view.h"
+#include "pipeline/model/relief.h"
 
 namespace relievo::firmware {
 
 struct LivePicture {
   ImageView picture;   // Rgb8; valid until the next newest()
+  ImageView relief;    // Grey8, as valid: how near everything is, near is bright, 0 unknown; empty where nothing judges
   Guidance guidance;
   std::uint32_t number = 0;  // 0: none since the last wipe
 };
@@ -27,13 +30,15 @@ class LiveFeed {
   LiveFeed();
   // A copy of the picture, its longer side kLiveSidePx or less.
   ImageView fill(const ImageView& picture);
+  // With the picture that is being filled; a relief larger than the room for it is left out.
+  void fill_relief(const pipeline::Relief& relief);
   void publish(const Guidance& guidance);
   LivePicture newest();
   void wipe();
 
  private:
   struct Slot {
-    std::vector<std::uint8_t> rgb;
+    std::vector<std::uint8_t> rgb, relief;
     LivePicture live;
   };
   std::array<Slot, 3> slots_;

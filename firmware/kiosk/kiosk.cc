@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include <cmath>
-
 #include "firmware/command/commands.h"
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
@@ -16,14 +14,6 @@
 
 namespace relievo::firmware {
 namespace {
-
-// Where the two cameras' axes come nearest to each other: there a face is seen best.
-double best_distance_mm(const pipeline::StereoCalibration& c) {
-  const double sine = std::hypot(c.right_from_left.rotation.m[2], c.right_from_left.rotation.m[5]);
-  const auto& t = c.right_from_left.translation_mm;
-  const double baseline = std::hypot(t.x, t.y, t.z);
-  return sine > 0.05 ? std::clamp(baseline / sine, 450.0, 650.0) : 560.0;
-}
 
 void wipe(std::string& text) {
   explicit_bzero(text.data(), text.size());
@@ -63,15 +53,15 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     RELIEVO_TRY_ASSIGN(revision_, store_->know_calibration(calibration, args.calibration.empty() ? "of the simulated rig" : args.calibration.filename().string()));
   }
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibration));
-  RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
-  guide_ = std::make_unique<PositionGuide>(std::move(finder), calibration.left.focal_px.x, best_distance_mm(calibration));
+  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration));
+  judge_ = std::make_unique<LiveJudge>(std::move(judge));
   stages_ = std::make_unique<PipelineStages>(std::move(pipeline));
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
-  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, guide_.get()});
+  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get()});
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   look();
   return {};

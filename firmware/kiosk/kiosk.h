@@ -59,7 +59,7 @@ class Kiosk {
   std::unique_ptr<BootMemory> memory_;
   std::unique_ptr<ThreadPool> pool_;
   std::unique_ptr<PipelineStages> stages_;
-  std::unique_ptr<PositionGuide> guide_;
+  std::unique_ptr<LiveJudge> judge_;
   std::unique_ptr<Showpiece> showpiece_;
   std::unique_ptr<ui::Ui> ui_;
   std::uint32_t revision_ = 0;

@@ -8,6 +8,11 @@
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
+namespace {
+
+constexpr int kMeterEvery = 3;  // live pairs: a camera that runs on its own obeys one or two later
+
+}  // namespace
 
 Result<void> OpenCamerasJob::run(JobControl& control) {
   const hal::Instant until = clock_.now() + budget::kCameraReturn;
@@ -20,20 +25,46 @@ Result<void> OpenCamerasJob::run(JobControl& control) {
 }
 
 Result<void> PoseJob::run(JobControl& control) {
-  RELIEVO_TRY(grabber_.start(mode_));
-  if (guide_ != nullptr) guide_->begin();
+  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
+  const hal::Exposure known = exposure_.exposure();
+  RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
+  if (judge_ != nullptr) judge_->begin();
+  focus_.reset();
+  face_.reset();
+  pairs_ = 0;
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
-    LiveFeed& live = session_.live();
-    const ImageView small = live.fill(frame.left);
+    session_.live().fill(frame.left);
     Guidance guidance;
-    if (guide_ != nullptr) {
-      RELIEVO_TRY_ASSIGN(guidance, guide_->look(small, frame.left.width_px, clock_.now(), &control.cancelled));
+    if (judge_ != nullptr) {
+      RELIEVO_TRY_ASSIGN(guidance, judge(frame, control));
     }
-    live.publish(guidance);
+    session_.live().publish(guidance);
     std::this_thread::sleep_for(budget::kLivePause);
   }
   return Error{Errc::Cancelled, "nobody looks at the live picture any more"};
+}
+
+// The pool is the worker's, which rests while somebody poses.
+Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& control) {
+  const Arena::Mark mark(session_.output());
+  EnrolmentSession::Scratch scratch(session_);
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress, control.cancelled};
+  RELIEVO_TRY_ASSIGN(LiveSight sight, judge_->look(frame, board_.clock().now(), context));
+  session_.live().fill_relief(sight.relief);
+  face_ = sight.face;
+  RELIEVO_TRY(meter(frame, sight.guidance));
+  return sight.guidance;
+}
+
+// Where no face is known, the middle of the picture is lit for.
+Result<void> PoseJob::meter(const pipeline::StereoFrame& frame, Guidance& guidance) {
+  if (pairs_++ % kMeterEvery != 0) return {};
+  const auto left = face_light(frame.left, face_ ? face_->left : middle_box(frame.left));
+  const auto right = face_light(frame.right, face_ ? face_->right : middle_box(frame.right));
+  if (!left || !right) return {};  // half out of the picture: the person is told to come in
+  guidance.focus_share = focus_.share_of_best(*left);
+  return exposure_.step(*left, *right);
 }
 
 Result<void> GrabJob::run(JobControl& control) {
@@ -44,8 +75,18 @@ Result<void> GrabJob::run(JobControl& control) {
     RELIEVO_TRY_ASSIGN(session_.products().frame, grabber_.grab(session_.slot(), control.cancelled));
     return {};
   }
-  RELIEVO_TRY_ASSIGN(const BurstResult burst, burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled));
-  session_.products().frame = burst.frame;
+  if (pose_.face()) options.face = pose_.face()->left;
+  ExposureControl& exposure = pose_.exposure();
+  // Still metering: both have the same exposure all the same, and nobody changes it now.
+  if (exposure.state() != ExposureControl::State::Metering) RELIEVO_TRY(exposure.lock());
+  Result<BurstResult> burst = burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
+  if (!burst && burst.error().code == Errc::InvalidInput && options.face) {  // the face box reaches out of a picture
+    options.face.reset();
+    burst = burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
+  }
+  exposure.unlock();
+  if (!burst) return burst.error();
+  session_.products().frame = burst->frame;
   return {};
 }
 

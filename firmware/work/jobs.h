@@ -8,7 +8,8 @@
 #include <functional>
 
 #include "firmware/capture/burst.h"
-#include "firmware/capture/position_guide.h"
+#include "firmware/capture/exposure_control.h"
+#include "firmware/capture/live_judge.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/session.h"
 #include "firmware/work/job_thread.h"
@@ -32,32 +33,44 @@ class OpenCamerasJob final : public Job {
   const hal::Clock& clock_;
 };
 
-// Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small.
+// Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small. Meanwhile both
+// cameras are set to the light on the face.
 class PoseJob final : public Job {
  public:
-  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode, PositionGuide* guide, const hal::Clock& clock)
-      : grabber_(grabber), session_(session), mode_(mode), guide_(guide), clock_(clock) {}
+  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool, LiveJudge* judge)
+      : grabber_(grabber), session_(session), board_(board), pool_(pool), judge_(judge), exposure_(board.left(), board.right()) {}
   Result<void> run(JobControl& control) override;
+  // For the shot that follows on the same thread: where the face was last, and the exposure, to be locked.
+  const std::optional<FaceBoxes>& face() const { return face_; }
+  ExposureControl& exposure() { return exposure_; }
 
  private:
+  Result<Guidance> judge(const pipeline::StereoFrame& frame, JobControl& control);
+  Result<void> meter(const pipeline::StereoFrame& frame, Guidance& guidance);
+
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::CaptureMode mode_;
-  PositionGuide* guide_;
-  const hal::Clock& clock_;
+  hal::Board& board_;
+  ThreadPool& pool_;
+  LiveJudge* judge_;
+  ExposureControl exposure_;
+  FocusHelp focus_;
+  std::optional<FaceBoxes> face_;
+  int pairs_ = 0;
 };
 
-// Before a live board a burst, else the next pair.
+// Before a live board a burst at one exposure, else the next pair.
 class GrabJob final : public Job {
  public:
-  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board)
-      : grabber_(grabber), session_(session), board_(board), burst_(grabber, board.trigger(), board.clock()) {}
+  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, PoseJob& pose)
+      : grabber_(grabber), session_(session), board_(board), pose_(pose), burst_(grabber, board.trigger(), board.clock()) {}
   Result<void> run(JobControl& control) override;
 
  private:
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Board& board_;
+  PoseJob& pose_;
   Burst burst_;
 };
 

@@ -17,6 +17,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/relief/live_relief.h"
+#include "pipeline/gate/relief/relief_picture.h"
 #include "pipeline/gate/relief/small_pair.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/workspace.h"
@@ -53,10 +54,7 @@ Time median_of(int rounds, Work&& work) {
 
 void draw(const pipeline::Relief& relief, const std::string& file) {
   std::vector<std::byte> grey(relief.depth_mm.size());
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    const double z = static_cast<double>(relief.depth_mm[i]);
-    grey[i] = static_cast<std::byte>(z > 0 ? std::clamp(40 + 215 * (1 / z - 1 / 1100.0) / (1 / 400.0 - 1 / 1100.0), 20.0, 255.0) : 0);
-  }
+  pipeline::draw_relief(relief, 400, 1100, reinterpret_cast<std::uint8_t*>(grey.data()));
   if (!hal::write_picture(file, {grey.data(), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8})) std::exit(1);
 }
 

@@ -212,7 +212,9 @@ TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
   EnrolmentSession session(boot);
   ASSERT_TRUE(session.open("Ada"));
   show({{3, 0, {}}, {3, 0, {}}, {1, 0, {}}, {3, 0, {}}, {3, 0, {}}});
-  GrabJob job(grabber, session, board);
+  ThreadPool pool(1);
+  PoseJob pose(grabber, session, board, pool, nullptr);
+  GrabJob job(grabber, session, board, pose);
   pipeline::Progress progress;
   JobControl control{cancelled, progress};
   ASSERT_TRUE(job.run(control));

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/capture/live_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/match/rectify/rectified_geometry.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr int kJudgedWidthPx = 480;   // about: the pictures the gate measures in
+constexpr double kFaceWidthMm = 150, kFaceHeightMm = 190;
+constexpr double kUpMm = 12;   // of the face's middle above the tip of the nose
+
+// Where the two cameras' axes come nearest to each other: there a face is seen best.
+double best_distance_mm(const pipeline::StereoCalibration& c) {
+  const double sine = std::hypot(c.right_from_left.rotation.m[2], c.right_from_left.rotation.m[5]);
+  const auto& t = c.right_from_left.translation_mm;
+  const double baseline = std::hypot(t.x, t.y, t.z);
+  return sine > 0.05 ? std::clamp(baseline / sine, 450.0, 650.0) : 560.0;
+}
+
+FaceBox box_at(const pipeline::CameraIntrinsics& camera, const pipeline::Vec3d& tip_mm) {
+  const pipeline::Vec2d at = pipeline::source_pixel(camera, {}, 1, {0, 0}, {tip_mm.x / tip_mm.z, (tip_mm.y - kUpMm) / tip_mm.z});
+  const double a_mm = camera.focal_px.x / tip_mm.z, width = kFaceWidthMm * a_mm, height = kFaceHeightMm * a_mm;
+  return {static_cast<int>(std::lround(at.x - width / 2)), static_cast<int>(std::lround(at.y - height / 2)), static_cast<int>(width), static_cast<int>(height)};
+}
+
+}  // namespace
+
+FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration, const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm) {
+  const pipeline::Vec3d in_left = apply(transposed(rectified_from_left), tip_mm);
+  return {box_at(calibration.left, in_left), box_at(calibration.right, apply(calibration.right_from_left, in_left))};
+}
+
+Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration) {
+  pipeline::CaptureGateOptions options;
+  options.relief.reduction = std::max(1, static_cast<int>(std::lround(static_cast<double>(calibration.left.width_px) / kJudgedWidthPx)));
+  RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(options));
+  return LiveJudge(std::move(gate), calibration);
+}
+
+Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration, const pipeline::Relief& relief) {
+  const pipeline::GateMeasures& m = answer.measures;
+  Guidance guidance;
+  guidance.advice = answer.advice;
+  guidance.ideal_width = calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) / calibration.left.width_px;
+  guidance.steady_s = std::chrono::duration<double>(answer.steady).count();
+  if (m.head.known) {
+    guidance.face_x = m.off_right_mm / kFaceWidthMm;
+    guidance.face_y = m.off_down_mm / kFaceWidthMm;
+  } else if (m.face.width_px > 0) {
+    guidance.face_x = (m.face.centre_px.x - relief.width_px / 2.0) / m.face.width_px;
+    guidance.face_y = (m.face.centre_px.y - relief.height_px / 2.0) / m.face.width_px;
+  }
+  return guidance;
+}
+
+Result<LiveSight> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context) {
+  RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+    return gate_.look(frame, calibration_, now.time_since_epoch(), history_, c);
+  }));
+  const pipeline::HeadSight& head = look.answer.measures.head;
+  std::optional<FaceBoxes> face;
+  if (head.known) face = face_boxes(calibration_, look.relief.rectified_from_left, head.tip_mm);
+  return LiveSight{guidance_of(look.answer, calibration_, look.relief), face, std::move(look.relief)};
+}
+
+}  // namespace relievo::firmware
