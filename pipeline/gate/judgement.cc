@@ -47,7 +47,7 @@ struct Judge {
     if (!f.known) return Advice::NoFace;
     if (below(f.luminance_mean, l.darkest_mean, Advice::TooDark) || above(f.dark_share, l.dark_share, Advice::TooDark)) return Advice::TooDark;
     if (above(f.luminance_mean, l.brightest_mean, Advice::TooBright) || above(f.bright_share, l.bright_share, Advice::TooBright)) return Advice::TooBright;
-    if (below(f.side_ratio, l.side_ratio, Advice::UnevenLight)) return Advice::UnevenLight;
+    if (f.side_ratio < (said == Advice::UnevenLight ? l.side_ratio / l.leave_sides : l.side_ratio)) return Advice::UnevenLight;
     if (above(f.glossy_share, l.glossy_share, Advice::Highlights)) return Advice::Highlights;
     if (below(m.sharpness, l.sharpness, Advice::Blurred)) return Advice::Blurred;
     return Advice::None;
@@ -67,9 +67,9 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
   for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
-                         side_ratio, glossy_share, sharpness, in_front_share, unknown_share, asymmetry_mm, relief_mm, leave})
+                         side_ratio, glossy_share, sharpness, in_front_share, unknown_share, asymmetry_mm, relief_mm, leave, leave_sides})
     if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
-  if (leave > 1) return Error{Errc::InvalidInput, "leave is a share of a limit: 1 at most"}.at("gate");
+  if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
   return {};
 }
 

@@ -41,6 +41,7 @@ struct GateLimits {
   double asymmetry_mm = 5.5;
   double relief_mm = 8;                            // a nose stands out further: else something flat is before it
   double leave = 0.85;                             // share of a limit
+  double leave_sides = 0.96;                       // of side_ratio: faces are lit unlike each other in good light, but steadily
   Result<void> check() const;
 };
 

@@ -158,7 +158,7 @@ int run(int argc, char** argv) {
   if (cases > 0) print_table(proof, first, people, cases);
   int early = 0, never = 0, longest = 0;
   for (int i = 0; i < visits; ++i) {
-    Random random(1000 + static_cast<std::uint64_t>(i));
+    Random random(1000 * static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(i));
     const int pictures = visit(proof, first + 2 * static_cast<std::uint32_t>(i % people), random);
     early += pictures == 0 ? 1 : 0;
     never += pictures < 0 ? 1 : 0;
