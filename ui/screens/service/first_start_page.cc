@@ -52,7 +52,7 @@ void clock(StaffFrame& page) {
   room.box.scroll = true;
   room.id = "clock room";
   page.tree.open(room);
-  Node time = page.text(page.staff.access.clock, type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  Node time = page.text(page.filled("{}", page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
   time.id = "clock";
   time.role = Role::Status;
   page.tree.leaf(time);

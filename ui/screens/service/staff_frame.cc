@@ -99,7 +99,7 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   }
   tree.open(row);
   tree.open(grown(box(Flow::Column), value.empty() ? 1 : 1.2F));
-  tree.leaf(text(label, type::kSmall, Weight::Medium, palette.ink));
+  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.close();
   if (!value.empty()) {
     Node end = grown(box(Flow::Row, space::kXs));
@@ -107,7 +107,7 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
     end.box.across = Across::Centre;
     tree.open(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
-    tree.leaf(text(value, type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
+    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
     tree.close();
   }
   if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
