@@ -222,6 +222,16 @@ bool Appliance::enter_capture(const Change& change) {
   return true;
 }
 
+// The technician's test capture lies in it, and the staff's pages may be at work on that.
+void Appliance::close_session() {
+  for (JobThread* thread : {&capture_, &worker_}) {
+    if (!thread->busy()) continue;
+    thread->cancel();
+    thread->wait_until_idle();
+  }
+  session_.close();
+}
+
 void Appliance::entered(const Change& change) {
   stop_job();
   switch (change.to) {
@@ -244,7 +254,7 @@ void Appliance::entered(const Change& change) {
       start(keeper_, keep_);
       break;
     case State::Idle:
-    case State::Fault: session_.close(); break;
+    case State::Fault: close_session(); break;
     case State::Review:
       if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
       break;

@@ -95,6 +95,7 @@ class Appliance {
   JobThread& thread_at(JobPlace place);
   void heard_side(std::size_t place, const JobReport& report);
   void heard(const JobReport& report);
+  void close_session();
   void note(const Error& error);
   void note(const pipeline::DriftJudgement& drift);
 

@@ -22,6 +22,7 @@ inline constexpr std::size_t kFrameBytes =
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
 inline constexpr int kLiveSidePx = 640;           // longer side of the live picture on the screen
 inline constexpr int kStagePictureSidePx = 400;   // of a stage's picture, a square
+inline constexpr int kBenchPictureSidePx = 720;   // longer side of a picture on the technician's pages
 inline constexpr std::size_t kStereoSlots = 2;   // a burst's best pair, kept until the session closes, and its newest
 
 // --- memory -------------------------------------------------------------------------------------

@@ -36,6 +36,13 @@ void EnrolmentSession::retake() {
   make_products();
 }
 
+void EnrolmentSession::rework() {
+  const auto frame = products().frame;
+  wipe_products();
+  make_products();
+  products_->frame = frame;
+}
+
 void EnrolmentSession::close() {
   if (!is_open()) return;
   wipe();
@@ -43,12 +50,16 @@ void EnrolmentSession::close() {
 }
 
 void EnrolmentSession::wipe() {
-  std::destroy_at(products_);
-  products_ = nullptr;
+  wipe_products();
   slot_.wipe();
   live_.wipe();
-  stage_pictures_.wipe();
   spare_slot_.wipe();
+}
+
+void EnrolmentSession::wipe_products() {
+  std::destroy_at(products_);
+  products_ = nullptr;
+  stage_pictures_.wipe();
   output_.wipe();
   explicit_bzero(scratch_block_.data(), scratch_touched_);
   scratch_touched_ = 0;

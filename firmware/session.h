@@ -7,6 +7,7 @@
 //   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
 //                             |   ^
 //                             +---+ retake(): pictures and products go, the subject stays
+//                                   rework(): only the products go
 //
 // Thread: main opens and closes, and only while no job runs; a running job has the products.
 #pragma once
@@ -55,6 +56,8 @@ class EnrolmentSession {
   // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
   Result<void> open(std::string_view subject);
   void retake();
+  // The products go, the pictures they were made of stay: all stages can run once more. Also on the worker.
+  void rework();
   void close();
   bool is_open() const { return products_ != nullptr; }
 
@@ -83,6 +86,7 @@ class EnrolmentSession {
 
  private:
   void make_products();
+  void wipe_products();
   void wipe();
 
   StereoSlot slot_;

@@ -19,6 +19,7 @@ enum class ActionKind : std::uint8_t {
   TakePicture, Accept, Retake,
   TurnFace,                              // dragged
   TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,
+  LookPoints, LookEdges, LookFill, LookLight,  // what of the model is drawn
   Finish,
   StaffEnter, StaffLeave,                // the staff's side (ui/service.h)
   StaffOpen,                             // value: a StaffPage

@@ -20,6 +20,7 @@ enum class StaffRole : std::uint8_t { None, Technician, Operator };
 enum class StaffPage : std::uint8_t {
   Pin, FirstStart, Menu,
   Records, Statistics,                             // operator's
+  Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate,  // technician's, on the workbench
   SelfTest, Trigger, Health, Log, Settings, Touch,  // technician's
   Pins,                                            // everybody's
   Count
@@ -73,6 +74,7 @@ struct ServiceView {
   const struct LogView* log = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
+  const struct BenchView* bench = nullptr;   // of all pages on the workbench
 };
 
 }  // namespace relievo::ui

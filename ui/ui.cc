@@ -12,6 +12,12 @@
 namespace relievo::ui {
 namespace {
 
+// Where in the node, as Node::tells_place has it.
+std::int32_t place_in(const Rect& rect, float x, float y) {
+  const auto part = [](float share) { return std::clamp(static_cast<std::int32_t>(share * 4096), 0, 4095); };
+  return part((x - rect.x) / std::max(1.0F, rect.w)) << 12 | part((y - rect.y) / std::max(1.0F, rect.h));
+}
+
 constexpr float kSlopPx = 14;  // a finger that rests moves so far
 
 }  // namespace
@@ -98,7 +104,11 @@ void Ui::up(const Input& input, const ViewState& view) {
     if (!finger.down || finger.id != input.finger) continue;
     finger.down = false;
     const Node* node = tree_.at(input.x, input.y);
-    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold) activate(*node, view);
+    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold) {
+      Node touched = *node;
+      if (node->tells_place) touched.action.detail = place_in(node->rect, input.x, input.y);
+      activate(touched, view);
+    }
     hands_.pressed.clear();
   }
 }

@@ -46,6 +46,7 @@ class Ui {
   Visit& visit() { return visit_; }
   const Visit& visit() const { return visit_; }
   Service& service() { return service_; }
+  std::string_view focus() const { return hands_.show_focus ? std::string_view(hands_.focus) : std::string_view(); }
   const Service& service() const { return service_; }
 
  private:

@@ -78,6 +78,10 @@ void Visit::look_at(ActionKind kind) {
   if (kind == ActionKind::ZoomOut) look.zoom = std::max(0.8F, look.zoom / 1.25F);
   if (kind == ActionKind::MoveLight) look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30;
   if (kind == ActionKind::ShowShape) look.textured = !look.textured;
+  if (kind == ActionKind::LookPoints) look.points = !look.points;
+  if (kind == ActionKind::LookEdges) look.edges = !look.edges;
+  if (kind == ActionKind::LookFill) look.fill = !look.fill;
+  if (kind == ActionKind::LookLight) look.lit = !look.lit;
 }
 
 std::optional<Intent> Visit::back(const ViewState& view) {
@@ -122,6 +126,10 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::ZoomIn:
     case ActionKind::ZoomOut:
     case ActionKind::MoveLight:
+    case ActionKind::LookPoints:
+    case ActionKind::LookEdges:
+    case ActionKind::LookFill:
+    case ActionKind::LookLight:
     case ActionKind::ShowShape: look_at(action.kind); break;
     case ActionKind::Erase: erase_letter(); break;
     case ActionKind::Shift: capitals = !capitals; break;

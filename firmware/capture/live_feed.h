@@ -32,6 +32,8 @@ class LiveFeed {
   ImageView fill(const ImageView& picture);
   // With the picture that is being filled; a relief larger than the room for it is left out.
   void fill_relief(const pipeline::Relief& relief);
+  // What fill() made, to draw into before it is published.
+  std::uint8_t* filled() { return slots_[filling_].rgb.data(); }
   void publish(const Guidance& guidance);
   LivePicture newest();
   void wipe();

@@ -27,6 +27,10 @@ class StereoSlot {
 
   Result<ImageView> keep_left(const hal::RawImage& raw) { return keep(left_, raw); }
   Result<ImageView> keep_right(const hal::RawImage& raw) { return keep(right_, raw); }
+  bool holds(const ImageView& view) const {
+    const std::byte* const end = right_.room.data() + right_.room.size();
+    return view.bytes >= left_.room.data() && view.bytes < end;
+  }
   void wipe();
 
  private:

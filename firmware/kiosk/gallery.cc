@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/gallery.h"
 
+#include "firmware/kiosk/bench_gallery.h"
 #include "firmware/kiosk/staff_gallery.h"
 
 namespace relievo::firmware {
@@ -119,6 +120,7 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add_trouble("trouble_time", Trouble::TookTooLong, Screen::Idle);
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
   if (ui::staff_language(language) == language) add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
+  if (ui::staff_language(language) == language) add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
   return std::move(g.exhibits);
 }
 

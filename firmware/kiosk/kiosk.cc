@@ -43,6 +43,15 @@ Result<pipeline::StereoCalibration> Kiosk::find_calibration(const KioskArgs& arg
   return services.simulated_calibration();
 }
 
+// What the technician has chosen holds, unless the command says otherwise.
+Result<pipeline::Pipeline> Kiosk::chosen_pipeline(const KioskArgs& args, const pipeline::StereoCalibration& calibration) {
+  const Result<std::string> kept = store_->setting(kAlgorithmsSetting);
+  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty()) return make_pipeline(args.algorithms, calibration);
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, set_from_text(*kept));
+  return pipeline::Pipeline::make(set, calibration);
+}
+
 Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
@@ -52,7 +61,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   if (revision_ == 0) {
     RELIEVO_TRY_ASSIGN(revision_, store_->know_calibration(calibration, args.calibration.empty() ? "of the simulated rig" : args.calibration.filename().string()));
   }
-  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibration));
+  RELIEVO_TRY_ASSIGN(auto pipeline, chosen_pipeline(args, calibration));
   RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration));
   judge_ = std::make_unique<LiveJudge>(std::move(judge));
   stages_ = std::make_unique<PipelineStages>(std::move(pipeline));
@@ -63,8 +72,23 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
   appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get()});
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
+  desk_->set_bench(make_bench(args, services));
   look();
   return {};
+}
+
+// Before the simulated rig somebody holds a board when it is calibrated.
+std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& services) {
+  ShowBoards show;
+  if (args.board == "sim" && services.hold_board) {
+    show = [hold = services.hold_board](const BoardArgs& board) -> Result<std::unique_ptr<LivePairs>> {
+      CalibrateLiveArgs held;
+      held.board = board;
+      RELIEVO_TRY_ASSIGN(HeldBoard hand, hold(held));
+      return make_hand_pairs(std::move(hand), held.seed);
+    };
+  }
+  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](std::uint32_t revision) { revision_ = revision; }});
 }
 
 // On the keeper, while the main thread only draws.

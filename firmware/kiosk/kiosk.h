@@ -50,6 +50,8 @@ class Kiosk {
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
   Result<pipeline::StereoCalibration> find_calibration(const KioskArgs& args, Services& services);
+  Result<pipeline::Pipeline> chosen_pipeline(const KioskArgs& args, const pipeline::StereoCalibration& calibration);
+  std::unique_ptr<Bench> make_bench(const KioskArgs& args, Services& services);
   Result<void> keep(std::string_view subject, const pipeline::FaceModel& model);
   void look();
   void ask(ui::Intent intent);

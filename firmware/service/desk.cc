@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/bench/bench_desk.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/service/desk_pages.h"
 #include "hal/base/assert.h"
@@ -68,6 +69,11 @@ Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
     desk->statistics_.begin(text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.board.clock().wall_now())).substr(0, 10));
   desk->log_.say("started");
   return desk;
+}
+
+void Desk::set_bench(std::unique_ptr<Bench> bench) {
+  bench_ = std::move(bench);
+  fill_bench_pages(tools_, *bench_, pages_);
 }
 
 void Desk::noted(const Change& change) {
@@ -141,6 +147,7 @@ void Desk::turn() {
     role_ = StaffRole::None;
     log_.say("signed out");
   }
+  if (bench_ != nullptr) bench_->turn();
   if (state == State::Idle || state == State::Technician) save_what_changed();
 }
 

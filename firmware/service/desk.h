@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "firmware/bench/bench.h"
 #include "firmware/service/desk_page.h"
 #include "firmware/service/door.h"
 #include "firmware/service/statistics.h"
@@ -34,6 +35,10 @@ class Desk {
   ~Desk();
   Desk(const Desk&) = delete;
   Desk& operator=(const Desk&) = delete;
+
+  // The technician's picture pages. Once, before anybody signs in.
+  void set_bench(std::unique_ptr<Bench> bench);
+  Errands& errands() { return errands_; }
 
   void ask(const ui::StaffWish& wish);
   void touched();
@@ -63,6 +68,7 @@ class Desk {
   Door door_;
   std::uint64_t saved_statistics_ = 0;
   std::array<std::unique_ptr<DeskPage>, static_cast<std::size_t>(ui::StaffPage::Count)> pages_;
+  std::unique_ptr<Bench> bench_;
   DeskPage* page_ = nullptr;
   ui::StaffRole role_ = ui::StaffRole::None, waiting_ = ui::StaffRole::None;
   hal::Instant last_touch_{};

@@ -19,6 +19,8 @@ class PipelineStages final : public StageRunner {
   explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse)
       : pipeline_(std::move(pipeline)), when_moved_(when_moved) {}
   const pipeline::Pipeline& pipeline() const { return pipeline_; }
+  // Other algorithms, another calibration; while no job runs.
+  void replace(pipeline::Pipeline pipeline) { pipeline_ = std::move(pipeline); }
   Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override;
 
  private:

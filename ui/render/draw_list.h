@@ -13,6 +13,7 @@
 
 #include "hal/base/image_view.h"
 #include "pipeline/model/face_model.h"
+#include "pipeline/model/point_cloud.h"
 
 namespace relievo::ui {
 
@@ -44,7 +45,7 @@ enum class Mark : std::uint8_t {
 };
 
 // Pictures that change while they are shown; `version` tells the renderer when.
-enum class PictureSlot : std::uint8_t { None, Live, Matches, Cloud, Mesh, Texture, Attract, Count };
+enum class PictureSlot : std::uint8_t { None, Live, Matches, Cloud, Mesh, Texture, Attract, BenchLeft, BenchRight, Count };
 inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlot::Count);
 struct Picture {
   ImageView pixels;         // Rgb8 or Grey8, rows without padding
@@ -57,6 +58,8 @@ struct FaceLook {
   float zoom = 1;
   float light_deg = -35;    // where the light stands, from the left
   bool textured = true;
+  bool fill = true, lit = true;        // the surface itself; shaded by the light
+  bool edges = false, points = false;  // the triangles' sides; the measured points
   bool operator==(const FaceLook&) const = default;
 };
 
@@ -74,6 +77,7 @@ struct DrawList {
   std::vector<Command> commands;
   std::array<Picture, kPictureSlots> pictures{};
   const pipeline::FaceModel* face = nullptr;
+  const pipeline::PointCloud* cloud = nullptr;  // the points it was made of, where they are known
   std::uint32_t face_version = 0;
   FaceLook face_look;
 

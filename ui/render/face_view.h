@@ -19,7 +19,12 @@ class FaceView {
   virtual ~FaceView() = default;
   // The GL name of a texture with the model on nothing (premultiplied alpha; its first row is the
   // bottom one); 0 when there is no model. Leaves the framebuffer bound that was.
-  virtual std::uint32_t draw(const pipeline::FaceModel* model, std::uint32_t version, const FaceLook& look, int width_px, int height_px) = 0;
+  struct Subject {
+    const pipeline::FaceModel* model = nullptr;
+    const pipeline::PointCloud* cloud = nullptr;  // may be missing: then the model's vertices are its points
+    std::uint32_t version = 0;
+  };
+  virtual std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px) = 0;
   virtual void forget() = 0;
 };
 

@@ -23,6 +23,26 @@ struct Corner {
 
 float radians(float degrees) { return degrees * 0.017453293F; }
 
+struct Dot {
+  float x, y, z;
+};
+
+Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
+  const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm};
+}
+
+std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud) {
+  std::vector<Dot> dots;
+  if (cloud == nullptr) {
+    for (const auto& v : model.mesh.vertices_mm) dots.push_back(dot_of(model.head_from_camera, v));
+    return dots;
+  }
+  dots.reserve(cloud->points.size());
+  for (const auto& p : cloud->points) dots.push_back(dot_of(model.head_from_camera, p.at_mm));
+  return dots;
+}
+
 // Head frame, with the point the head turns about as its origin.
 std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
   const auto& t = model.head_from_camera;
@@ -49,23 +69,27 @@ class GlesFaceView final : public FaceView {
   ~GlesFaceView() override {
     forget();
     glDeleteProgram(program_);
+    glDeleteProgram(point_program_);
     glDeleteVertexArrays(1, &array_);
   }
 
   Result<void> prepare() {
     RELIEVO_TRY_ASSIGN(program_, compile_program(shader::kFaceVertex, shader::kFace));
+    RELIEVO_TRY_ASSIGN(point_program_, compile_program(shader::kPointVertex, shader::kPoint));
     glGenVertexArrays(1, &array_);
     return {};
   }
 
-  std::uint32_t draw(const pipeline::FaceModel* model, std::uint32_t version, const FaceLook& look, int width_px, int height_px) override {
-    if (model == nullptr || version == 0) return 0;
+  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px) override {
+    if (subject.model == nullptr || subject.version == 0) return 0;
+    const std::uint32_t version = subject.version;
     const int most = std::max(width_px, height_px);
     const int times = most * 2 <= kMostSidePx ? 2 : 1;
     const int w = width_px * times, h = height_px * times;
     const bool same = version == version_ && look == look_ && w == width_ && h == height_;
     if (same && colour_ != 0) return colour_;
-    if (version != version_) upload(*model);
+    if (version != version_) upload(*subject.model);
+    if (look.points && version != points_version_) upload_points(subject);
     GLint bound = 0;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
@@ -78,13 +102,14 @@ class GlesFaceView final : public FaceView {
 
   void forget() override {
     glDeleteBuffers(1, &buffer_);
+    glDeleteBuffers(1, &point_buffer_);
     glDeleteTextures(1, &texture_);
     glDeleteTextures(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);
     glDeleteFramebuffers(1, &frame_);
-    buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
-    version_ = 0;
-    count_ = width_ = height_ = 0;
+    buffer_ = point_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
+    version_ = points_version_ = 0;
+    count_ = point_count_ = width_ = height_ = 0;
   }
 
  private:
@@ -93,16 +118,8 @@ class GlesFaceView final : public FaceView {
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model);
     count_ = static_cast<int>(corners.size());
-    glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
-    const int sizes[] = {3, 3, 2};
-    std::size_t offset = 0;
-    for (GLuint i = 0; i < 3; ++i) {
-      glEnableVertexAttribArray(i);
-      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<const void*>(offset));  // NOLINT
-      offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
-    }
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const auto& atlas = model.texture;
@@ -112,6 +129,26 @@ class GlesFaceView final : public FaceView {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+
+  void point_at_corners() const {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    const int sizes[] = {3, 3, 2};
+    std::size_t offset = 0;
+    for (GLuint i = 0; i < 3; ++i) {
+      glEnableVertexAttribArray(i);
+      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<const void*>(offset));  // NOLINT
+      offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
+    }
+  }
+
+  void upload_points(const Subject& subject) {
+    if (point_buffer_ == 0) glGenBuffers(1, &point_buffer_);
+    const std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
+    point_count_ = static_cast<int>(dots.size());
+    points_version_ = subject.version;
+    glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots.size() * sizeof(Dot)), dots.data(), GL_STATIC_DRAW);
   }
 
   void make_frame(int w, int h) {
@@ -133,15 +170,19 @@ class GlesFaceView final : public FaceView {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   }
 
-  void set_uniforms() const {
+  // Column-major: first about the upright axis, then about the level one.
+  struct Turned {
+    float clip[16], turned[9];
+  };
+  Turned turned() const {
     const float cy = std::cos(radians(look_.yaw_deg)), sy = std::sin(radians(look_.yaw_deg));
     const float cp = std::cos(radians(look_.pitch_deg)), sp = std::sin(radians(look_.pitch_deg));
-    // Column-major: first about the upright axis, then about the level one.
-    const float turned[9] = {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy};
+    Turned t{{}, {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy}};
+    const float(&turned)[9] = t.turned;
+    float(&clip)[16] = t.clip;
     const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom;
     const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
     const float near = 200, far = 1200, a = (far + near) / (near - far), b = 2 * far * near / (near - far);
-    float clip[16];
     for (std::size_t c = 0; c < 3; ++c) {
       clip[4 * c] = f / aspect * turned[3 * c];
       clip[4 * c + 1] = f * turned[3 * c + 1];
@@ -153,13 +194,20 @@ class GlesFaceView final : public FaceView {
     clip[13] = f * down;
     clip[14] = -a * kDistanceMm + b;
     clip[15] = kDistanceMm;
+    return t;
+  }
+
+  void set_uniforms(const Turned& t) const {
     const float side = radians(look_.light_deg), up = 0.45F, norm = std::sqrt(1 + up * up);
     glUseProgram(program_);
-    glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, clip);
-    glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, turned);
+    glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, t.clip);
+    glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, t.turned);
     glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kDistanceMm);
     glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm, std::cos(side) / norm);
     glUniform1f(glGetUniformLocation(program_, "textured"), look_.textured && textured_ ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "edges"), look_.edges ? 1.0F : 0.0F);
     glUniform1i(glGetUniformLocation(program_, "picture"), 0);
   }
 
@@ -171,18 +219,32 @@ class GlesFaceView final : public FaceView {
     glEnable(GL_DEPTH_TEST);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    set_uniforms();
+    const Turned t = turned();
+    set_uniforms(t);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glBindVertexArray(array_);
-    glDrawArrays(GL_TRIANGLES, 0, count_);
+    point_at_corners();
+    if (look_.fill || look_.edges) glDrawArrays(GL_TRIANGLES, 0, count_);
+    if (look_.points) draw_points(t);
     glDisable(GL_DEPTH_TEST);
   }
 
-  GLuint program_ = 0, array_ = 0, buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
-  std::uint32_t version_ = 0;
+  void draw_points(const Turned& t) const {
+    glUseProgram(point_program_);
+    glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
+    glUniform1f(glGetUniformLocation(point_program_, "size"), std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
+    glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
+    glDisableVertexAttribArray(1);
+    glDisableVertexAttribArray(2);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Dot), nullptr);
+    glDrawArrays(GL_POINTS, 0, point_count_);
+  }
+
+  GLuint program_ = 0, point_program_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+  std::uint32_t version_ = 0, points_version_ = 0;
   FaceLook look_;
-  int count_ = 0, width_ = 0, height_ = 0;
+  int count_ = 0, point_count_ = 0, width_ = 0, height_ = 0;
   bool textured_ = false;
 };
 

@@ -157,9 +157,11 @@ layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 uv;
 uniform mat4 clip_from_head;
 uniform mat3 turned;
-out vec3 normal; out vec2 texel; out vec3 seen_from;
+out vec3 normal; out vec2 texel; out vec3 seen_from; out vec3 sides;
 uniform vec3 eye;
 void main() {
+  int corner = gl_VertexID % 3;  // three vertices a triangle: how far from each of its sides
+  sides = vec3(corner == 0 ? 1.0 : 0.0, corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0);
   normal = turned * normal_in;
   seen_from = eye - turned * position;
   texel = uv;
@@ -169,10 +171,10 @@ void main() {
 
 const char* const kFace = R"(#version 300 es
 precision highp float;
-in vec3 normal; in vec2 texel; in vec3 seen_from;
+in vec3 normal; in vec2 texel; in vec3 seen_from; in vec3 sides;
 uniform sampler2D picture;
 uniform vec3 light;
-uniform float textured;
+uniform float textured, lit, filled, edges;
 out vec4 colour;
 void main() {
   vec3 n = normalize(normal);
@@ -184,7 +186,43 @@ void main() {
   // The photograph holds its own light already: ours only models it a little.
   vec3 skin = texture(picture, texel).rgb * (0.72 + 0.52 * key + 0.20 * fill_light);
   vec3 clay = vec3(0.80, 0.82, 0.86) * (0.16 + 0.74 * key + 0.18 * fill_light) + vec3(0.05, 0.07, 0.10) * rim;
-  colour = vec4(mix(clay, skin, textured), 1.0);
+  if (lit < 0.5) {
+    skin = texture(picture, texel).rgb;
+    clay = vec3(0.62, 0.65, 0.70);
+  }
+  vec3 step_a_pixel = max(fwidth(sides), vec3(1e-6));
+  vec3 near_side = sides / step_a_pixel;
+  float on_edge = edges * (1.0 - smoothstep(0.4, 1.4, min(min(near_side.x, near_side.y), near_side.z)));
+  // Triangles of a few pixels are no black surface.
+  if (filled > 0.5) on_edge *= clamp(0.1 / max(max(step_a_pixel.x, step_a_pixel.y), step_a_pixel.z), 0.15, 1.0);
+  if (filled < 0.5 && on_edge < 0.35) discard;
+  vec3 surface = mix(clay, skin, textured);
+  vec3 line = filled < 0.5 ? mix(vec3(0.45, 0.80, 1.0), surface, textured) : vec3(0.05, 0.13, 0.22);
+  colour = vec4(mix(surface, line, filled < 0.5 ? 1.0 : 0.6 * on_edge), 1.0);
+}
+)";
+
+// A little before the surface they lie on.
+const char* const kPointVertex = R"(#version 300 es
+layout(location = 0) in vec3 position;
+uniform mat4 clip_from_head;
+uniform float size;
+out float depth;
+void main() {
+  gl_Position = clip_from_head * vec4(position, 1.0);
+  gl_Position.z -= 0.004 * gl_Position.w;
+  gl_PointSize = size;
+  depth = clamp((position.z + 75.0) / 125.0, 0.0, 1.0);
+}
+)";
+
+const char* const kPoint = R"(#version 300 es
+precision mediump float;
+in float depth;
+out vec4 colour;
+void main() {
+  vec3 far = vec3(0.20, 0.33, 0.75), middle = vec3(0.25, 0.78, 0.67), near = vec3(1.0, 0.69, 0.25);
+  colour = vec4(depth < 0.5 ? mix(far, middle, depth * 2.0) : mix(middle, near, depth * 2.0 - 1.0), 1.0);
 }
 )";
 

@@ -16,6 +16,12 @@ Rect meet(const Rect& a, const Rect& b) {
 // Words can be broken into more lines; a sign cannot.
 bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
 
+// As large as fits, in the middle.
+Rect fitted(const Rect& r, float aspect) {
+  const float w = std::min(r.w, r.h * aspect), h = w / aspect;
+  return {r.x + (r.w - w) / 2, r.y + (r.h - h) / 2, w, h};
+}
+
 Rect rounded(const Rect& r) {
   return {std::round(r.x), std::round(r.y), std::round(r.w), std::round(r.h)};
 }
@@ -102,7 +108,7 @@ float Layout::across_start(const Node& node, float room, float size) const {
 
 void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
   Node& node = nodes_[index];
-  node.rect = rounded(rect);
+  node.rect = rounded(node.aspect > 0 && node.box.flow == Flow::Stack ? fitted(rect, node.aspect) : rect);
   node.clip = clip;
   const Rect inner{node.rect.x + node.box.pad_x, node.rect.y + node.box.pad_y, std::max(0.0F, node.rect.w - 2 * node.box.pad_x),
                    std::max(0.0F, node.rect.h - 2 * node.box.pad_y)};
@@ -171,7 +177,13 @@ void Layout::place_stack(Node& node, const Rect& inner, const Rect& clip) {
   for (std::int32_t at = node.first_child; at >= 0;) {
     const auto child = static_cast<std::size_t>(at);
     at = nodes_[child].next;
-    place(child, inner, clip);
+    const Node& one = nodes_[child];
+    if (!one.pinned) {
+      place(child, inner, clip);
+      continue;
+    }
+    const float w = one.box.width > 0 ? one.box.width : inner.w, h = one.box.height;
+    place(child, {inner.x + one.pin_x * inner.w - w / 2, inner.y + one.pin_y * inner.h - h / 2, w, h}, clip);
   }
 }
 

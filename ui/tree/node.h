@@ -50,7 +50,10 @@ struct Node {
   bool hold = false;         // done by a finger that rests (ui/service.h: kHold), not by a tap
   Mark mark = Mark::Shape;   // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
-  float aspect = 0;          // of the picture: width over height
+  float aspect = 0;          // of the picture: width over height; a stack with one is as large as fits
+  bool pinned = false;       // in a stack: its middle lies at these shares of it; without a width it is as wide
+  float pin_x = 0, pin_y = 0;
+  bool tells_place = false;  // its action's detail is where it was touched: x << 12 | y, 4096ths
   bool mirrored = false;     // the picture, as in a mirror
   bool covers = false;       // the picture fills its box and is cut; else it is seen whole
   float share = 1, line_px = 0;

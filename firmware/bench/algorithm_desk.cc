@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/bench/algorithm_desk.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::size_t kMostTyped = 24;
+
+std::vector<std::string> parts_of(std::string_view text) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t plus = text.find('+');
+    parts.emplace_back(text.substr(0, plus));
+    if (plus == std::string_view::npos) return parts;
+    text.remove_prefix(plus + 1);
+  }
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+// Selectors share names with meshers and matchers: their options stand under a name of their own.
+bool belongs(std::string_view option, std::string_view kind, std::string_view name, bool has_points) {
+  const std::string_view section = option.substr(0, option.find('.'));
+  if (kind == "relief") return section == "relief" && name == "check";
+  if (kind == "triangulator") return section == "face" || section == name;  // what is cut off belongs to the points
+  if (kind == "selector" && has_points) return section == std::string(name) + "-points";
+  return section == name;
+}
+
+// Rules in the order in which they judge.
+std::string joined(const std::vector<std::string>& order, const std::vector<std::string>& chosen) {
+  std::string text;
+  for (const std::string& name : order) {
+    if (name == "none" || !contains(chosen, name)) continue;
+    text += (text.empty() ? "" : "+") + name;
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+Result<pipeline::AlgorithmSet> set_from_text(std::string_view text) {
+  pipeline::AlgorithmSet set;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty()) continue;
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos) return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
+    RELIEVO_TRY(set.set(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1))));
+  }
+  return set;
+}
+
+AlgorithmDesk::AlgorithmDesk() : all_(pipeline::describe_algorithms()) {
+  for (const auto& one : all_) {
+    if (!one.names.empty()) kinds_.push_back(&one);
+  }
+  rebuild();
+}
+
+void AlgorithmDesk::begin(const pipeline::AlgorithmSet& set) {
+  set_ = set;
+  editing_ = false;
+  rebuild();
+}
+
+void AlgorithmDesk::rebuild() {
+  kind_values_.clear();
+  for (const auto* kind : kinds_) kind_values_.push_back(set_.get(kind->key));
+  kind_views_.clear();
+  for (std::size_t i = 0; i < kinds_.size(); ++i) kind_views_.push_back({kinds_[i]->key, kind_values_[i], kinds_[i]->sentence, kinds_[i]->several});
+  const pipeline::OptionDescription& kind = *kinds_[kind_];
+  const std::vector<std::string> chosen = parts_of(kind_values_[kind_]);
+  names_.clear();
+  for (const std::string& name : kind.names) names_.push_back({name, contains(chosen, name)});
+  shown_.clear();
+  for (const std::string& name : chosen) {
+    const bool has_points = std::any_of(all_.begin(), all_.end(), [&](const auto& o) { return o.key.starts_with(name + "-points."); });
+    for (const auto& option : all_) {
+      const bool mine = option.names.empty() && belongs(option.key, kind.key, name, has_points);
+      if (mine && std::find(shown_.begin(), shown_.end(), &option) == shown_.end()) shown_.push_back(&option);
+    }
+  }
+  option_values_.clear();
+  for (const auto* option : shown_) option_values_.push_back(set_.get(option->key));
+  options_.clear();
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    options_.push_back({shown_[i]->key, option_values_[i], shown_[i]->sentence, shown_[i]->least, shown_[i]->most, shown_[i]->text, option_values_[i] != shown_[i]->value});
+  if (edited_ >= options_.size()) editing_ = false;
+}
+
+void AlgorithmDesk::choose_name(std::size_t index) {
+  const pipeline::OptionDescription& kind = *kinds_[kind_];
+  if (index >= kind.names.size()) return;
+  std::string value = kind.names[index];
+  if (kind.several && value != "none") {
+    std::vector<std::string> chosen = parts_of(kind_values_[kind_]);
+    const auto at = std::find(chosen.begin(), chosen.end(), value);
+    if (at == chosen.end()) chosen.push_back(value);
+    else chosen.erase(at);
+    value = joined(kind.names, chosen);
+  }
+  use(value);
+}
+
+void AlgorithmDesk::use(const std::string& value) {
+  const std::string& key = editing_ ? shown_[edited_]->key : kinds_[kind_]->key;
+  const Result<void> taken = set_.set(key, value);
+  refused_ = taken ? "" : std::string(taken.error().where());
+  if (taken) editing_ = false;
+  rebuild();
+}
+
+void AlgorithmDesk::edit(std::size_t index) {
+  if (index >= options_.size()) return;
+  editing_ = true;
+  edited_ = index;
+  typed_.clear();
+  refused_.clear();
+}
+
+void AlgorithmDesk::type(char letter) {
+  const bool fits = (letter >= '0' && letter <= '9') || letter == '.' || letter == '-' || letter == 'e';
+  if (editing_ && fits && typed_.size() < kMostTyped) typed_ += letter;
+  refused_.clear();
+}
+
+void AlgorithmDesk::act(ui::BenchOrder order) {
+  const auto index = static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument));
+  if (order.act == ui::BenchAct::ChooseKind && index < kinds_.size()) {
+    kind_ = index;
+    editing_ = false;
+    rebuild();
+  }
+  if (order.act == ui::BenchAct::ChooseName) {
+    editing_ = false;
+    choose_name(index);
+  }
+  if (order.act == ui::BenchAct::EditOption) edit(index);
+  if (order.act == ui::BenchAct::TypeDigit) type(static_cast<char>(order.argument));
+  if (order.act == ui::BenchAct::EraseDigit && !typed_.empty()) typed_.pop_back();
+  if (order.act == ui::BenchAct::UseTyped && editing_) use(typed_);
+  if (order.act == ui::BenchAct::UseDefault && editing_) use(shown_[edited_]->value);
+  if (order.act == ui::BenchAct::LeaveOption) editing_ = false;
+  if (order.act == ui::BenchAct::ResetSet) begin({});
+}
+
+ui::BenchChoice AlgorithmDesk::view() const {
+  ui::BenchChoice view;
+  view.kinds = kind_views_;
+  view.kind = kind_;
+  view.names = names_;
+  view.options = options_;
+  view.edited = editing_ ? &options_[edited_] : nullptr;
+  view.typed = typed_;
+  view.refused = refused_;
+  return view;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// AlgorithmDesk: every algorithm there is, the set that is chosen, and the option that is being edited.
+// What is typed is checked by AlgorithmSet alone: what it refuses stays as it was, and refused() says why.
+//
+//   kind --choose_name()--> name --edit()--> option --type() ... use()--> set()
+//
+// Indices that do not exist change nothing. Thread: main. Errors of set_from_text(): AlgorithmSet's, and
+// InvalidInput for a line that is no "key = value".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/algorithms.h"
+#include "ui/bench/bench_act.h"
+#include "ui/bench/bench_choice.h"
+
+namespace relievo::firmware {
+
+class AlgorithmDesk {
+ public:
+  AlgorithmDesk();
+  void begin(const pipeline::AlgorithmSet& set);
+  void act(ui::BenchOrder order);
+  const pipeline::AlgorithmSet& set() const { return set_; }
+  // Until the next change.
+  ui::BenchChoice view() const;
+
+ private:
+  void rebuild();
+  void choose_name(std::size_t index);
+  void edit(std::size_t index);
+  void type(char letter);
+  void use(const std::string& value);
+
+  std::vector<pipeline::OptionDescription> all_;
+  pipeline::AlgorithmSet set_;
+  std::size_t kind_ = 0;
+  std::size_t edited_ = 0;       // index into options_, if any
+  bool editing_ = false;
+  std::string typed_, refused_;
+  std::vector<const pipeline::OptionDescription*> kinds_, shown_;  // of all_
+  std::vector<std::string> kind_values_, option_values_;
+  std::vector<ui::BenchKind> kind_views_;
+  std::vector<ui::BenchName> names_;
+  std::vector<ui::BenchOption> options_;
+};
+
+// Where the store keeps the set that visitors are measured with.
+inline constexpr const char* kAlgorithmsSetting = "algorithms";
+// A set as it is written down in a setting: AlgorithmSet::to_text(), line by line.
+Result<pipeline::AlgorithmSet> set_from_text(std::string_view text);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/bench/bench.h"
+
+#include <memory>
+#include <utility>
+
+#include "firmware/bench/touched_point.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::BenchAct;
+using ui::BenchPhase;
+
+constexpr float kTouchSteps = 4096;
+
+struct Share {
+  float x, y;
+};
+Share place_of(std::int64_t argument) {
+  return {static_cast<float>(argument >> 12 & 0xFFF) / kTouchSteps, static_cast<float>(argument & 0xFFF) / kTouchSteps};
+}
+
+}  // namespace
+
+Bench::Bench(Parts parts)
+    : parts_(std::move(parts)), session_(parts_.appliance.session()), shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
+      run_(session_, parts_.pool, parts_.board.clock()), watch_(parts_.appliance.grabber(), session_, parts_.board),
+      calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool, std::move(parts_.show_boards)),
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, std::move(parts_.in_use)}) {
+  algorithms_.begin(parts_.stages.pipeline().algorithms());
+}
+
+// Nothing of it runs any longer than it lives.
+Bench::~Bench() {
+  parts_.errands.cancel();
+  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper}) parts_.appliance.end_side_job(place);
+}
+
+Products* Bench::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
+
+BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.pipeline().calibration()}; }
+
+void Bench::say(const Error& error) {
+  problem_ = std::string(error.what.view());
+  if (!error.where().empty()) problem_ += " (" + std::string(error.where()) + ")";
+}
+
+void Bench::opened(ui::BenchPage page) {
+  if (page == ui::BenchPage::Cameras) watch_cameras(true);
+  if (page == ui::BenchPage::Calibrate) calibrations_.load_history();
+  if (page == ui::BenchPage::Algorithms) algorithms_.act({BenchAct::LeaveOption, 0});
+  if (page == ui::BenchPage::Tables && at_rest()) tables_.turn(0, source());
+}
+
+void Bench::closed(ui::BenchPage page) {
+  if (page == ui::BenchPage::Cameras) watch_cameras(false);
+}
+
+void Bench::act(ui::BenchOrder order) {
+  const bool calibrating = parts_.appliance.state() == State::Calibrate;
+  const bool ends = order.act == BenchAct::StopCalibration || order.act == BenchAct::CancelCalibration;
+  if (ends ? !calibrating : parts_.appliance.state() != State::Technician) return;
+  switch (order.act) {
+    case BenchAct::None: break;
+    case BenchAct::Capture:
+      if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = Next::Shot;
+      return watch_cameras(false);
+    case BenchAct::Run: return run();
+    case BenchAct::Stop: return stop();
+    case BenchAct::ShowStage:
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchStage::Count)) stage_ = static_cast<ui::BenchStage>(order.argument);
+      return;
+    case BenchAct::Point:
+    case BenchAct::PointRight: return point(order);
+    case BenchAct::ByHand:
+      by_hand_ = !by_hand_;
+      point_ = {};
+      return;
+    case BenchAct::ApplySet: return apply_set();
+    case BenchAct::KeepResult: return keep_result();
+    case BenchAct::ShowTable:
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchTable::Count)) tables_.show(static_cast<ui::BenchTable>(order.argument), source());
+      return;
+    case BenchAct::TurnPage: return tables_.turn(order.argument, source());
+    case BenchAct::WatchCameras: return watch_cameras(!watching_);
+    case BenchAct::BrighterShot: return watch_.change_light(1);
+    case BenchAct::DarkerShot: return watch_.change_light(-1);
+    case BenchAct::BeginCalibration:
+      if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = Next::Calibration;
+      return watch_cameras(false);
+    case BenchAct::StopCalibration: return calibrate_.finish();
+    case BenchAct::CancelCalibration: return parts_.errands.stop(JobPlace::Capture);
+    case BenchAct::StoreCalibration:
+    case BenchAct::Columns:
+    case BenchAct::Rows:
+    case BenchAct::Square:
+    case BenchAct::Charuco:
+    case BenchAct::Activate: return calibrations_.act(order);
+    case BenchAct::ChooseKind:
+    case BenchAct::ChooseName:
+    case BenchAct::EditOption:
+    case BenchAct::TypeDigit:
+    case BenchAct::EraseDigit:
+    case BenchAct::UseTyped:
+    case BenchAct::UseDefault:
+    case BenchAct::LeaveOption:
+    case BenchAct::ResetSet:
+      algorithms_.act(order);
+      changed_ = difference_of(run_.figures().set()) != difference_of(algorithms_.set());
+      applied_ = false;
+      return;
+  }
+}
+
+void Bench::keep_result() {
+  if (!at_rest() || !run_.figures().view().there) return;
+  kept_ = run_.figures();
+  kept_pictures_.copy_from(run_.pictures());
+}
+
+// What fills the slot of the test capture waits until nobody else is at the cameras.
+void Bench::begin_next() {
+  if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker)) return;
+  const Next what = std::exchange(next_, Next::None);
+  problem_.clear();
+  point_ = {};
+  tables_.forget();
+  run_.pictures().wipe();
+  run_.figures().forget();
+  phase_ = BenchPhase::Empty;
+  if (session_.is_open()) session_.retake();
+  else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
+  if (what == Next::Shot) shoot();
+  else calibrate();
+}
+
+void Bench::shoot() {
+  phase_ = BenchPhase::Capturing;
+  parts_.errands.send(
+      JobPlace::Capture, [this](JobControl& control) { return shot_.run(control); }, [this](const std::optional<Error>& error) { shot_done(error); });
+}
+
+void Bench::calibrate() {
+  calibrate_.order(calibrations_.order());
+  parts_.appliance.ask(ui::Intent::Calibrate);
+  if (parts_.appliance.state() != State::Calibrate) return;
+  calibrations_.begun();
+  parts_.errands.send(
+      JobPlace::Capture, [this](JobControl& control) { return calibrate_.run(control); },
+      [this](const std::optional<Error>& error) {
+        calibrations_.ended();
+        parts_.appliance.end_service_state(!error);
+      });
+}
+
+void Bench::run() {
+  if (!at_rest() || !session_.is_open() || !session_.products().frame) return;
+  problem_.clear();
+  point_ = {};
+  tables_.forget();
+  changed_ = false;
+  run_.order(algorithms_.set(), parts_.stages.pipeline().calibration());
+  phase_ = BenchPhase::Running;
+  parts_.errands.send(
+      JobPlace::Worker, [this](JobControl& control) { return run_.run(control); }, [this](const std::optional<Error>& error) { run_done(error); });
+}
+
+void Bench::stop() {
+  if (phase_ == BenchPhase::Capturing) parts_.errands.stop(JobPlace::Capture);
+  if (phase_ == BenchPhase::Running) parts_.errands.stop(JobPlace::Worker);
+}
+
+void Bench::shot_done(const std::optional<Error>& error) {
+  phase_ = BenchPhase::Failed;
+  if (error) return say(*error);
+  run();
+}
+
+void Bench::run_done(const std::optional<Error>& error) {
+  phase_ = error ? BenchPhase::Failed : BenchPhase::Ready;
+  ++model_number_;
+  if (error) say(*error);
+  tables_.show(tables_.view().table, source());
+}
+
+void Bench::point(ui::BenchOrder order) {
+  const Products* made = products();
+  if (made == nullptr || !made->pair) return;
+  const Share at = place_of(order.argument);
+  if (!by_hand_ && order.act == BenchAct::Point && made->matches) point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
+  if (by_hand_ && order.act == BenchAct::Point) point_ = hand_point(*made->pair, at.x, at.y);
+  if (by_hand_ && order.act == BenchAct::PointRight && point_.touched) match_by_hand(*made->pair, at.x, point_);
+}
+
+// The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
+void Bench::apply_set() {
+  if (applying_) return;
+  applying_ = true;
+  const auto made = std::make_shared<std::optional<pipeline::Pipeline>>();
+  const pipeline::AlgorithmSet set = algorithms_.set();
+  parts_.errands.send(
+      JobPlace::Keeper,
+      [this, made, set](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, parts_.stages.pipeline().calibration()));
+        return parts_.store.set_setting(kAlgorithmsSetting, set.to_text());
+      },
+      [this, made](const std::optional<Error>& error) {
+        applying_ = false;
+        if (error) return say(*error);
+        parts_.stages.replace(**std::move(made));
+        applied_ = true;
+        problem_.clear();
+      });
+}
+
+void Bench::watch_cameras(bool on) {
+  if (on == watching_) return;
+  if (!on) return parts_.errands.stop(JobPlace::Capture);
+  if (parts_.errands.busy(JobPlace::Capture) || phase_ == BenchPhase::Capturing) return;
+  if (!session_.is_open() && !session_.open("")) return;
+  problem_.clear();
+  watch_.prepare();
+  watching_ = true;
+  parts_.errands.send(
+      JobPlace::Capture, [this](JobControl& control) { return watch_.run(control); },
+      [this](const std::optional<Error>& error) {
+        watching_ = false;
+        watch_.wipe();
+        if (error && error->code != Errc::Cancelled) say(*error);
+      });
+}
+
+// The appliance has stopped the work and closed the session on its way to another state.
+void Bench::leave() {
+  watching_ = by_hand_ = changed_ = applied_ = applying_ = false;
+  next_ = Next::None;
+  watch_.wipe();
+  run_.pictures().wipe();
+  run_.figures().forget();
+  kept_pictures_.wipe();
+  kept_.forget();
+  tables_.forget();
+  calibrations_.forget();
+  point_ = {};
+  phase_ = BenchPhase::Empty;
+  problem_.clear();
+  algorithms_.begin(parts_.stages.pipeline().algorithms());
+}
+
+void Bench::look() {
+  view_ = {};
+  view_.phase = phase_;
+  view_.problem = problem_;
+  view_.stage = stage_;
+  view_.point = point_;
+  view_.by_hand = by_hand_;
+  view_.applied = applied_;
+  view_.choice = algorithms_.view();
+  view_.calibration = calibrations_.view();
+  view_.rows = tables_.view();
+  if (watching_) view_.cameras = watch_.newest();
+  view_.kept = kept_.view();
+  view_.compared[0] = kept_pictures_.picture(stage_, 0);
+  if (phase_ == BenchPhase::Running) {
+    view_.working_on = static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
+    view_.progress = parts_.errands.progress(JobPlace::Worker);
+  }
+  const Products* made = products();
+  if (made == nullptr) return;
+  view_.result = run_.figures().view();
+  view_.choice.changed = changed_;
+  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
+  view_.compared[1] = run_.pictures().picture(stage_, 0);
+  if (made->model) view_.model = &*made->model;
+  if (made->cloud) view_.cloud = &*made->cloud;
+  view_.model_number = model_number_;
+}
+
+void Bench::turn() {
+  const State state = parts_.appliance.state();
+  const bool mine = state == State::Technician || state == State::Calibrate || state == State::Export;
+  if (!mine) {
+    if (!std::exchange(left_, true)) leave();
+    return;
+  }
+  left_ = false;
+  // It took longer than the state may: what has been seen is not worked out.
+  if (calibrations_.running() && state == State::Technician) parts_.errands.stop(JobPlace::Capture);
+  begin_next();
+}
+
+const ui::BenchView& Bench::view() {
+  look();
+  return view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bench: the technician's workbench. A test capture is a session without a subject: its pictures and what the
+// stages make of them lie in the appliance's own memory while the state is Technician, and are wiped when the
+// technician leaves or is away too long. Its jobs run on the appliance's threads; the screen never waits.
+//
+//   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state --> Empty
+//
+// It borrows the session from the appliance and sends its work as errands (firmware/service/errands.h); it
+// listens only in the states Technician and Calibrate, and forgets everything in any other. Thread: main. Errors: none are returned; the view has them as a sentence.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "firmware/appliance.h"
+#include "firmware/bench/algorithm_desk.h"
+#include "firmware/bench/bench_tables.h"
+#include "firmware/bench/calibration_desk.h"
+#include "firmware/bench/camera_watch.h"
+#include "firmware/bench/run_job.h"
+#include "firmware/service/errands.h"
+#include "ui/bench/bench_view.h"
+
+namespace relievo::firmware {
+
+class Bench {
+ public:
+  struct Parts {
+    Appliance& appliance;
+    Errands& errands;
+    hal::Board& board;
+    PipelineStages& stages;
+    ThreadPool& pool;
+    storage::Store& store;
+    ShowBoards show_boards;                               // see CalibrateJob
+    std::function<void(std::uint32_t revision)> in_use;   // another calibration is in use
+  };
+  explicit Bench(Parts parts);
+  ~Bench();
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  // What a page asked for.
+  void act(ui::BenchOrder order);
+  // What a page has under way only while it is open begins and ends with it.
+  void opened(ui::BenchPage page);
+  void closed(ui::BenchPage page);
+  // Every turn of the main loop, whatever page is open.
+  void turn();
+  // Valid until the next turn() or act().
+  const ui::BenchView& view();
+
+ private:
+  enum class Next : std::uint8_t { None, Shot, Calibration };  // waits for the capture thread
+  bool at_rest() const { return phase_ == ui::BenchPhase::Ready || phase_ == ui::BenchPhase::Failed; }
+  Products* products();
+  BenchTables::Source source();
+  void leave();
+  void begin_next();
+  void shoot();
+  void calibrate();
+  void run();
+  void stop();
+  void shot_done(const std::optional<Error>& error);
+  void run_done(const std::optional<Error>& error);
+  void point(ui::BenchOrder order);
+  void apply_set();
+  void watch_cameras(bool on);
+  void choose(ui::BenchOrder order);
+  void keep_result();
+  void say(const Error& error);
+  void look();
+
+  Parts parts_;
+  EnrolmentSession& session_;
+  TestShotJob shot_;
+  RunJob run_;
+  CameraWatchJob watch_;
+  CalibrateJob calibrate_;
+  CalibrationDesk calibrations_;
+  AlgorithmDesk algorithms_;
+  BenchTables tables_;
+  BenchPictures kept_pictures_;
+  BenchFigures kept_;
+  ui::BenchPhase phase_ = ui::BenchPhase::Empty;
+  ui::BenchStage stage_ = ui::BenchStage::Rectified;
+  ui::BenchPoint point_;
+  Next next_ = Next::None;
+  bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false, left_ = true;
+  std::string problem_;
+  std::uint32_t model_number_ = 0;
+  ui::BenchView view_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/bench/bench_pictures.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+
+#include "firmware/command/compare/measure/disparity_map.h"
+#include "firmware/command/compare/measure/rule_figures.h"
+#include "firmware/command/compare/page/maps.h"
+#include "firmware/work/stage_drawing.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::BenchStage;
+constexpr std::size_t kBytes = std::size_t{3} * BenchPictures::kSide * BenchPictures::kSide;
+
+// No two pictures have the same number: a renderer tells by it what it has to load.
+std::uint32_t next_version() {
+  static std::atomic<std::uint32_t> count{0};
+  return ++count;
+}
+
+struct Size {
+  int width_px = 0, height_px = 0;
+};
+Size fitted(int width_px, int height_px) {
+  const double scale = std::min(1.0, static_cast<double>(BenchPictures::kSide) / std::max(width_px, height_px));
+  return {std::max(1, static_cast<int>(width_px * scale)), std::max(1, static_cast<int>(height_px * scale))};
+}
+
+// Means over the pixels that fall into one; at(x, y, channel).
+template <typename At>
+void shrink(int width_px, int height_px, Size to, std::uint8_t* rgb, At&& at) {
+  for (int y = 0; y < to.height_px; ++y) {
+    const int v0 = y * height_px / to.height_px, v1 = std::max(v0 + 1, (y + 1) * height_px / to.height_px);
+    for (int x = 0; x < to.width_px; ++x, rgb += 3) {
+      const int u0 = x * width_px / to.width_px, u1 = std::max(u0 + 1, (x + 1) * width_px / to.width_px);
+      float sum[3] = {0, 0, 0};
+      for (int v = v0; v < v1; ++v) {
+        for (int u = u0; u < u1; ++u) {
+          for (int c = 0; c < 3; ++c) sum[c] += at(u, v, c);
+        }
+      }
+      const float share = 1.0F / static_cast<float>((u1 - u0) * (v1 - v0));
+      for (int c = 0; c < 3; ++c) rgb[c] = static_cast<std::uint8_t>(std::clamp(sum[c] * share, 0.0F, 255.0F));
+    }
+  }
+}
+
+}  // namespace
+
+BenchPictures::BenchPictures() {
+  for (auto& stage : all_) {
+    for (One& one : stage) one.rgb.reset(new std::uint8_t[kBytes]);
+  }
+}
+
+BenchPictures::One& BenchPictures::begin(BenchStage stage, std::size_t side) {
+  One& one = all_[static_cast<std::size_t>(stage)][side];
+  one.width_px = one.height_px = kSide;
+  one.version = next_version();
+  return one;
+}
+
+void BenchPictures::draw_input(const ImageView& view, std::size_t side) {
+  const Size size = fitted(view.width_px, view.height_px);
+  One& one = begin(BenchStage::Input, side);
+  one.width_px = size.width_px;
+  one.height_px = size.height_px;
+  const int bytes = bytes_per_pixel(view.format), high = view.format == PixelFormat::Grey16 ? 1 : 0;
+  shrink(view.width_px, view.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+    const std::uint8_t* pixel = view.row(y) + static_cast<std::ptrdiff_t>(x) * bytes;
+    return static_cast<float>(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
+  });
+}
+
+void BenchPictures::draw_pair(BenchStage stage, const pipeline::RectifiedPair& pair, bool colour) {
+  const Size size = fitted(pair.width_px, pair.height_px);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const pipeline::RectifiedView& view = side == 0 ? pair.left : pair.right;
+    One& one = begin(stage, side);
+    one.width_px = size.width_px;
+    one.height_px = size.height_px;
+    const bool rgb = colour && view.rgb.size() == 3 * view.grey.size();
+    shrink(pair.width_px, pair.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+      return rgb ? static_cast<float>(view.rgb[3 * i + static_cast<std::size_t>(c)]) : view.grey[i];
+    });
+  }
+}
+
+Result<void> BenchPictures::draw_processed(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, pipeline::StageContext& context) {
+  RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set));
+  if (preprocessor == nullptr) {
+    draw_pair(BenchStage::Processed, pair, false);
+    return {};
+  }
+  Arena::Mark mark(context.output);
+  RELIEVO_TRY_ASSIGN(const auto processed, pipeline::run_stage(context, [&](pipeline::StageContext& c) { return preprocessor->process(pair, c); }));
+  draw_pair(BenchStage::Processed, processed, false);
+  return {};
+}
+
+void BenchPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
+  StageCanvas canvas(begin(BenchStage::Matches, 0).rgb.get(), kSide);
+  draw_photograph(pair, 1, canvas);
+  const FaceWindow window(pair, kSide);
+  const std::vector<std::uint8_t> rejected = compare::rejected_map(matches, pair.width_px, pair.height_px);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
+      const std::uint8_t rule = rejected[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(u)];
+      if (rule == 0) continue;
+      const compare::Rgb c = compare::rule_colour(rule - 1U);
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+  }
+}
+
+void BenchPictures::draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
+  constexpr int kScatteredPx = 7;
+  StageCanvas canvas(begin(BenchStage::Disparity, 0).rgb.get(), kSide);
+  const FaceWindow window(pair, kSide);
+  compare::DisparityMap map = compare::disparity_map(matches, pair.width_px, pair.height_px);
+  if (matches.lattice_step_px == 0) map = compare::thickened(map, kScatteredPx);
+  const compare::Reach reach = compare::reach_of(map);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      if (!map.holds(u, v) || !map.known(u, v)) continue;
+      const compare::Rgb c = compare::depth_colour((static_cast<double>(map.at(u, v)) - reach.least_px) / (reach.most_px - reach.least_px));
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+  }
+}
+
+void BenchPictures::draw_shapes(const Products& products) {
+  const pipeline::RectifiedPair& pair = *products.pair;
+  if (products.cloud) {
+    StageCanvas canvas(begin(BenchStage::Cloud, 0).rgb.get(), kSide);
+    draw_cloud(pair, *products.cloud, canvas);
+  }
+  const pipeline::FaceMesh* mesh = products.model ? &products.model->mesh : products.mesh ? &*products.mesh : nullptr;
+  if (mesh != nullptr) {
+    StageCanvas canvas(begin(BenchStage::Mesh, 0).rgb.get(), kSide);
+    draw_surface(pair, *mesh, nullptr, canvas);
+  }
+  if (products.model) {
+    StageCanvas canvas(begin(BenchStage::Texture, 0).rgb.get(), kSide);
+    draw_surface(pair, products.model->mesh, &products.model->texture, canvas);
+  }
+}
+
+Result<void> BenchPictures::draw(const Products& products, const pipeline::AlgorithmSet& set, pipeline::StageContext& context) {
+  wipe();
+  if (products.frame) {
+    draw_input(products.frame->left, 0);
+    draw_input(products.frame->right, 1);
+  }
+  if (!products.pair) return {};
+  draw_pair(BenchStage::Rectified, *products.pair, true);
+  RELIEVO_TRY(draw_processed(*products.pair, set, context));
+  if (products.matches) {
+    draw_rules(*products.pair, *products.matches);
+    draw_disparity(*products.pair, *products.matches);
+  }
+  draw_shapes(products);
+  return {};
+}
+
+ui::BenchPicture BenchPictures::picture(BenchStage stage, std::size_t side) const {
+  const One& one = all_[static_cast<std::size_t>(stage)][side];
+  if (one.version == 0) return {};
+  return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px, PixelFormat::Rgb8}, one.version};
+}
+
+void BenchPictures::copy_from(const BenchPictures& other) {
+  wipe();
+  for (std::size_t stage = 0; stage < all_.size(); ++stage) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const One& from = other.all_[stage][side];
+      if (from.version == 0) continue;
+      One& to = all_[stage][side];
+      to.width_px = from.width_px;
+      to.height_px = from.height_px;
+      to.version = next_version();
+      std::memcpy(to.rgb.get(), from.rgb.get(), std::size_t{3} * static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.height_px));
+    }
+  }
+}
+
+void BenchPictures::wipe() {
+  for (auto& stage : all_) {
+    for (One& one : stage) {
+      if (one.version != 0) explicit_bzero(one.rgb.get(), kBytes);
+      one.version = 0;
+    }
+  }
+}
+
+}  // namespace relievo::firmware

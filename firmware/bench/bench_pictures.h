@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// BenchPictures: what every stage made of a test capture, drawn large for the technician. Rgb8, no side
+// longer than budget::kBenchPictureSidePx, in memory of fixed size; pages nobody touched cost nothing.
+//   Input, Processed, Rectified   both views, whole
+//   Matches                       the face: rejected ones in the colour of the rule that took them first
+//   Disparity, Cloud, Mesh, Texture   the face
+// Thread: the worker draws while its job runs; main reads and wipes while none runs. Errors of draw(): the
+// preprocessor's; OutOfMemory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "firmware/session.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/stage.h"
+#include "ui/bench/bench_result.h"
+
+namespace relievo::firmware {
+
+class BenchPictures {
+ public:
+  static constexpr int kSide = budget::kBenchPictureSidePx;
+
+  BenchPictures();
+  // Draws what the products have; `output` of the context is not touched.
+  Result<void> draw(const Products& products, const pipeline::AlgorithmSet& set, pipeline::StageContext& context);
+  // The left picture (0) or the right one; empty where the stage has none.
+  ui::BenchPicture picture(ui::BenchStage stage, std::size_t side) const;
+  void copy_from(const BenchPictures& other);
+  void wipe();
+
+ private:
+  struct One {
+    std::unique_ptr<std::uint8_t[]> rgb;  // not initialised: untouched
+    int width_px = 0, height_px = 0;
+    std::uint32_t version = 0;            // 0: none
+  };
+  One& begin(ui::BenchStage stage, std::size_t side);
+  void draw_pair(ui::BenchStage stage, const pipeline::RectifiedPair& pair, bool colour);
+  void draw_input(const ImageView& view, std::size_t side);
+  Result<void> draw_processed(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, pipeline::StageContext& context);
+  void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
+  void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
+  void draw_shapes(const Products& products);
+
+  std::array<std::array<One, 2>, ui::kBenchStages> all_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/bench/calibration_desk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/command/calibrate/calibration_history.h"
+#include "firmware/command/wall_time.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr int kLeastCorners = 3, kMostCorners = 30;
+constexpr double kLeastSquareMm = 4, kMostSquareMm = 100;
+
+ui::BenchVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
+  switch (verdict) {
+    case pipeline::CalibrationVerdict::Pass: return ui::BenchVerdict::Good;
+    case pipeline::CalibrationVerdict::Usable: return ui::BenchVerdict::Warn;
+    case pipeline::CalibrationVerdict::Refuse: break;
+  }
+  return ui::BenchVerdict::Refuse;
+}
+
+std::string sentence_of(const Error& error) {
+  std::string text(error.what.view());
+  if (!error.where().empty()) text += " (" + std::string(error.where()) + ")";
+  return text;
+}
+
+}  // namespace
+
+void CalibrationDesk::act(ui::BenchOrder order) {
+  if (running_) return;
+  const auto step = static_cast<int>(order.argument);
+  if (order.act == ui::BenchAct::Columns) board_.corners_across = std::clamp(board_.corners_across + step, kLeastCorners, kMostCorners);
+  if (order.act == ui::BenchAct::Rows) board_.corners_down = std::clamp(board_.corners_down + step, kLeastCorners, kMostCorners);
+  if (order.act == ui::BenchAct::Square) board_.square_mm = std::clamp(std::round(10 * board_.square_mm + step) / 10, kLeastSquareMm, kMostSquareMm);
+  if (order.act == ui::BenchAct::Charuco) board_.charuco = !board_.charuco;
+  if (order.act == ui::BenchAct::StoreCalibration) store();
+  if (order.act == ui::BenchAct::Activate) activate(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+}
+
+CalibrateJob::Order CalibrationDesk::order() const {
+  CalibrateJob::Order order;
+  order.board = board_;
+  order.in_use = parts_.stages.pipeline().calibration();
+  return order;
+}
+
+void CalibrationDesk::begun() {
+  running_ = true;
+  ended_ = stored_ = false;
+  reason_.clear();
+  problem_.clear();
+}
+
+void CalibrationDesk::ended() {
+  running_ = false;
+  const Result<void>& outcome = parts_.job.outcome();
+  if (!outcome) {
+    if (outcome.error().code != Errc::Cancelled) problem_ = sentence_of(outcome.error());
+    return;
+  }
+  ended_ = parts_.job.result().has_value();
+  if (!ended_) return;
+  const auto& reasons = parts_.job.result()->quality.reasons;
+  reason_ = reasons.empty() ? "" : reasons.front();
+}
+
+void CalibrationDesk::load_history() {
+  const auto rows = std::make_shared<std::vector<Row>>();
+  parts_.errands.send(
+      JobPlace::Keeper,
+      [this, rows](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(auto all, parts_.store.calibrations());
+        for (auto& info : all) {
+          std::string made_at = text_of(info.created_at);
+          rows->push_back({std::move(info), std::move(made_at)});
+        }
+        return {};
+      },
+      [this, rows](const std::optional<Error>& error) {
+        if (error) problem_ = sentence_of(*error);
+        else history_.swap(*rows);
+      });
+}
+
+void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
+  if (busy_) return;
+  busy_ = true;
+  struct Made {
+    std::uint32_t revision = 0;
+    std::optional<pipeline::Pipeline> pipeline;
+  };
+  const auto made = std::make_shared<Made>();
+  parts_.errands.send(
+      JobPlace::Keeper,
+      [this, made, first = std::move(first)](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(made->revision, first());
+        RELIEVO_TRY_ASSIGN(const auto calibration, parts_.store.calibration(made->revision));
+        RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(parts_.stages.pipeline().algorithms(), calibration));
+        return {};
+      },
+      [this, made](const std::optional<Error>& error) {
+        busy_ = false;
+        problem_ = error ? sentence_of(*error) : "";
+        if (error) return;
+        parts_.stages.replace(*std::move(made->pipeline));
+        parts_.in_use(made->revision);
+        load_history();
+      });
+}
+
+void CalibrationDesk::store() {
+  if (!ended_ || stored_ || !parts_.job.result() || parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse || busy_) return;
+  stored_ = true;
+  const pipeline::CalibratorOutput result = *parts_.job.result();
+  adopt([this, result]() -> Result<std::uint32_t> { return parts_.store.save_calibration(result.calibration, "calibrated at the screen", figures_of(result.quality)); });
+}
+
+void CalibrationDesk::activate(std::size_t row) {
+  if (row >= history_.size() || history_[row].info.active) return;
+  const std::uint32_t revision = history_[row].info.revision;
+  adopt([this, revision]() -> Result<std::uint32_t> {
+    RELIEVO_TRY(parts_.store.activate_calibration(revision));
+    return revision;
+  });
+}
+
+ui::BenchCalibration CalibrationDesk::view() {
+  ui::BenchCalibration view = parts_.job.newest();
+  view.columns = board_.corners_across;
+  view.rows = board_.corners_down;
+  view.square_mm = static_cast<float>(board_.square_mm);
+  view.charuco = board_.charuco;
+  view.running = running_;
+  view.ended = ended_;
+  view.stored = stored_;
+  view.reason = reason_;
+  view.problem = problem_;
+  if (ended_) {
+    const pipeline::CalibrationQuality& q = parts_.job.result()->quality;
+    view.verdict = verdict_of(q.verdict);
+    view.depth_error_mm = static_cast<float>(q.face_depth_sigma_mm);
+    view.rms_px = static_cast<float>(q.pair_rms_px);
+    view.baseline_mm = static_cast<float>(q.baseline_mm);
+  }
+  view.history_count = std::min(history_.size(), view.history.size());
+  for (std::size_t i = 0; i < view.history_count; ++i) {
+    const storage::CalibrationInfo& info = history_[i].info;
+    view.history[i] = {info.revision, info.active, history_[i].made_at, info.note, static_cast<float>(info.rms_px), static_cast<float>(info.figures.depth_sigma_mm)};
+  }
+  return view;
+}
+
+void CalibrationDesk::forget() {
+  parts_.job.wipe();
+  running_ = ended_ = stored_ = busy_ = false;
+  history_.clear();
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/bench/camera_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "firmware/capture/exposure_control.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kThirdOfAStop = 1.2599210498948732;  // cube root of 2
+
+void count(const CameraCounts& from, ui::BenchCamera& to) {
+  to.frames = from.frames;
+  to.lost = from.lost;
+  to.damaged = from.damaged + from.too_short;
+}
+
+}  // namespace
+
+void CameraWatchJob::prepare() {
+  const std::optional<pipeline::StereoFrame>& frame = session_.products().frame;
+  slot_ = frame && session_.spare_slot().holds(frame->left) ? &session_.slot() : &session_.spare_slot();
+  steps_.store(0, std::memory_order_relaxed);
+  for (FocusHelp& focus : focus_) focus.reset();
+  last_pair_.reset();
+  const std::lock_guard lock(mutex_);
+  figures_ = {};
+}
+
+Result<void> CameraWatchJob::run(JobControl& control) {
+  outcome_ = Error{Errc::LibraryFailed, "the watch ended early"};
+  return outcome_ = watch(control);
+}
+
+Result<void> CameraWatchJob::watch(JobControl& control) {
+  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
+  light_ = {board_.preferred_mode().exposure, 1};
+  while (!control.cancelled.load(std::memory_order_relaxed)) {
+    if (steps_.load(std::memory_order_relaxed) != 0) set_light();
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(*slot_, control.cancelled));
+    RELIEVO_TRY(look(frame));
+    std::this_thread::sleep_for(budget::kLivePause);
+  }
+  return Error{Errc::Cancelled, "nobody watches the cameras any more"};
+}
+
+// What cannot be set stays; the page says so.
+void CameraWatchJob::set_light() {
+  const int steps = steps_.exchange(0, std::memory_order_relaxed);
+  const auto left = board_.left().exposure_limits(), right = board_.right().exposure_limits();
+  if (!left || !right) return;
+  const hal::ExposureLimits limits = common_limits(*left, *right);
+  const auto wanted = std::chrono::microseconds(std::lround(static_cast<double>(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
+  const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), light_.gain};
+  if (board_.left().set_exposure(next) && board_.right().set_exposure(next)) light_ = next;
+}
+
+Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame) {
+  ui::BenchCameras now;
+  now.watched = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ImageView& view = i == 0 ? frame.left : frame.right;
+    RELIEVO_TRY_ASSIGN(const FaceLight light, face_light(view, middle_box(view)));
+    now.camera[i].mean = static_cast<float>(light.mean);
+    now.camera[i].clipped = static_cast<float>(light.clipped);
+    now.camera[i].focus = static_cast<float>(focus_[i].share_of_best(light));
+    (void)feeds_[i].fill(view);
+    feeds_[i].publish({});
+  }
+  const GrabCounts& counts = grabber_.counts();
+  count(counts.left, now.camera[0]);
+  count(counts.right, now.camera[1]);
+  now.pairs = counts.pairs;
+  now.apart = counts.apart;
+  now.skew_us = static_cast<float>(frame.skew_ns) / 1000;
+  now.exposure_us = static_cast<float>(light_.time.count());
+  now.gain = static_cast<float>(light_.gain);
+  now.can_be_set = board_.left().exposure_limits().has_value() && board_.right().exposure_limits().has_value();
+  const hal::Instant at = board_.clock().now();
+  if (last_pair_ && at > *last_pair_) now.pairs_per_second = 1 / std::chrono::duration<float>(at - *last_pair_).count();
+  last_pair_ = at;
+  const std::lock_guard lock(mutex_);
+  figures_ = now;
+  return {};
+}
+
+ui::BenchCameras CameraWatchJob::newest() {
+  ui::BenchCameras now;
+  {
+    const std::lock_guard lock(mutex_);
+    now = figures_;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LivePicture live = feeds_[i].newest();
+    now.camera[i].picture = {live.picture, live.number};
+  }
+  return now;
+}
+
+void CameraWatchJob::wipe() {
+  for (LiveFeed& feed : feeds_) feed.wipe();
+  const std::lock_guard lock(mutex_);
+  figures_ = {};
+}
+
+}  // namespace relievo::firmware

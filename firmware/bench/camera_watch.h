@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
+// focus of the middle of each, how far apart the two were exposed, what the grabber has counted. It watches in
+// the slot of the session that does not hold the test capture, until it is cancelled.
+// Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+#include "firmware/capture/face_light.h"
+#include "firmware/capture/live_feed.h"
+#include "firmware/work/jobs.h"
+#include "ui/bench/bench_cameras.h"
+
+namespace relievo::firmware {
+
+class CameraWatchJob final : public Job {
+ public:
+  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board) : grabber_(grabber), session_(session), board_(board) {}
+  // The slot that is free; while the job does not run.
+  void prepare();
+  // A third stop brighter (1) or darker (-1) from the next pair on.
+  void change_light(int steps) { steps_.fetch_add(steps, std::memory_order_relaxed); }
+  Result<void> run(JobControl& control) override;
+  // The newest pair and its figures; `watched` false before the first one.
+  ui::BenchCameras newest();
+  const Result<void>& outcome() const { return outcome_; }  // while it does not run
+  void wipe();
+
+ private:
+  Result<void> watch(JobControl& control);
+  Result<void> look(const pipeline::StereoFrame& frame);
+  void set_light();
+
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::Board& board_;
+  StereoSlot* slot_ = nullptr;
+  std::array<LiveFeed, 2> feeds_;
+  std::array<FocusHelp, 2> focus_;
+  std::atomic<int> steps_{0};
+  hal::Exposure light_;
+  std::optional<hal::Instant> last_pair_;
+  std::mutex mutex_;
+  ui::BenchCameras figures_;  // without pictures and texts
+  Result<void> outcome_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RunJob: all stages of the pipeline on the test capture that lies in the session, with the algorithms that
+// were chosen; then the pictures and figures of what came out. A stage that gives up leaves what the stages
+// before it made, and its reason in the result: for a technician that is an answer, not an error.
+// TestShotJob takes the capture. Both keep their outcome until the next run.
+// Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory.
+// Thread: order() and outcome() main, while the job does not run; run() worker (TestShotJob: capture).
+#pragma once
+
+#include <atomic>
+#include <optional>
+
+#include "firmware/bench/bench_figures.h"
+#include "firmware/bench/bench_pictures.h"
+#include "firmware/work/jobs.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/model/calibration.h"
+
+namespace relievo::firmware {
+
+class RunJob final : public Job {
+ public:
+  RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock) : session_(session), pool_(pool), clock_(clock) {}
+  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration);
+  Result<void> run(JobControl& control) override;
+
+  State stage() const { return now_.load(std::memory_order_relaxed); }  // any thread
+  const Result<void>& outcome() const { return outcome_; }
+  BenchPictures& pictures() { return pictures_; }
+  BenchFigures& figures() { return figures_; }
+
+ private:
+  Result<void> work(JobControl& control);
+  Result<void> finish(JobControl& control);
+
+  EnrolmentSession& session_;
+  ThreadPool& pool_;
+  const hal::Clock& clock_;
+  pipeline::AlgorithmSet set_;
+  pipeline::StereoCalibration calibration_;
+  BenchPictures pictures_;
+  BenchFigures figures_;
+  std::atomic<State> now_{State::Match};
+  Result<void> outcome_;
+};
+
+class TestShotJob final : public Job {
+ public:
+  TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool)
+      : nobody_(grabber, session, board, pool, nullptr), grab_(grabber, session, board, nobody_) {}
+  Result<void> run(JobControl& control) override {
+    outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
+    return outcome_ = grab_.run(control);
+  }
+  const Result<void>& outcome() const { return outcome_; }
+
+ private:
+  PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
+  GrabJob grab_;
+  Result<void> outcome_;
+};
+
+}  // namespace relievo::firmware

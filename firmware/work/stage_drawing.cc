@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/work/stage_drawing.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kFacesAcross = 1.5;  // widths of the face in the picture
+
+struct Range {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  void add(double v) { low = std::min(low, v), high = std::max(high, v); }
+  double share(double v) const { return high > low ? (v - low) / (high - low) : 0; }
+};
+
+struct Corner {
+  double x, y, z;
+  Rgb colour;
+};
+
+double edge(const Corner& a, const Corner& b, double x, double y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
+
+void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<float>& depth, StageCanvas& canvas) {
+  const double area = edge(a, b, c.x, c.y);
+  if (std::abs(area) < 1e-9) return;
+  const int x0 = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))), x1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
+  const int y0 = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))), y1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.y, b.y, c.y}))));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const double u = edge(b, c, x, y) / area, v = edge(c, a, x, y) / area, w = 1 - u - v;
+      if (u < 0 || v < 0 || w < 0) continue;
+      const double z = u * a.z + v * b.z + w * c.z;
+      float& nearest = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.side()) + static_cast<std::size_t>(x)];
+      if (z >= nearest) continue;
+      nearest = static_cast<float>(z);
+      canvas.put(x, y, {u * a.colour.r + v * b.colour.r + w * c.colour.r, u * a.colour.g + v * b.colour.g + w * c.colour.g,
+                        u * a.colour.b + v * b.colour.b + w * c.colour.b});
+    }
+  }
+}
+
+}  // namespace
+
+Rgb near_far_colour(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  const Rgb near{255, 176, 64}, middle{64, 200, 170}, far{52, 84, 190};
+  const auto mix = [](const Rgb& a, const Rgb& b, double s) { return Rgb{a.r + (b.r - a.r) * s, a.g + (b.g - a.g) * s, a.b + (b.b - a.b) * s}; };
+  return t < 0.5 ? mix(near, middle, 2 * t) : mix(middle, far, 2 * t - 1);
+}
+
+FaceWindow::FaceWindow(const pipeline::RectifiedPair& pair, int side_px) : canvas_(side_px) {
+  const bool known = pair.face_width_px > 0;
+  side_ = known ? std::min(kFacesAcross * pair.face_width_px, 1.0 * pair.height_px) : pair.height_px;
+  const double cx = known ? pair.face_centre_px.x : pair.width_px / 2.0, cy = known ? pair.face_centre_px.y : pair.height_px / 2.0;
+  left_ = cx - side_ / 2;
+  top_ = cy - side_ / 2;
+}
+
+StageCanvas::StageCanvas(std::uint8_t* rgb, int side_px) : rgb_(rgb), side_(side_px) {
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(side_) * side_; ++i) put_at(i, {27, 37, 52});
+}
+
+void StageCanvas::put_at(std::ptrdiff_t i, const Rgb& c) {
+  std::uint8_t* to = rgb_ + std::ptrdiff_t{3} * i;
+  to[0] = static_cast<std::uint8_t>(std::clamp(c.r, 0.0, 255.0));
+  to[1] = static_cast<std::uint8_t>(std::clamp(c.g, 0.0, 255.0));
+  to[2] = static_cast<std::uint8_t>(std::clamp(c.b, 0.0, 255.0));
+}
+
+void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas) {
+  if (pair.left.grey.empty()) return;
+  const FaceWindow window(pair, canvas.side());
+  for (int y = 0; y < canvas.side(); ++y) {
+    for (int x = 0; x < canvas.side(); ++x) {
+      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
+      const double grey = pair.left.grey[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(u)] * share;
+      canvas.put(x, y, {grey, grey, grey * 1.08});
+    }
+  }
+}
+
+void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& set, StageCanvas& canvas) {
+  const FaceWindow window(pair, canvas.side());
+  draw_photograph(pair, 0.62, canvas);
+  Range range;
+  for (const auto& m : set.matches) {
+    if (m.rejected_by == 0) range.add(m.disparity_px);
+  }
+  for (const auto& m : set.matches) {
+    const auto x = static_cast<int>(window.x(m.left_px.x)), y = static_cast<int>(window.y(m.left_px.y));
+    if (m.rejected_by == 0 && (x / 2 + y / 2) % 2 == 0) canvas.put(x, y, near_far_colour(1 - range.share(m.disparity_px)));
+  }
+}
+
+void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas) {
+  const FaceWindow window(pair, canvas.side());
+  Range range;
+  for (const auto& p : points.points) range.add(p.at_mm.z);
+  for (const auto& p : points.points) {
+    const auto x = static_cast<int>(window.x(p.left_px.x)), y = static_cast<int>(window.y(p.left_px.y));
+    if (x % 2 == 0 || y % 2 == 0) canvas.put(x, y, near_far_colour(range.share(p.at_mm.z)));
+  }
+}
+
+void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas) {
+  const FaceWindow window(pair, canvas.side());
+  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()), std::numeric_limits<float>::max());
+  const bool coloured = skin != nullptr && skin->vertex_rgb.size() >= 3 * mesh.vertices_mm.size();
+  const auto corner = [&](std::uint32_t i) {
+    const auto& v = mesh.vertices_mm[i];
+    const auto& n = mesh.normals[i];
+    const pipeline::Vec3d p = apply(pair.rectified_from_left, pipeline::Vec3d{v.x, v.y, v.z});
+    const double lit = std::max(0.0, -0.45 * n.x - 0.35 * n.y - 0.82 * n.z);
+    Rgb colour{60 + 170 * lit, 64 + 174 * lit, 72 + 180 * lit};
+    if (coloured) colour = {1.0 * skin->vertex_rgb[3 * i], 1.0 * skin->vertex_rgb[3 * i + 1], 1.0 * skin->vertex_rgb[3 * i + 2]};
+    return Corner{window.x(pair.focal_px * p.x / p.z + pair.left_centre_px.x), window.y(pair.focal_px * p.y / p.z + pair.left_centre_px.y), p.z, colour};
+  };
+  for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How the products of the stages are drawn as the left camera sees them: on a square canvas that shows the
+// face, for the visitor's small pictures (stage_picture.h) and the technician's large ones.
+// Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface.
+// Thread: worker. Errors: none; what is missing stays dark.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/texture_atlas.h"
+
+namespace relievo::firmware {
+
+struct Rgb {
+  double r = 0, g = 0, b = 0;
+};
+
+// Near (0) is warm, far (1) is cold.
+Rgb near_far_colour(double share);
+
+// side x side pixels, 3 bytes each, borrowed.
+class StageCanvas {
+ public:
+  StageCanvas(std::uint8_t* rgb, int side_px);
+  int side() const { return side_; }
+  void put(int x, int y, const Rgb& c) {
+    if (x >= 0 && y >= 0 && x < side_ && y < side_) put_at(static_cast<std::ptrdiff_t>(y) * side_ + x, c);
+  }
+
+ private:
+  void put_at(std::ptrdiff_t i, const Rgb& c);
+  std::uint8_t* rgb_;
+  int side_;
+};
+
+// The part of the left rectified view that a canvas shows: the face, or all of it where none was looked for.
+class FaceWindow {
+ public:
+  FaceWindow(const pipeline::RectifiedPair& pair, int side_px);
+  double x(double px) const { return (px - left_) * canvas_ / side_; }
+  double y(double px) const { return (px - top_) * canvas_ / side_; }
+  double back_x(double at) const { return left_ + at * side_ / canvas_; }
+  double back_y(double at) const { return top_ + at * side_ / canvas_; }
+  double pixel() const { return canvas_ / side_; }  // of the canvas, for one of the view
+
+ private:
+  double left_ = 0, top_ = 0, side_ = 1, canvas_ = 1;
+};
+
+// The left view, `share` of its brightness.
+void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas);
+// Accepted matches over the photograph, coloured by their depth.
+void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& set, StageCanvas& canvas);
+void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas);
+// With the skin's colours where they are known, else as clay.
+void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's workbench behind its own pages, on a small simulated rig: what a finger on a page asks for is
+// brought to the workbench as the staff's side does, without a PIN. One simulated person for all tests: making
+// one takes longest.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "firmware/bench/bench.h"
+#include "firmware/work/pipeline_stages.h"
+#include "hal/monotonic_clock.h"
+#include "hal/sim/board.h"
+#include "hal/sim/photo/held_board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/ui.h"
+
+namespace relievo::firmware::test_bench {
+
+constexpr double kScale = 0.4, kBoardScale = 0.25;  // of the rig's pictures
+
+inline hal::sim::RigOptions small_rig(double scale = kScale) {
+  hal::sim::RigOptions rig;
+  rig.width_px = static_cast<int>(rig.width_px * scale);
+  rig.height_px = static_cast<int>(rig.height_px * scale);
+  return rig;
+}
+
+// Whoever holds a board before the small rig does as told.
+inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
+  const hal::sim::BoardPattern pattern{args.corners_across, args.corners_down, args.square_mm, 0.75 * args.square_mm, hal::sim::BoardKind::Chessboard, 0, 4};
+  hal::sim::SensorOptions sensor;
+  sensor.grey = true;
+  const auto board = std::make_shared<hal::sim::HeldBoard>(small_rig(kBoardScale), pattern, sensor, 2);
+  const auto pose_of = [pattern](const HeldPose& held) {
+    using hal::sim::radians;
+    using hal::sim::rotation;
+    hal::sim::BoardPose pose;
+    pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
+    const hal::sim::Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
+    pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
+    return pose;
+  };
+  return make_hand_pairs(
+      [board, pose_of](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
+        auto pair = board->photograph(pose_of(opened), pose_of(closed), number);
+        return HeldPair{std::move(pair.left), std::move(pair.right)};
+      },
+      1);
+}
+
+class BenchRig {
+ public:
+  BenchRig() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    hal::SimBoardOptions options;
+    options.simulation.rig = small_rig();
+    board = *hal::make_sim_board(options);
+    const auto file = folder.path() / "rig.yml";
+    EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(small_rig())).has_value());
+    const auto calibration = pipeline::read_calibration(file);
+    store = *storage::open_sqlite_store(folder.path() / "store", clock, {});
+    EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());
+    stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
+    screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
+    appliance = std::make_unique<Appliance>(Appliance::Parts{*board, *stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
+    errands = std::make_unique<Errands>(*appliance);
+    bench = std::make_unique<Bench>(Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards, [this](std::uint32_t in_use) { revision = in_use; }});
+    EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
+    appliance->ask(ui::Intent::OpenTechnician);
+    turn();
+  }
+  ~BenchRig() {
+    bench.reset();
+    errands.reset();
+    appliance.reset();
+  }
+
+  void open(ui::StaffPage to) {
+    if (page != ui::StaffPage::Count) bench->closed(page_of(page));
+    page = to;
+    screen->service().show(to);
+    bench->opened(page_of(to));
+    turn();
+  }
+  void turn() {
+    appliance->step(std::chrono::milliseconds(0));
+    errands->turn();
+    bench->turn();
+    frame();
+    while (const auto wish = screen->take_staff_wish()) {
+      bench->act({static_cast<ui::BenchAct>(wish->verb), wish->number});
+      bench->turn();
+      frame();
+    }
+  }
+  // Minutes are "never".
+  template <typename Condition>
+  bool until(Condition condition) {
+    for (int i = 0; i < 60'000 && !condition(); ++i) {
+      turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return condition();
+  }
+  // Scrolls are for fingers: what lies in one is touched by the keypad.
+  void tap(std::string_view id, float x_share = 0.5F, float y_share = 0.5F) {
+    const ui::Node* node = screen->tree().find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const float x = node->rect.x + node->rect.w * x_share, y = node->rect.y + node->rect.h * y_share;
+    const ui::Node* at = screen->tree().at(x, y);
+    if (at != nullptr && at->id == id) {
+      screen->feed({ui::Input::Kind::Down, 3, x, y}, view);
+      screen->feed({ui::Input::Kind::Up, 3, x, y}, view);
+    } else {
+      for (std::size_t i = 0; i < screen->tree().nodes().size() && focused() != id; ++i) screen->feed({ui::Input::Kind::Next}, view);
+      ASSERT_EQ(focused(), id) << "the keypad does not get there";
+      screen->feed({ui::Input::Kind::Activate}, view);
+    }
+    turn();
+  }
+  bool shows(std::string_view id) const { return screen->tree().find(id) != nullptr; }
+  std::string_view focused() const { return screen->focus(); }
+  const ui::BenchView& now() { return bench->view(); }
+
+  ::relievo::test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  BootMemory memory;
+  ThreadPool pool{2};
+  std::unique_ptr<hal::Board> board;
+  std::unique_ptr<storage::Store> store;
+  std::unique_ptr<PipelineStages> stages;
+  std::unique_ptr<ui::Ui> screen;
+  std::unique_ptr<Appliance> appliance;
+  std::unique_ptr<Errands> errands;
+  std::unique_ptr<Bench> bench;
+  ui::ServiceView staff;
+  ui::ViewState view;
+  ui::StaffPage page = ui::StaffPage::Count;
+  std::uint32_t revision = 0;
+
+ private:
+  static ui::BenchPage page_of(ui::StaffPage staff_page) { return static_cast<ui::BenchPage>(static_cast<int>(staff_page) - static_cast<int>(ui::StaffPage::Stages)); }
+  void frame() {
+    staff = {};
+    staff.role = ui::StaffRole::Technician;
+    staff.bench = &bench->view();
+    view = {};
+    view.now = clock.now();
+    view.screen = ui::Screen::Technician;
+    view.service = &staff;
+    screen->frame(view);
+  }
+};
+
+}  // namespace relievo::firmware::test_bench

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's picture pages, by touch, on the simulated rig: every page changes something real, and what it
+// changed is read back from the object behind it.
+#include "tests/firmware/bench/bench_rig.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace relievo::firmware {
+namespace {
+
+using test_bench::BenchRig;
+using ui::BenchPhase;
+using ui::BenchStage;
+using ui::StaffPage;
+
+class BenchTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { rig_ = new BenchRig; }
+  static void TearDownTestSuite() { delete rig_; }
+  static BenchRig& rig() { return *rig_; }
+  static bool finished() { return rig().now().phase == BenchPhase::Ready || rig().now().phase == BenchPhase::Failed; }
+  // One is enough for all that only look at it.
+  static void capture() {
+    rig().open(StaffPage::Stages);
+    if (rig().now().phase == BenchPhase::Ready && rig().now().result.algorithms.empty()) return;
+    rig().tap("capture");
+    ASSERT_TRUE(rig().until(finished));
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+    ASSERT_EQ(rig().now().result.failure, "");
+  }
+  static void again() {
+    rig().tap("run");
+    ASSERT_TRUE(rig().until(finished));
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+  }
+  static Products& products() { return rig().appliance->session().products(); }
+  // The places of an identifier in the choice.
+  static std::string kind(std::string_view key) {
+    const auto& kinds = rig().now().choice.kinds;
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      if (kinds[i].key == key) return "kind " + std::to_string(i);
+    return "no kind";
+  }
+  static std::string name(std::string_view algorithm) {
+    const auto& names = rig().now().choice.names;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].name == algorithm) return "name " + std::to_string(i);
+    return "no name";
+  }
+  static std::string option(std::string_view key) {
+    const auto& options = rig().now().choice.options;
+    for (std::size_t i = 0; i < options.size(); ++i)
+      if (options[i].key == key) return "option " + std::to_string(i);
+    return "no option";
+  }
+
+ private:
+  static BenchRig* rig_;
+};
+BenchRig* BenchTest::rig_ = nullptr;
+
+TEST_F(BenchTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
+  capture();
+  for (std::size_t i = 0; i < ui::kBenchStages; ++i) {
+    rig().tap("stage " + std::to_string(i));
+    EXPECT_EQ(rig().now().stage, static_cast<BenchStage>(i));
+    EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
+    EXPECT_EQ(rig().now().shown[1].pixels.empty(), i > 2) << i;
+    const auto& drawn = rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchLeft)];
+    EXPECT_EQ(drawn.version, rig().now().shown[0].version) << i;
+  }
+  const ui::BenchResult result = rig().now().result;
+  EXPECT_EQ(result.matches, products().matches->matches.size());
+  std::uint64_t rejected = 0;
+  for (std::size_t i = 0; i < result.rule_count; ++i) rejected += result.rules[i].rejected;
+  EXPECT_EQ(result.accepted + rejected, result.matches) << "every rejected match has the rule that took it first";
+  EXPECT_GT(result.photo_correlation, 0.5F);
+
+  rig().open(StaffPage::Tables);
+  rig().tap("table 0");
+  rig().tap("page on");
+  const ui::BenchRows rows = rig().now().rows;
+  ASSERT_EQ(rows.cells.size(), kTableRows * rows.heads.size());
+  EXPECT_EQ(rows.cells[0], std::to_string(kTableRows + 1));
+  const pipeline::Match& match = products().matches->matches[kTableRows];
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", static_cast<double>(match.disparity_px));
+  EXPECT_EQ(rows.cells[4], text);
+  rig().tap("table 2");
+  for (std::size_t i = 0; i < rig().now().rows.cells.size(); i += 8) {
+    for (std::size_t k = 4; k < 7; ++k) EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
+  }
+  rig().tap("table 3");
+  std::snprintf(text, sizeof text, "%.3f", rig().stages->pipeline().calibration().left.focal_px.x);
+  EXPECT_EQ(rig().now().rows.cells[1], text);
+}
+
+TEST_F(BenchTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
+  capture();
+  rig().tap("stage 2");
+  const pipeline::RectifiedPair& pair = *products().pair;
+  const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
+  const float x = share(pair.face_centre_px.x, pair.width_px), y = share(pair.face_centre_px.y, pair.height_px);
+  rig().tap("left", x, y);
+  const ui::BenchPoint found = rig().now().point;
+  ASSERT_TRUE(found.matched);
+  EXPECT_NEAR(found.left_px.x, pair.face_centre_px.x, 0.02 * pair.width_px);
+  // The middle of the face stands where the simulated person stands.
+  EXPECT_NEAR(found.at_mm.z, 560, 80);
+  EXPECT_GT(found.sigma_mm, 0);
+  EXPECT_TRUE(rig().shows("left mark") && rig().shows("right mark"));
+
+  rig().tap("by hand");
+  rig().tap("left", share(found.left_px.x, pair.width_px), share(found.left_px.y, pair.height_px));
+  EXPECT_TRUE(rig().now().point.waits_for_right);
+  rig().tap("right", share(found.right_px.x, pair.width_px), share(found.right_px.y, pair.height_px));
+  const ui::BenchPoint by_hand = rig().now().point;
+  ASSERT_TRUE(by_hand.matched && by_hand.by_hand);
+  // A finger is a pixel or two off; the likeness is not.
+  EXPECT_NEAR(by_hand.disparity_px, found.disparity_px, 2.0);
+  EXPECT_NEAR(by_hand.at_mm.z, found.at_mm.z, 8.0);
+  EXPECT_GT(by_hand.sigma_mm, 0);
+  rig().tap("by hand");
+}
+
+TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
+  capture();
+  const std::uint64_t accepted = rig().now().result.accepted;
+  ASSERT_EQ(rig().now().result.rule_count, 3U);
+  rig().open(StaffPage::Compare);
+  rig().tap("keep");
+
+  rig().open(StaffPage::Algorithms);
+  rig().tap(kind("constraints"));
+  rig().tap(name("continuity"));
+  EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "similarity+uniqueness");
+  EXPECT_TRUE(rig().now().choice.changed);
+  rig().tap(kind("matcher"));
+  rig().tap(name("zmncc"));
+  // An option beyond its bounds is refused and stays; within them it is taken.
+  const std::string window = option("zmncc.window_px");
+  rig().tap(window);
+  for (const char digit : std::string("9999")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  rig().tap("option use");
+  EXPECT_TRUE(rig().shows("option refused"));
+  for (int i = 0; i < 4; ++i) rig().tap("type erase");
+  for (const char digit : std::string("9")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  rig().tap("option use");
+  EXPECT_FALSE(rig().shows("option use")) << "taken";
+  again();
+  const ui::BenchView& now = rig().now();
+  EXPECT_EQ(now.result.rule_count, 2U);
+  EXPECT_NE(now.result.accepted, accepted);
+  EXPECT_NE(now.result.algorithms.find("zmncc.window_px = 9"), std::string_view::npos) << now.result.algorithms;
+  EXPECT_NE(now.result.algorithms.find("matcher = zmncc"), std::string_view::npos);
+
+  rig().open(StaffPage::Compare);
+  EXPECT_EQ(rig().now().kept.accepted, accepted) << "the one put aside stays as it was";
+  EXPECT_EQ(rig().now().kept.algorithms, "");
+  EXPECT_FALSE(rig().now().compared[0].pixels.empty() || rig().now().compared[1].pixels.empty());
+  EXPECT_NE(rig().now().compared[0].version, rig().now().compared[1].version);
+
+  rig().open(StaffPage::Algorithms);
+  EXPECT_EQ(rig().stages->pipeline().algorithms().get("matcher"), "refined") << "visitors' are another choice";
+  rig().tap("apply");
+  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
+  EXPECT_EQ(rig().stages->pipeline().algorithms().get("zmncc.window_px"), "9");
+  const auto kept = set_from_text(*rig().store->setting("algorithms"));
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(kept->get("constraints"), "similarity+uniqueness");
+  rig().tap("reset");
+  rig().tap("apply");
+  ASSERT_TRUE(rig().until([] { return rig().stages->pipeline().algorithms().get("matcher") == "refined"; }));
+}
+
+TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
+  rig().open(StaffPage::Cameras);
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; })) << rig().now().problem;
+  for (const ui::BenchCamera& camera : rig().now().cameras.camera) {
+    EXPECT_FALSE(camera.picture.pixels.empty());
+    EXPECT_GT(camera.mean, 0.05F);
+    EXPECT_GT(camera.focus, 0.5F);
+  }
+  rig().open(StaffPage::Stages);
+  ASSERT_TRUE(rig().until([] { return !rig().errands->busy(JobPlace::Capture); }));
+  EXPECT_FALSE(rig().now().cameras.watched);
+  EXPECT_TRUE(rig().now().cameras.camera[0].picture.pixels.empty());
+}
+
+TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
+  rig().open(StaffPage::Calibrate);
+  rig().tap("columns 0");
+  EXPECT_EQ(rig().now().calibration.columns, 9);
+  rig().tap("columns 1");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 1; }));
+  rig().tap("calibration begin");
+  ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.views > 0; }));
+  EXPECT_FALSE(rig().now().calibration.pictures[0].pixels.empty());
+  EXPECT_TRUE(rig().shows("advice"));
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+  if (rig().now().calibration.running) rig().tap("calibration finish");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
+  const ui::BenchCalibration made = rig().now().calibration;
+  ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << made.reason;
+  const auto& between = rig().stages->pipeline().calibration().right_from_left.translation_mm;
+  EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
+  EXPECT_EQ(rig().appliance->state(), State::Technician);
+
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; })) << rig().now().calibration.problem;
+  EXPECT_EQ(rig().revision, 2U);
+  EXPECT_EQ(rig().stages->pipeline().calibration().revision, 2U) << "visitors are measured with it";
+  EXPECT_EQ(rig().store->active_calibration()->revision, 2U);
+  // The one before it comes back by a touch.
+  rig().tap("calibration 1");
+  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem;
+  EXPECT_EQ(rig().stages->pipeline().calibration().revision, 1U);
+}
+
+// The last: it leaves.
+TEST_F(BenchTest, WhoLeavesLeavesNothing) {
+  capture();
+  rig().open(StaffPage::Compare);
+  rig().tap("keep");
+  rig().tap("run");  // and goes in the middle of it
+  rig().appliance->ask(ui::Intent::LeaveTechnician);
+  rig().turn();
+  EXPECT_EQ(rig().appliance->state(), State::Idle);
+  EXPECT_FALSE(rig().appliance->session().is_open());
+  for (const std::byte byte : rig().memory.frames().first(4096)) ASSERT_EQ(byte, std::byte{0});
+  EXPECT_EQ(rig().now().phase, BenchPhase::Empty);
+  EXPECT_FALSE(rig().now().kept.there);
+  EXPECT_TRUE(rig().now().shown[0].pixels.empty() && rig().now().compared[0].pixels.empty());
+}
+
+}  // namespace
+}  // namespace relievo::firmware

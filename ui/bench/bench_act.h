@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// BenchAct: what a touch on the technician's picture pages asks of firmware's workbench, with a number
+// that says which. It is the verb of a StaffDo action (ui/service.h). Thread: any.
+#pragma once
+
+#include <cstdint>
+
+namespace relievo::ui {
+
+enum class BenchAct : std::uint8_t {
+  None,          // the page was opened
+  Capture,       // a new test capture, and all stages of it
+  Run,           // all stages once more, with the algorithms as they are chosen now
+  Stop,
+  ShowStage,     // BenchStage
+  Point,         // touched in the left picture: x << 12 | y, 4096ths of the picture
+  PointRight,    // in the right one
+  ByHand,        // the next two touches are a match by hand; again: no longer
+  ChooseKind,    // index into kinds
+  ChooseName,    // index into the chosen kind's names: chosen, or for rules switched
+  EditOption,    // index into options
+  TypeDigit,     // '0' to '9', '.', '-', 'e'
+  EraseDigit, UseTyped, UseDefault, LeaveOption,
+  ResetSet,      // every choice as it is by default
+  ApplySet,      // visitors are measured with these from now on
+  KeepResult,    // the present result is put aside, to be compared with the next
+  ShowTable,     // BenchTable
+  TurnPage,      // by so many pages
+  WatchCameras,
+  BrighterShot, DarkerShot,
+  BeginCalibration, StopCalibration, CancelCalibration, StoreCalibration,
+  Columns, Rows, Square, Charuco,  // of the board: one more or less; a tenth of a millimetre times the value; other kind
+  Activate                         // a stored calibration: its row
+};
+
+// What a wish of the staff's side (ui/service.h) says, once it has come to the workbench.
+struct BenchOrder {
+  BenchAct act = BenchAct::None;
+  std::int64_t argument = 0;
+};
+
+}  // namespace relievo::ui

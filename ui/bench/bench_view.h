@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// BenchView: everything the technician's picture pages may draw, as plain data. No person's name comes
+// here. Everything is borrowed from firmware's workbench for the length of one frame. Thread: main.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/point_cloud.h"
+#include "ui/bench/bench_cameras.h"
+#include "ui/bench/bench_choice.h"
+#include "ui/bench/bench_result.h"
+
+namespace relievo::ui {
+
+// The pages that have something under way only while they are open.
+enum class BenchPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
+
+struct BenchView {
+  BenchPhase phase = BenchPhase::Empty;
+  float progress = 0;
+  std::uint8_t working_on = 0;            // while phase is Running: Match, Reconstruct, Mesh, Texture
+  std::string_view problem;
+  BenchStage stage = BenchStage::Rectified;
+  std::array<BenchPicture, 2> shown{};    // of the stage; the second is empty where there is one only
+  std::array<BenchPicture, 2> compared{}; // the same stage of the result put aside, and of the present one
+  BenchPoint point;
+  bool by_hand = false;                   // touches make a match
+  BenchResult result, kept;               // the present one, and the one put aside
+  bool applied = false;                   // visitors are measured with the chosen algorithms now
+  const pipeline::FaceModel* model = nullptr;
+  const pipeline::PointCloud* cloud = nullptr;
+  std::uint32_t model_number = 0;
+  BenchChoice choice;
+  BenchRows rows;
+  BenchCameras cameras;
+  BenchCalibration calibration;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every algorithm of every stage: chosen, its options edited and checked, rules switched; and what they make of
+// the test capture. Names of algorithms and options are those of the command line, in every language.
+#include <cstdio>
+
+#include "ui/screens/service/bench/bench_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* label_of(const Words& tr, std::string_view kind) {
+  if (kind == "preprocessor") return tr("Preparation of the pictures");
+  if (kind == "selector") return tr("Places to be matched");
+  if (kind == "matcher") return tr("Matching");
+  if (kind == "constraints") return tr("Rules for matches");
+  if (kind == "triangulator") return tr("Points in space");
+  if (kind == "outliers") return tr("Outliers");
+  if (kind == "mesher") return tr("Surface");
+  if (kind == "completion") return tr("Completion");
+  if (kind == "relief") return tr("Check against pictures");
+  return tr("Texture");
+}
+
+void kinds(BenchFrame& b) {
+  b.page.begin_list("kinds");
+  for (std::size_t i = 0; i < b.view.choice.kinds.size(); ++i) {
+    const BenchKind& kind = b.view.choice.kinds[i];
+    const bool chosen = i == b.view.choice.kind;
+    Node row = b.page.box(Flow::Column, 2, 12, 8);
+    row.id = b.id("kind", i);
+    row.name = label_of(b.tr, kind.key);
+    row.role = Role::Button;
+    row.action = bench(BenchAct::ChooseKind, static_cast<std::int32_t>(i));
+    row.box.min_height = b.page.px(size::kStaffTarget);
+    row.box.along = Along::Centre;
+    row.box.radius = b.page.px(12);
+    row.box.fill = chosen ? b.page.palette.accent : b.page.palette.card;
+    b.page.tree.open(row);
+    b.page.tree.leaf(b.page.text(label_of(b.tr, kind.key), type::kSmall, Weight::Medium, chosen ? b.page.palette.accent_ink : b.page.palette.ink));
+    b.page.tree.leaf(b.page.text(b.left_to_right(kind.value), 17, Weight::Regular, chosen ? b.page.palette.accent_ink : b.page.palette.ink_soft));
+    b.page.tree.close();
+  }
+  b.page.tree.close();
+}
+
+void names(BenchFrame& b) {
+  const BenchChoice& choice = b.view.choice;
+  const std::size_t across = b.page.text_share > 1.2F ? 2 : 3;
+  for (std::size_t first = 0; first < choice.names.size(); first += across) {
+    b.page.tree.open(b.page.box(Flow::Row, space::kXs));
+    for (std::size_t i = first; i < first + across; ++i) {
+      if (i >= choice.names.size()) b.page.space(1);
+      else b.choice(b.id("name", i), b.left_to_right(choice.names[i].name), choice.names[i].chosen, bench(BenchAct::ChooseName, static_cast<std::int32_t>(i)));
+    }
+    b.page.tree.close();
+  }
+}
+
+void rejected(BenchFrame& b) {
+  const BenchResult& r = b.view.result;
+  b.page.section(b.tr("In the last calculation"));
+  b.page.row("accepted count", b.tr("Accepted"), b.page.number(static_cast<double>(r.accepted)));
+  for (std::size_t i = 0; i < r.rule_count; ++i) b.page.row(b.id("rejected", i), b.left_to_right(r.rules[i].name), b.page.number(static_cast<double>(r.rules[i].rejected)));
+}
+
+void options(BenchFrame& b) {
+  const BenchChoice& choice = b.view.choice;
+  names(b);
+  b.page.begin_list("options");
+  Node said = b.page.text(choice.kinds[choice.kind].sentence, 17, Weight::Regular, b.page.palette.ink_soft);
+  said.box.pad_y = b.page.px(6);
+  b.page.tree.leaf(said);
+  for (std::size_t i = 0; i < choice.options.size(); ++i) {
+    const BenchOption& option = choice.options[i];
+    const Action action = option.text ? Action{} : bench(BenchAct::EditOption, static_cast<std::int32_t>(i));
+    b.page.row(b.id("option", i), b.left_to_right(option.key), b.left_to_right(option.value), option.changed ? Mood::Warn : Mood::Plain, action);
+  }
+  if (choice.kinds[choice.kind].several && b.view.result.there) rejected(b);
+  b.page.tree.close();
+}
+
+void key(BenchFrame& b, std::string_view id, const char* letter, Action action) {
+  Node node = b.page.text(letter, type::kHeading / b.page.text_share, Weight::Medium, b.page.palette.link, TextAlign::Centre);
+  node.id = id;
+  node.name = letter;
+  node.role = Role::Key;
+  node.action = action;
+  node.box.grow = 1;
+  node.box.min_height = b.page.px(size::kStaffTarget);
+  node.box.fill = b.page.palette.card;
+  node.box.border = b.page.palette.card_border;
+  node.box.border_px = b.page.px(1.5F);
+  node.box.radius = b.page.px(14);
+  b.page.tree.leaf(node);
+}
+
+void keys(BenchFrame& b) {
+  constexpr const char* kKeys[4][4] = {{"1", "2", "3", "."}, {"4", "5", "6", "-"}, {"7", "8", "9", "e"}, {"0", nullptr, nullptr, nullptr}};
+  for (const auto& line : kKeys) {
+    Node row = b.page.box(Flow::Row, 8);
+    row.box.left_to_right = true;
+    b.page.tree.open(row);
+    for (const char* letter : line) {
+      if (letter == nullptr) continue;
+      key(b, b.id("type", static_cast<std::size_t>(*letter)), letter, bench(BenchAct::TypeDigit, *letter));
+    }
+    if (*line[0] == '0') {
+      Node erase = b.page.grown(b.page.box(Flow::Row), 3.1F);
+      erase.id = "type erase";
+      erase.name = b.tr("Erase");
+      erase.role = Role::Key;
+      erase.action = bench(BenchAct::EraseDigit);
+      erase.box.along = Along::Centre;
+      erase.box.across = Across::Centre;
+      erase.box.fill = b.page.palette.card;
+      erase.box.border = b.page.palette.card_border;
+      erase.box.border_px = b.page.px(1.5F);
+      erase.box.radius = b.page.px(14);
+      b.page.tree.open(erase);
+      b.page.sign(icon::kErase, 26 / b.page.text_share, b.page.palette.link);
+      b.page.tree.close();
+    }
+    b.page.tree.close();
+  }
+}
+
+void editor(BenchFrame& b) {
+  const BenchOption& option = *b.view.choice.edited;
+  Node words = b.page.grown(b.page.box(Flow::Column, 6));
+  words.id = "option words";
+  words.box.scroll = true;
+  b.page.tree.open(words);
+  b.page.tree.leaf(b.page.text(b.left_to_right(option.key), type::kBody, Weight::Bold, b.page.palette.ink));
+  b.page.tree.leaf(b.page.text(b.left_to_right(option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  char text[96];
+  std::snprintf(text, sizeof text, "\u2066%g … %g\u2069", option.least, option.most);
+  b.page.row("option range", b.tr("Possible values"), b.page.tree.keep(text));
+  b.page.row("option value", b.tr("Now"), b.left_to_right(option.value));
+  if (!b.view.choice.refused.empty()) {
+    Node no = b.page.text(b.tr("This value is not possible."), type::kSmall, Weight::Bold, b.page.palette.bad);
+    no.id = "option refused";
+    no.role = Role::Status;
+    b.page.tree.leaf(no);
+  }
+  b.page.tree.close();
+  Node field = b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : b.left_to_right(b.view.choice.typed), type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
+  field.id = "option typed";
+  field.role = Role::Field;
+  field.name = b.tr("New value");
+  field.box.min_height = b.page.px(52);
+  field.box.fill = b.page.palette.card;
+  field.box.border = b.page.palette.accent;
+  field.box.border_px = b.page.px(2);
+  field.box.radius = b.page.px(14);
+  b.page.tree.leaf(field);
+  keys(b);
+  const bool stacked = b.page.text_share > 1.3F;
+  b.page.tree.open(b.page.box(stacked ? Flow::Column : Flow::Row, space::kXs));
+  b.page.small_button("option leave", b.tr("Cancel"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveOption), stacked ? 0.0F : 1.0F);
+  b.page.small_button("option default", b.tr("Default"), nullptr, ButtonLook::Quiet, bench(BenchAct::UseDefault), stacked ? 0.0F : 1.0F);
+  b.page.small_button("option use", b.tr("Use it"), icon::kCheck, ButtonLook::Main, bench(BenchAct::UseTyped), stacked ? 0.0F : 1.0F);
+  b.page.tree.close();
+}
+
+void status(BenchFrame& b) {
+  b.problem(b.view.problem);
+  const bool running = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
+  if (running) return b.page.progress("run progress", b.view.phase == BenchPhase::Running ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4 : 0);
+  if (!b.view.applied) return;
+  Node done = b.page.text(b.tr("Visitors are measured with these algorithms now."), type::kSmall, Weight::Medium, b.page.palette.good);
+  done.id = "applied";
+  done.role = Role::Status;
+  b.page.tree.leaf(done);
+}
+
+}  // namespace
+
+void bench_algorithms_page(StaffFrame& page) {
+  if (page.staff.bench == nullptr || page.staff.bench->choice.kinds.empty()) return;
+  BenchFrame b(page);
+  status(b);
+  const bool editing = b.view.choice.edited != nullptr;
+  page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  // Large letters leave room for one of the two while an option is edited.
+  if (!editing || !(page.portrait || page.text_share > 1.2F)) {
+    page.tree.open(page.grown(page.box(Flow::Column), page.portrait ? 1.0F : 1.0F));
+    kinds(b);
+    page.tree.close();
+  }
+  page.tree.open(page.grown(page.box(Flow::Column, space::kXs), page.portrait ? 1.2F : 1.7F));
+  if (editing) editor(b);
+  else options(b);
+  page.tree.close();
+  page.tree.close();
+  if (editing) return;
+  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
+  page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet), page.portrait ? 0.0F : 1.0F);
+  page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), page.portrait ? 0.0F : 1.0F);
+  page.tree.close();
+  b.capture_buttons(true);
+}
+
+}  // namespace relievo::ui

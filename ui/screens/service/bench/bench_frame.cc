@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/service/bench/bench_frame.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace relievo::ui {
+
+const char* title_of(const Words& tr, BenchStage stage) {
+  switch (stage) {
+    case BenchStage::Input: return tr("Pictures");
+    case BenchStage::Processed: return tr("Processed");
+    case BenchStage::Rectified: return tr("Rectified");
+    case BenchStage::Matches: return tr("Matches");
+    case BenchStage::Disparity: return tr("Disparity");
+    case BenchStage::Cloud: return tr("Points");
+    case BenchStage::Mesh: return tr("Surface");
+    case BenchStage::Texture:
+    case BenchStage::Count: break;
+  }
+  return tr("Texture");
+}
+
+const char* work_of(const Words& tr, std::size_t stage) {
+  if (stage == 0) return tr("Matching");
+  if (stage == 1) return tr("Reconstruction");
+  return stage == 2 ? tr("Surface") : tr("Texture");
+}
+
+std::string_view BenchFrame::id(std::string_view what, std::size_t number) const {
+  char text[64];
+  const int length = std::snprintf(text, sizeof text, "%.*s %zu", static_cast<int>(what.size()), what.data(), number);
+  return page.tree.keep({text, static_cast<std::size_t>(std::clamp(length, 0, 63))});
+}
+
+std::string_view BenchFrame::left_to_right(std::string_view text) const {
+  const std::string_view first = page.tree.keep("\u2066");
+  return {first.data(), first.size() + page.tree.keep(text).size() + page.tree.keep("\u2069").size()};
+}
+
+void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow) {
+  page.small_button(id, label, chosen ? icon::kCheck : nullptr, chosen ? ButtonLook::Main : ButtonLook::Quiet, action, grow);
+}
+
+void BenchFrame::open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture, PictureSlot slot, Action action) {
+  Node frame = page.grown(page.box(Flow::Stack));
+  frame.aspect = picture.pixels.empty() ? 1.0F : static_cast<float>(picture.pixels.width_px) / static_cast<float>(picture.pixels.height_px);
+  frame.box.fill = page.palette.stage;
+  frame.box.radius = page.px(12);
+  page.tree.open(frame);
+  Node image = page.box(Flow::Column);
+  image.id = id;
+  image.name = spoken;
+  image.role = Role::Picture;
+  if (!picture.pixels.empty()) {
+    image.mark = Mark::Image;
+    image.picture = slot;
+  }
+  image.box.radius = page.px(12);
+  image.action = action;
+  image.tells_place = action.kind != ActionKind::None;
+  page.tree.leaf(image);
+}
+
+void BenchFrame::close_picture() { page.tree.close(); }
+
+void BenchFrame::pin_line(float y, Colour colour, float thick_dp) {
+  Node line = page.box(Flow::Column);
+  line.pinned = true;
+  line.pin_x = 0.5F;
+  line.pin_y = y;
+  line.box.height = std::max(1.0F, page.px(thick_dp));
+  line.box.fill = colour;
+  page.tree.leaf(line);
+}
+
+void BenchFrame::pin_dot(float x, float y, Colour colour, std::string_view id) {
+  Node dot = page.sized(page.box(Flow::Column), 22, 22);
+  dot.id = id;
+  dot.pinned = true;
+  dot.pin_x = x;
+  dot.pin_y = y;
+  dot.box.border = colour;
+  dot.box.border_px = page.px(3.5F);
+  dot.box.radius = page.px(11);
+  page.tree.leaf(dot);
+}
+
+bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& visit, StaffPage page) {
+  const auto show = [&list](const BenchPicture& left, const BenchPicture& right) {
+    list.pictures[static_cast<std::size_t>(PictureSlot::BenchLeft)] = {left.pixels, left.version};
+    list.pictures[static_cast<std::size_t>(PictureSlot::BenchRight)] = {right.pixels, right.version};
+  };
+  list.face = nullptr;
+  list.face_version = 0;
+  if (page == StaffPage::Stages) show(view.shown[0], view.shown[1]);
+  if (page == StaffPage::Compare) show(view.compared[0], view.compared[1]);
+  if (page == StaffPage::Cameras) show(view.cameras.camera[0].picture, view.cameras.camera[1].picture);
+  if (page == StaffPage::Calibrate) show(view.calibration.pictures[0], view.calibration.pictures[1]);
+  if (page == StaffPage::Model && view.model != nullptr) {
+    list.face = view.model;
+    list.cloud = view.cloud;
+    list.face_version = view.model_number;
+    list.face_look = visit.look;
+  }
+  return page >= StaffPage::Stages && page <= StaffPage::Calibrate;
+}
+
+void BenchFrame::problem(std::string_view words) {
+  if (words.empty()) return;
+  Node row = page.box(Flow::Row, space::kS);
+  row.id = "problem";
+  row.role = Role::Status;
+  row.box.across = Across::Centre;
+  page.tree.open(row);
+  page.sign(icon::kAlert, 26, page.palette.bad);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  Node said = page.text(words, 18, Weight::Regular, page.palette.bad);
+  page.tree.leaf(said);
+  page.tree.close();
+  page.tree.close();
+}
+
+bool BenchFrame::capture_state() {
+  problem(view.problem);
+  if (view.phase == BenchPhase::Ready || (view.phase == BenchPhase::Failed && view.result.there)) return true;
+  Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
+  room.box.along = Along::Centre;
+  page.tree.open(room);
+  if (view.phase == BenchPhase::Empty || view.phase == BenchPhase::Failed) {
+    page.heading("nothing", tr("No test capture yet"), type::kHeading, TextAlign::Centre);
+    page.body("nothing words", tr("It is looked at stage by stage and belongs to nobody: when you leave, it is wiped."), TextAlign::Centre);
+  } else {
+    page.heading("working", view.phase == BenchPhase::Capturing ? tr("The picture is being taken") : work_of(tr, view.working_on), type::kHeading, TextAlign::Centre);
+    const float done = view.phase == BenchPhase::Capturing ? 0 : (static_cast<float>(view.working_on) + view.progress) / 4;
+    page.progress("run progress", done);
+  }
+  page.tree.close();
+  return false;
+}
+
+void BenchFrame::capture_buttons(bool with_run) {
+  const bool busy = view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running;
+  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
+  const float grow = page.portrait ? 0.0F : 1.0F;
+  if (busy) {
+    page.small_button("stop", tr("Stop"), icon::kClose, ButtonLook::Main, bench(BenchAct::Stop), grow);
+  } else {
+    const bool there = view.result.there;
+    page.small_button("capture", tr("New test capture"), icon::kCamera, there ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::Capture), grow);
+    if (with_run && there) page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, bench(BenchAct::Run), grow);
+  }
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// BenchFrame: what the technician's picture pages share on top of StaffFrame: pictures that can be touched and
+// marked, rows of choices, the state of the test capture with the buttons that lead on. Lengths in dp.
+// Thread: main. Errors: none.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "ui/bench/bench_act.h"
+#include "ui/bench/bench_view.h"
+#include "ui/screens/service/staff_screens.h"
+
+namespace relievo::ui {
+
+inline Action bench(BenchAct act, std::int32_t argument = 0) { return {ActionKind::StaffDo, static_cast<std::int32_t>(act), argument}; }
+
+class BenchFrame {
+ public:
+  explicit BenchFrame(StaffFrame& page_in) : page(page_in), tr(page_in.tr), view(*page_in.staff.bench) {}
+  StaffFrame& page;
+  const Words& tr;
+  const BenchView& view;
+
+  // A name made of two parts, kept for the frame: "stage 3".
+  std::string_view id(std::string_view what, std::size_t number) const;
+  // Figures and identifiers: left to right in every language.
+  std::string_view left_to_right(std::string_view text) const;
+  // One of several: the chosen one is filled and ticked.
+  void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
+  // Pages whose words are large, or narrow ones, put less beside each other.
+  std::size_t across(std::size_t most) const { return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most; }
+
+  // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
+  // to it (Node::pinned). Touched, `action` says where.
+  void open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture, PictureSlot slot, Action action = {});
+  void close_picture();
+  // On the open picture: a line over its whole width, a ring; shares of the picture.
+  void pin_line(float y, Colour colour, float thick_dp);
+  void pin_dot(float x, float y, Colour colour, std::string_view id);
+
+  // The way into every page that needs a capture: nothing there, under way, or what went wrong; true when
+  // there is a result to be shown below it.
+  bool capture_state();
+  // The buttons under the pages of the test capture.
+  void capture_buttons(bool with_run);
+  void problem(std::string_view words);
+};
+
+const char* title_of(const Words& tr, BenchStage stage);
+const char* work_of(const Words& tr, std::size_t stage);  // Match, Reconstruct, Mesh, Texture
+
+// The pictures and the model of these pages; false where `page` is none of them.
+bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& visit, StaffPage page);
+
+// The pages; each draws nothing but "not here" without a BenchView.
+void bench_stages_page(StaffFrame& page);
+void bench_model_page(StaffFrame& page);
+void bench_tables_page(StaffFrame& page);
+void bench_algorithms_page(StaffFrame& page);
+void bench_compare_page(StaffFrame& page);
+void bench_cameras_page(StaffFrame& page);
+void bench_calibrate_page(StaffFrame& page);
+
+}  // namespace relievo::ui

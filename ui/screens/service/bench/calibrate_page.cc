@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Calibration at the screen: the board and what is stored; then what the cameras see of it, what to show next
+// and how much has been seen; then the verdict in millimetres.
+#include <algorithm>
+#include <cstdio>
+
+#include "ui/screens/service/bench/bench_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* words_of(const Words& tr, BoardAdvice advice) {
+  switch (advice) {
+    case BoardAdvice::ShowBoard: return tr("Show the whole board to both cameras");
+    case BoardAdvice::LeftCameraMissesIt: return tr("The left camera does not see all of it");
+    case BoardAdvice::RightCameraMissesIt: return tr("The right camera does not see all of it");
+    case BoardAdvice::HoldStill: return tr("Hold it still");
+    case BoardAdvice::TooBlurred: return tr("It is not sharp: more light, or another distance");
+    case BoardAdvice::Closer: return tr("Closer");
+    case BoardAdvice::Farther: return tr("Farther away");
+    case BoardAdvice::Left: return tr("To the left of the picture");
+    case BoardAdvice::Right: return tr("To the right of the picture");
+    case BoardAdvice::Up: return tr("Higher");
+    case BoardAdvice::Down: return tr("Lower");
+    case BoardAdvice::TiltLeft: return tr("Its left edge nearer to the cameras");
+    case BoardAdvice::TiltRight: return tr("Its right edge nearer to the cameras");
+    case BoardAdvice::TiltForward: return tr("Its upper edge nearer to the cameras");
+    case BoardAdvice::TiltBack: return tr("Its lower edge nearer to the cameras");
+    case BoardAdvice::TurnClockwise: return tr("Turn it clockwise");
+    case BoardAdvice::TurnCounterclockwise: return tr("Turn it counterclockwise");
+    case BoardAdvice::AlreadyHave: return tr("This view is known: another one, please");
+    case BoardAdvice::SwappedCameras: return tr("The cameras are exchanged: change them over and begin again");
+    case BoardAdvice::Done: break;
+  }
+  return tr("Enough has been seen");
+}
+
+const char* words_of(const Words& tr, BoardEnd end) {
+  switch (end) {
+    case BoardEnd::GoalReached: return tr("The goal is reached.");
+    case BoardEnd::Plateau: return tr("More views would hardly improve it.");
+    case BoardEnd::Full: return tr("As many views as are wanted.");
+    case BoardEnd::NotYet: break;
+  }
+  return tr("It was ended early.");
+}
+
+// How much of the picture has been seen: the more corners in a part, the fuller its square.
+void coverage(BenchFrame& b, std::size_t side) {
+  const auto& seen = b.view.calibration.seen[side];
+  Node map = b.page.box(Flow::Column, 2);
+  map.id = side == 0 ? "left coverage" : "right coverage";
+  map.name = side == 0 ? b.tr("Seen by the left camera") : b.tr("Seen by the right camera");
+  map.role = Role::Picture;
+  b.page.tree.open(map);
+  for (std::size_t row = 0; row < kCoverageCells; ++row) {
+    Node line = b.page.box(Flow::Row, 2);
+    line.box.left_to_right = true;
+    b.page.tree.open(line);
+    for (std::size_t column = 0; column < kCoverageCells; ++column) {
+      Node cell = b.page.grown(b.page.box(Flow::Column));
+      cell.box.height = b.page.px(11);
+      const float share = std::min(1.0F, static_cast<float>(seen[row * kCoverageCells + column]) / 40);
+      cell.box.fill = share > 0 ? b.page.palette.accent.with_alpha(0.25F + 0.75F * share) : b.page.palette.quiet_border;
+      b.page.tree.leaf(cell);
+    }
+    b.page.tree.close();
+  }
+  b.page.tree.close();
+}
+
+void live_pictures(BenchFrame& b) {
+  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.page.portrait ? 1.0F : 1.6F);
+  row.box.left_to_right = true;
+  b.page.tree.open(row);
+  for (std::size_t side = 0; side < 2; ++side) {
+    b.page.tree.open(b.page.grown(b.page.box(Flow::Column, space::kXs)));
+    b.open_picture(side == 0 ? "left board" : "right board", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), b.view.calibration.pictures[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
+    b.close_picture();
+    coverage(b, side);
+    b.page.tree.close();
+  }
+  b.page.tree.close();
+}
+
+void bar(BenchFrame& b, std::string_view id, const char* label, float share) {
+  Node name = b.page.text(label, 18, Weight::Medium, b.page.palette.ink);
+  b.page.tree.leaf(name);
+  b.page.progress(id, share);
+}
+
+void running(BenchFrame& b) {
+  const BenchCalibration& c = b.view.calibration;
+  Node said = b.page.text(words_of(b.tr, c.advice), type::kHeading, Weight::Bold, b.page.palette.link, TextAlign::Centre);
+  said.id = "advice";
+  said.role = Role::Status;
+  said.style.size_px = b.page.px(type::kHeading * (1 + (b.page.text_share - 1) * 0.5F));
+  b.page.tree.leaf(said);
+  b.page.tree.open(b.page.grown(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  live_pictures(b);
+  b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
+  b.page.begin_list("progress list");
+  b.page.row("views", b.tr("Views taken"), b.page.number(c.views));
+  b.page.row("error", b.tr("Predicted error"), c.error_mm > 0 ? b.page.number(static_cast<double>(c.error_mm), 3, "mm") : std::string_view("–"), c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
+  b.page.row("goal", b.tr("Goal"), b.page.number(static_cast<double>(c.goal_mm), 3, "mm"));
+  if (c.disagreeing > 0) b.page.row("disagreeing", b.tr("Views that disagree"), b.page.number(c.disagreeing), Mood::Warn);
+  const char* const names[] = {b.tr("Across"), b.tr("Up and down"), b.tr("Size"), b.tr("Tilt")};
+  for (std::size_t i = 0; i < c.bars.size(); ++i) bar(b, b.id("bar", i), names[i], c.bars[i]);
+  b.page.tree.close();
+  b.page.tree.close();
+  b.page.tree.close();
+  b.page.tree.open(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kS));
+  const float grow = b.page.portrait ? 0.0F : 1.0F;
+  b.page.small_button("calibration cancel", b.tr("Cancel"), icon::kClose, ButtonLook::Quiet, bench(BenchAct::CancelCalibration), grow);
+  b.page.small_button("calibration finish", b.tr("Enough: work it out"), icon::kCheck, ButtonLook::Main, bench(BenchAct::StopCalibration), grow);
+  b.page.tree.close();
+}
+
+void verdict(BenchFrame& b) {
+  const BenchCalibration& c = b.view.calibration;
+  if (!c.ended) return;
+  const bool good = c.verdict == BenchVerdict::Good, refused = c.verdict == BenchVerdict::Refuse;
+  const Mood mood = good ? Mood::Good : refused ? Mood::Bad : Mood::Warn;
+  const char* said = good ? b.tr("Good") : refused ? b.tr("Refused: it would measure wrongly") : b.tr("Usable, with doubts");
+  b.page.section(b.tr("The new calibration"));
+  b.page.row("verdict", b.tr("Verdict"), said, mood);
+  b.page.row("ended", words_of(b.tr, c.end), {});
+  b.page.row("depth error", b.tr("Error of a face's distance"), b.page.number(static_cast<double>(c.depth_error_mm), 3, "mm"), mood);
+  b.page.row("rms", b.tr("Disagreement with the board"), b.page.number(static_cast<double>(c.rms_px), 3, "px"));
+  b.page.row("baseline", b.tr("Distance of the cameras"), b.page.number(static_cast<double>(c.baseline_mm), 2, "mm"));
+  b.page.row("views used", b.tr("Views taken"), b.page.number(c.views));
+  if (!c.reason.empty()) b.page.line(c.reason, mood);
+  if (c.stored) b.page.row("stored", b.tr("Stored, and in use from now on"), {}, Mood::Good);
+}
+
+void history(BenchFrame& b) {
+  const BenchCalibration& c = b.view.calibration;
+  b.page.section(b.tr("Stored calibrations: touch one to use it"));
+  if (c.history_count == 0) b.page.row("no history", b.tr("There is none yet"), {});
+  for (std::size_t i = 0; i < c.history_count; ++i) {
+    const BenchCalibrationRow& row = c.history[i];
+    char text[160];
+    std::snprintf(text, sizeof text, "\u2066%u · %.*s\u2069", row.revision, static_cast<int>(std::min<std::size_t>(row.made_at.size(), 40)), row.made_at.data());
+    const std::string_view label = b.page.tree.keep(text);
+    const std::string_view value = row.active ? std::string_view(b.tr("in use")) : row.depth_error_mm > 0 ? b.page.number(static_cast<double>(row.depth_error_mm), 3, "mm") : std::string_view("–");
+    b.page.row(b.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain, row.active ? Action{} : bench(BenchAct::Activate, static_cast<std::int32_t>(i)));
+  }
+}
+
+void stepper(BenchFrame& b, std::string_view id, const char* label, std::string_view value, BenchAct act, std::int32_t step) {
+  Node row = b.page.box(Flow::Row, space::kS, 0, 4);
+  row.box.across = Across::Centre;
+  b.page.tree.open(row);
+  b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
+  b.page.tree.leaf(b.page.text(label, type::kSmall, Weight::Medium, b.page.palette.ink));
+  b.page.tree.close();
+  Node both = b.page.box(Flow::Row, space::kS);
+  both.box.left_to_right = true;
+  both.box.across = Across::Centre;
+  b.page.tree.open(both);
+  const auto change = [&](std::size_t which, const char* letter, const char* spoken, std::int32_t by) {
+    Node node = b.page.sized(b.page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
+    node.id = b.id(id, which);
+    node.name = spoken;
+    node.role = Role::Button;
+    node.action = bench(act, by);
+    node.box.along = Along::Centre;
+    node.box.across = Across::Centre;
+    node.box.radius = b.page.px(16);
+    node.box.fill = b.page.palette.quiet;
+    node.box.border = b.page.palette.quiet_border;
+    node.box.border_px = b.page.px(2);
+    b.page.tree.open(node);
+    b.page.tree.leaf(b.page.text(letter, type::kHeading / b.page.text_share, Weight::Bold, b.page.palette.link, TextAlign::Centre));
+    b.page.tree.close();
+  };
+  change(0, "−", b.tr("Less"), -step);
+  Node shown = b.page.text(value, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
+  shown.box.min_width = b.page.px(96);
+  b.page.tree.leaf(shown);
+  change(1, "+", b.tr("More"), step);
+  b.page.tree.close();
+  b.page.tree.close();
+}
+
+void at_rest(BenchFrame& b) {
+  const BenchCalibration& c = b.view.calibration;
+  b.page.begin_list("calibration");
+  verdict(b);
+  b.page.section(b.tr("The board"));
+  stepper(b, "columns", b.tr("Inner corners across"), b.page.number(c.columns), BenchAct::Columns, 1);
+  stepper(b, "rows", b.tr("Inner corners down"), b.page.number(c.rows), BenchAct::Rows, 1);
+  stepper(b, "square", b.tr("Side of a square"), b.page.number(static_cast<double>(c.square_mm), 1, "mm"), BenchAct::Square, 5);
+  b.page.row("charuco", b.tr("With markers (ChArUco)"), c.charuco ? b.tr("yes") : b.tr("no"), Mood::Plain, bench(BenchAct::Charuco));
+  history(b);
+  b.page.tree.close();
+  b.page.tree.open(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kS));
+  const float grow = b.page.portrait ? 0.0F : 1.0F;
+  const bool store = c.ended && !c.stored && c.verdict != BenchVerdict::Refuse && c.verdict != BenchVerdict::None;
+  b.page.small_button("calibration begin", b.tr("Calibrate"), icon::kCamera, store ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::BeginCalibration), grow);
+  if (store) b.page.small_button("calibration store", b.tr("Store and use it"), icon::kDisk, ButtonLook::Main, bench(BenchAct::StoreCalibration), grow);
+  b.page.tree.close();
+}
+
+}  // namespace
+
+void bench_calibrate_page(StaffFrame& page) {
+  if (page.staff.bench == nullptr) return;
+  BenchFrame b(page);
+  b.problem(b.view.calibration.problem);
+  if (b.view.calibration.running) running(b);
+  else at_rest(b);
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every stage of the test capture as a picture: the pair with its epipolar lines, where a touch shows a point's
+// partner; the matches in the colours of the rules; depth, points, surface, texture.
+#include <cstdio>
+
+#include "ui/screens/service/bench/bench_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr int kLines = 8;
+constexpr Colour kFaint{255, 255, 255, 70}, kTouched{255, 170, 40, 255};
+
+bool is_pair(BenchStage stage) { return stage == BenchStage::Input || stage == BenchStage::Processed || stage == BenchStage::Rectified; }
+
+void tabs(BenchFrame& b) {
+  const std::size_t across = b.across(kBenchStages);
+  for (std::size_t first = 0; first < kBenchStages; first += across) {
+    b.page.tree.open(b.page.box(Flow::Row, 6));
+    for (std::size_t i = first; i < first + across; ++i) {
+      const auto stage = static_cast<BenchStage>(i);
+      const bool chosen = stage == b.view.stage;
+      Node tab = b.page.grown(b.page.box(Flow::Row, 0, 4, 4));
+      tab.id = b.id("stage", i);
+      tab.name = title_of(b.tr, stage);
+      tab.role = Role::Button;
+      tab.action = bench(BenchAct::ShowStage, static_cast<std::int32_t>(i));
+      tab.box.along = Along::Centre;
+      tab.box.across = Across::Centre;
+      tab.box.min_height = b.page.px(size::kStaffTarget);
+      tab.box.radius = b.page.px(14);
+      tab.box.fill = chosen ? b.page.palette.accent : b.page.palette.quiet;
+      tab.box.border = chosen ? b.page.palette.accent : b.page.palette.quiet_border;
+      tab.box.border_px = b.page.px(2);
+      b.page.tree.open(tab);
+      b.page.tree.leaf(b.page.text(title_of(b.tr, stage), b.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium, chosen ? b.page.palette.accent_ink : b.page.palette.link, TextAlign::Centre));
+      b.page.tree.close();
+    }
+    b.page.tree.close();
+  }
+}
+
+void pair_pictures(BenchFrame& b) {
+  const bool touchable = b.view.stage == BenchStage::Rectified;
+  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.page.portrait ? 1.0F : 2.4F);
+  row.box.left_to_right = true;
+  b.page.tree.open(row);
+  for (std::size_t side = 0; side < 2; ++side) {
+    Action action{};
+    if (touchable) action = bench(side == 0 ? BenchAct::Point : BenchAct::PointRight);
+    b.open_picture(side == 0 ? "left" : "right", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), b.view.shown[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight, action);
+    if (b.view.stage != BenchStage::Input) {
+      for (int i = 1; i < kLines; ++i) b.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
+    }
+    const BenchPoint& point = b.view.point;
+    if (touchable && point.touched) b.pin_line(point.y, kTouched, 2);
+    if (touchable && point.touched && side == 0) b.pin_dot(point.left_x, point.y, kTouched, "left mark");
+    if (touchable && point.matched && side == 1) b.pin_dot(point.right_x, point.y, kTouched, "right mark");
+    b.close_picture();
+  }
+  b.page.tree.close();
+}
+
+void one_picture(BenchFrame& b) {
+  Node row = b.page.grown(b.page.box(Flow::Row), b.page.portrait ? 1.0F : 2.4F);
+  b.page.tree.open(row);
+  b.open_picture("picture", title_of(b.tr, b.view.stage), b.view.shown[0], PictureSlot::BenchLeft);
+  b.close_picture();
+  b.page.tree.close();
+}
+
+std::string_view coordinates(BenchFrame& b, const pipeline::Vec2f& px) {
+  char text[64];
+  std::snprintf(text, sizeof text, "\u2066%.2f, %.2f\u00a0px\u2069", static_cast<double>(px.x), static_cast<double>(px.y));
+  return b.page.tree.keep(text);
+}
+
+std::string_view plus_minus(BenchFrame& b, double value, double sigma, int decimals, const char* unit_name) {
+  char text[64];
+  std::snprintf(text, sizeof text, "\u2066%.*f ± %.*f\u00a0%s\u2069", decimals, value, decimals, sigma, unit_name);
+  return b.page.tree.keep(text);
+}
+
+void point_rows(BenchFrame& b) {
+  const BenchPoint& point = b.view.point;
+  if (!point.touched) {
+    b.page.tree.leaf(b.page.text(b.view.by_hand ? b.tr("Touch a point in the left picture, then its partner on the orange line.")
+                                                : b.tr("Touch the left picture: the line and the match of that point are shown."),
+                                 type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+    return;
+  }
+  b.page.row("point left", b.tr("Left"), coordinates(b, point.left_px));
+  if (point.waits_for_right) {
+    b.page.tree.leaf(b.page.text(b.tr("Now touch its partner on the orange line in the right picture."), type::kSmall, Weight::Medium, b.page.palette.ink));
+    return;
+  }
+  if (!point.matched) {
+    b.page.row("point none", b.tr("No match here"), {}, Mood::Warn);
+    return;
+  }
+  b.page.row("point right", b.tr("Right"), coordinates(b, point.right_px));
+  b.page.row("point disparity", b.tr("Disparity"), plus_minus(b, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
+  b.page.row("point likeness", b.tr("Likeness"), b.page.number(1 - static_cast<double>(point.cost), 3));
+  if (!point.rejected_by.empty()) b.page.row("point rejected", b.tr("Rejected by"), point.rejected_by, Mood::Bad);
+  else if (!point.by_hand) b.page.row("point accepted", b.tr("Accepted"), b.tr("yes"), Mood::Good);
+  char text[80];
+  std::snprintf(text, sizeof text, "\u2066%.1f, %.1f, %.1f\u2069", static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y), static_cast<double>(point.at_mm.z));
+  b.page.row("point space", b.tr("In space, mm"), b.page.tree.keep(text));
+  b.page.row("point sigma", b.tr("Depth uncertainty"), b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+}
+
+void rule_rows(BenchFrame& b) {
+  const BenchResult& r = b.view.result;
+  b.page.row("matches", b.tr("Matches"), b.page.number(static_cast<double>(r.matches)));
+  b.page.row("accepted", b.tr("Accepted"), b.page.number(static_cast<double>(r.accepted)));
+  b.page.section(b.tr("Rejected by"));
+  for (std::size_t i = 0; i < r.rule_count; ++i) {
+    const BenchRule& rule = r.rules[i];
+    Node row = b.page.box(Flow::Row, space::kS, 0, 6);
+    row.id = b.id("rule", i);
+    row.box.across = Across::Centre;
+    b.page.tree.open(row);
+    Node patch = b.page.sized(b.page.box(Flow::Column), 26, 26);
+    patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
+    patch.box.radius = b.page.px(6);
+    b.page.tree.leaf(patch);
+    b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
+    b.page.tree.leaf(b.page.text(rule.name, type::kSmall, Weight::Medium, b.page.palette.ink));
+    b.page.tree.close();
+    b.page.tree.leaf(b.page.text(b.page.number(static_cast<double>(rule.rejected)), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+    b.page.tree.close();
+  }
+}
+
+void time_rows(BenchFrame& b) {
+  const BenchResult& r = b.view.result;
+  const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
+  for (std::size_t i = 0; i < r.seconds.size(); ++i) {
+    b.page.section(work_of(b.tr, i));
+    b.page.row(b.id("time", i), b.tr("Time"), b.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
+    b.page.row(b.id("made", i), made[i], b.page.number(static_cast<double>(r.made[i])));
+  }
+}
+
+void side_rows(BenchFrame& b) {
+  if (!b.view.result.failure.empty()) b.problem(b.view.result.failure);
+  if (b.view.stage == BenchStage::Rectified) return point_rows(b);
+  if (b.view.stage == BenchStage::Matches) return rule_rows(b);
+  time_rows(b);
+}
+
+}  // namespace
+
+void bench_stages_page(StaffFrame& page) {
+  if (page.staff.bench == nullptr) return;
+  BenchFrame b(page);
+  const bool there = b.capture_state();
+  if (there) {
+    tabs(b);
+    page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+    if (is_pair(b.view.stage)) pair_pictures(b);
+    else one_picture(b);
+    Node side = page.grown(page.box(Flow::Column, space::kXs));
+    page.tree.open(side);
+    page.begin_list("facts");
+    side_rows(b);
+    page.tree.close();
+    if (b.view.stage == BenchStage::Rectified) b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
+    page.tree.close();
+    page.tree.close();
+  }
+  b.capture_buttons(false);
+}
+
+}  // namespace relievo::ui
