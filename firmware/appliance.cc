@@ -44,6 +44,7 @@ Event event_of(ui::Intent intent) {
     case ui::Intent::Accept: return Event::Accept;
     case ui::Intent::Retake: return Event::Retake;
     case ui::Intent::Cancel: return Event::Cancel;
+    case ui::Intent::LookUp:
     case ui::Intent::StillHere: break;  // no event: it only gives time
     case ui::Intent::OpenTechnician: return Event::TechnicianIn;
     case ui::Intent::LeaveTechnician: return Event::TechnicianOut;
@@ -61,7 +62,7 @@ Appliance::Appliance(Parts parts)
       open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
       pose_(grabber_, session_, parts.board, parts.pool, parts.judge),
       grab_(grabber_, session_, parts.board, pose_),
-      stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_),
+      stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_), look_up_(std::move(parts.look_up)),
       capture_(reports_), worker_(reports_), keeper_(reports_) {
   records_.reserve(4 * budget::kCaptureAttempts);
   start(capture_, open_cameras_);
@@ -73,6 +74,10 @@ float Appliance::progress() const { return running_ != nullptr ? running_->progr
 
 void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::StillHere) return machine_.renew(board_.clock().now());
+  if (intent == ui::Intent::LookUp) {
+    if (machine_.state() == State::Idle && running_ == nullptr) start(keeper_, look_up_);
+    return;
+  }
   handle(event_of(intent));
 }
 

@@ -40,6 +40,7 @@ class Appliance {
     ThreadPool& pool;
     Keep keep;
     LiveJudge* judge = nullptr;  // advice for a person at the screen; without one the picture alone is shown
+    std::function<Result<void>()> look_up = {};   // on the keeper, for Intent::LookUp: asks the records
   };
   explicit Appliance(Parts parts);
   ~Appliance();
@@ -108,6 +109,7 @@ class Appliance {
   GrabJob grab_;
   StageJob stage_;
   KeepJob keep_;
+  LookUpJob look_up_;
   std::string next_subject_;
   int attempt_ = 0;
   bool attended_ = false;        // a person is at the screen: advice instead of another try

@@ -58,6 +58,7 @@ struct NewEnrolment {
   std::uint32_t calibration_revision = 0;  // 0: made with one that is not in the store
   std::string_view algorithms;             // the set of algorithms, TOML
   std::string_view report_json;
+  bool renews = false;                     // the subject's earlier enrolments are erased in the same transaction
 };
 
 struct Enrolment {

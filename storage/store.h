@@ -41,6 +41,7 @@ class Store {
   virtual Result<void> erase_subject(SubjectId id) = 0;
 
   // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.
+  // One that renews also removes the traces of those before, as erase_subject() does.
   virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) = 0;
   virtual Result<std::vector<Enrolment>> enrolments(SubjectId subject) = 0;  // oldest first
   virtual Result<Enrolment> enrolment(EnrolmentId id) = 0;                   // NotFound

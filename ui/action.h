@@ -20,6 +20,7 @@ enum class ActionKind : std::uint8_t {
   TurnFace,                              // dragged
   TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,
   LookPoints, LookEdges, LookFill, LookLight,  // what of the model is drawn
+  HaveCode, SomebodyElse, Renew, AddAnother,   // already enrolled
   Finish,
   StaffEnter, StaffLeave,                // the staff's side (ui/service.h)
   StaffOpen,                             // value: a StaffPage

@@ -15,6 +15,7 @@
 #include "pipeline/model/advice.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/stereo_frame.h"
+#include "ui/consent_text.h"
 #include "ui/language/language.h"
 #include "ui/service_view.h"
 
@@ -35,7 +36,19 @@ enum class Trouble : std::uint8_t {
   Refused,       // no model could be made of these pictures
   Storage,       // full or broken
   TookTooLong,
+  Clock,         // set to a time that cannot be: a consent would bear a wrong date
+  Restarted,     // the power went, or the program did, in the middle of something
   Other
+};
+
+// What the records say to the name or code that was typed.
+enum class Known : std::uint8_t {
+  NotAsked,
+  Asking,
+  Nobody,        // somebody new
+  Name,          // somebody has this name
+  Code,          // a code, and the record it was given for
+  NoSuchCode
 };
 
 // The newest picture of the left camera, made small, while a person finds their place.
@@ -76,6 +89,9 @@ struct ViewState {
   std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
   Language home = Language::English;   // the one a visit begins in; one of them
   const ServiceView* service = nullptr;            // for the staff's pages; none: there are none
+  const ConsentTexts* consent = nullptr;   // the operator's own; none: the sample
+  Known known = Known::NotAsked;
+  Trouble out_of_order = Trouble::None;    // Clock, Restarted: shown instead of the page that invites
 };
 
 }  // namespace relievo::ui

@@ -32,8 +32,10 @@ void Visit::touched(hal::Instant now) {
 }
 
 void Visit::forget() {
-  explicit_bzero(name_.data(), name_.size());
-  length_ = 0;
+  wipe_name();
+  errand_ = Errand::New;
+  quotes_code_ = looking_up_ = false;
+  look_ups_ = 0;
   agreed_at_ = {};
   look = {};
   touches = 0;
@@ -41,9 +43,14 @@ void Visit::forget() {
   overlay = Overlay::None;
   capitals = true;
   accents = false;
-  language = Language::English;
+  language = home_;
   text_size = 0;
   high_contrast = false;
+}
+
+void Visit::wipe_name() {
+  explicit_bzero(name_.data(), name_.size());
+  length_ = 0;
 }
 
 void Visit::go(Step to, hal::Instant now) {
@@ -88,6 +95,7 @@ std::optional<Intent> Visit::back(const ViewState& view) {
   switch (step) {
     case Step::Consent: go(Step::Attract, view.now); break;
     case Step::Name: step = Step::Consent; break;
+    case Step::Known: step = Step::Name; break;
     case Step::Position:
       step = Step::Name;
       return Intent::Cancel;
@@ -109,7 +117,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::CloseOverlay:
     case ActionKind::Stay: overlay = Overlay::None; break;
     case ActionKind::ChooseLanguage:
-      language = static_cast<Language>(action.value);
+      if (view.languages[static_cast<std::size_t>(action.value)]) language = static_cast<Language>(action.value);
       overlay = Overlay::None;
       break;
     case ActionKind::BiggerText: text_size = (text_size + 1) % kTextPercents.size(); break;
@@ -142,6 +150,10 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Accept:
     case ActionKind::Retake:
     case ActionKind::Finish: return act_on_path(action.kind, view);
+    case ActionKind::HaveCode:
+    case ActionKind::SomebodyElse:
+    case ActionKind::Renew:
+    case ActionKind::AddAnother: return act_on_record(action.kind);
     case ActionKind::TypeKey:
     case ActionKind::TurnFace:
     case ActionKind::StaffEnter:
@@ -167,7 +179,15 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
   }
   if (kind == ActionKind::Done) {
     while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
-    if (length_ > 0) return Intent::Pose;
+    if (length_ == 0) return std::nullopt;
+    // Who tries many codes is not the one they were given to; who tries many names is told nothing more.
+    if (++look_ups_ > kMostLookUps && quotes_code_) {
+      go(Step::Attract, view.now);
+      return Intent::Cancel;
+    }
+    if (look_ups_ > kMostLookUps) return Intent::Pose;
+    looking_up_ = true;
+    return Intent::LookUp;
   }
   if (kind == ActionKind::TakePicture) {
     shot_ = true;
@@ -181,11 +201,43 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
   return std::nullopt;
 }
 
+std::optional<Intent> Visit::act_on_record(ActionKind kind) {
+  ++touches;
+  if (step != Step::Known) return std::nullopt;
+  if (kind == ActionKind::HaveCode) {
+    wipe_name();
+    quotes_code_ = true;
+    step = Step::Name;
+    return std::nullopt;
+  }
+  errand_ = kind == ActionKind::Renew ? Errand::Renew : kind == ActionKind::AddAnother ? Errand::Add : Errand::New;
+  return Intent::Pose;
+}
+
+// The records have answered: who is new goes on, who is not is asked.
+std::optional<Intent> Visit::follow_look_up(const ViewState& view) {
+  if (!looking_up_ || view.known == Known::NotAsked || view.known == Known::Asking) return std::nullopt;
+  looking_up_ = false;
+  if (step != Step::Name || overlay == Overlay::Leave) return std::nullopt;
+  errand_ = Errand::New;
+  if (view.known == Known::Nobody) return Intent::Pose;
+  if (view.known == Known::Name || view.known == Known::Code) step = Step::Known;
+  return std::nullopt;
+}
+
+// A language the operator's text does not exist in cannot be chosen.
+void Visit::follow_language(const ViewState& view) {
+  if (home_ != view.home && (step == Step::Attract || step == Step::Starting)) language = view.home;
+  home_ = view.home;
+  if (!view.languages[static_cast<std::size_t>(language)]) language = home_;
+}
+
 bool Visit::person_expected() const {
-  return step == Step::Consent || step == Step::Name || step == Step::Position || step == Step::Review;
+  return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position || step == Step::Review;
 }
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
+  follow_language(view);
   const bool new_screen = view.screen != last_screen_;
   const Screen before = last_screen_;
   last_screen_ = view.screen;
@@ -195,11 +247,15 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     else if (view.screen == Screen::Review) { go(Step::Review, view.now); last_touch_ = view.now; }
     else if (view.screen == Screen::Fault) { forget(); go(Step::Trouble, view.now); }
     else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working && view.trouble == Trouble::None) go(Step::Thanks, view.now);
-    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Attract) {
+    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known && step != Step::Attract) {
       const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
       go(told ? Step::Trouble : Step::Attract, view.now);
     }
   }
+  // Out of order is said before anybody begins, and to who is in the middle only when they are done.
+  const bool idle = view.screen == Screen::Idle;
+  if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
+  if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None) go(Step::Attract, view.now);
   if ((step == Step::Thanks || (step == Step::Trouble && view.screen == Screen::Idle)) && view.now - std::max(entered_, last_touch_) > kThanks)
     go(Step::Attract, view.now);
   if (person_expected()) {
@@ -209,10 +265,11 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       return Intent::Cancel;
     }
     if (silent > kPatience) overlay = Overlay::StillThere;
-  } else if (step == Step::Attract && (overlay != Overlay::None || text_size != 0 || language != Language::English || high_contrast) &&
+  } else if (step == Step::Attract && (overlay != Overlay::None || text_size != 0 || language != home_ || high_contrast) &&
              view.now - last_touch_ > kPatience) {
     forget();
   }
+  if (const auto intent = follow_look_up(view)) return intent;
   if (step == Step::Position && !shot_) {
     const auto left = countdown(view.live);
     if (left && *left <= 0) {

@@ -5,7 +5,7 @@
 // appliance knows nothing of them before Intent::Pose; what is typed lives here, in fixed memory, and
 // is wiped when they leave, are done, or nobody has touched the screen for kPatience.
 //
-//   Attract -> Consent -> Name -> Position -> Working -> Review -> Thanks -> Attract
+//   Attract -> Consent -> Name (-> Known) -> Position -> Working -> Review -> Thanks -> Attract
 //      (from Position to Review the machine leads and the visit follows)
 //
 // Thread: main. Errors: none: what does not fit is not typed.
@@ -24,13 +24,14 @@
 
 namespace relievo::ui {
 
-enum class Step : std::uint8_t { Attract, Consent, Name, Position, Working, Review, Thanks, Trouble, Starting };
+enum class Step : std::uint8_t { Attract, Consent, Name, Known, Position, Working, Review, Thanks, Trouble, Starting };
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
 
 inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15}, kThanks{30};
 inline constexpr float kSteadyFor = 0.6F, kCountdown = 1.5F;  // seconds, before the picture is taken by itself
 inline constexpr std::size_t kMostNameBytes = 128;
-inline constexpr const char* kConsentWording = "sample-1";
+inline constexpr const char* kConsentWording = "sample-1";  // where the operator has no text of their own
+inline constexpr int kMostLookUps = 5;   // a visit; then nobody is told anything any more
 inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
 
 class Visit {
@@ -47,6 +48,9 @@ class Visit {
 
   int text_percent() const { return kTextPercents[text_size]; }
   std::string_view name() const { return {name_.data(), length_}; }
+  // Is the code of an earlier record asked for, instead of a name?
+  bool quotes_code() const { return quotes_code_; }
+  Errand errand() const { return errand_; }
   std::chrono::system_clock::time_point agreed_at() const { return agreed_at_; }
   // Seconds until the visit is wiped; only while Overlay::StillThere asks.
   int seconds_left(hal::Instant now) const;
@@ -69,6 +73,10 @@ class Visit {
   void look_at(ActionKind kind);
   void erase_letter();
   bool person_expected() const;
+  std::optional<Intent> follow_look_up(const ViewState& view);
+  std::optional<Intent> act_on_record(ActionKind kind);
+  void follow_language(const ViewState& view);
+  void wipe_name();
 
   std::array<char, kMostNameBytes> name_{};
   std::size_t length_ = 0;
@@ -76,6 +84,11 @@ class Visit {
   hal::Instant last_touch_{};
   hal::Instant entered_{};
   Screen last_screen_ = Screen::SelfTest;
+  Language home_ = Language::English;
+  Errand errand_ = Errand::New;
+  bool quotes_code_ = false;
+  bool looking_up_ = false;
+  int look_ups_ = 0;
   bool shot_ = false;              // asked for, and not yet under way
 };
 

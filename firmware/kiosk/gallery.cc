@@ -90,6 +90,13 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add("consent", idle, g.at(Step::Consent));
   g.add("name_empty", idle, g.at(Step::Name));
   g.add("name", idle, g.named());
+  ui::ViewState met = idle;
+  met.known = ui::Known::Name;
+  g.add("known_name", met, g.at(Step::Known));
+  met.known = ui::Known::NoSuchCode;
+  g.add("wrong_code", met, g.named());
+  met.known = ui::Known::Code;
+  g.add("known_code", met, g.at(Step::Known));
   g.add_position("position_look", Advice::NoFace, 0, 0, 0);
   g.add_position("position_aside", Advice::OffCentre, 0.5F, 0, 0);
   g.add_position("position_close", Advice::TooClose, 0, 0, 0);
@@ -118,6 +125,11 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add_trouble("trouble_refused", Trouble::Refused, Screen::Idle);
   g.add_trouble("trouble_store", Trouble::Storage, Screen::Fault);
   g.add_trouble("trouble_time", Trouble::TookTooLong, Screen::Idle);
+  ui::ViewState barred = idle;
+  barred.out_of_order = Trouble::Clock;
+  g.add("trouble_clock", barred, g.at(Step::Trouble));
+  barred.out_of_order = Trouble::Restarted;
+  g.add("trouble_restarted", barred, g.at(Step::Trouble));
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
   if (ui::staff_language(language) == language) add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
   if (ui::staff_language(language) == language) add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));

@@ -7,6 +7,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
+#include "firmware/kiosk/consent_files.h"
 #include "firmware/kiosk/receipt.h"
 #include "firmware/view/view_of.h"
 #include "firmware/work/pool_size.h"
@@ -32,6 +33,8 @@ Kiosk::~Kiosk() {
   desk_.reset();
   appliance_.reset();
   wipe(receipt_);
+  wipe(claimed_);
+  wipe(quoted_);
 }
 
 Result<pipeline::StereoCalibration> Kiosk::find_calibration(const KioskArgs& args, Services& services) {
@@ -56,6 +59,13 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(consent_, read_consent(store_folder(args.store) / "consent"));
+  for (std::size_t i = 0; i < ui::kLanguages; ++i) languages_[i] = !consent_ || consent_->in[i].has_value();
+  tells_known_ = args.tells_known;
+  RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
+  restarted_ = run_mark_->ended_early();
+  RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
+  if (!newest.empty()) newest_record_ = newest.front().created_at;
   RELIEVO_TRY_ASSIGN(board_, services.open_board(args.board));
   RELIEVO_TRY_ASSIGN(const pipeline::StereoCalibration calibration, find_calibration(args, services));
   if (revision_ == 0) {
@@ -70,7 +80,11 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
-  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get()});
+  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
+    Result<void> asked = look_up();
+    if (!asked) found_.store(ui::Known::Nobody);  // whom the records cannot answer for is somebody new
+    return asked;
+  }});
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   desk_->set_bench(make_bench(args, services));
   look();
@@ -98,11 +112,42 @@ Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& mo
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   const std::string json = report_json(report), algorithms = report.algorithms;
   const storage::Consent consent{consented_.wording, consented_.language, std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
-  // Every visit is somebody new: that two people have one name must mix nothing up.
-  RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id, store_->add_enrolment(storage::NewSubject{std::string(subject)}, {model, consent, revision_, algorithms, json}));
+  // Somebody new, unless a code was quoted: that two people have one name must mix nothing up.
+  const bool known = consented_.errand != ui::Errand::New;
+  const storage::SubjectChoice whose = known ? storage::SubjectChoice(record_) : storage::NewSubject{std::string(subject)};
+  RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id,
+                     store_->add_enrolment(whose, {model, consent, revision_, algorithms, json, consented_.errand == ui::Errand::Renew}));
   RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
   receipt_ = receipt_of(stored.subject);
   return {};
+}
+
+// On the keeper. Nothing but whether there is such a record leaves this function.
+Result<void> Kiosk::look_up() {
+  ui::Known said = ui::Known::Nobody;
+  if (!quoted_.empty()) {
+    const auto id = subject_of_receipt(quoted_);
+    const Result<storage::Subject> subject = id ? store_->subject(*id) : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
+    if (!subject && subject.error().code != Errc::NotFound) return subject.error();
+    const bool theirs = subject && subject->name == claimed_;
+    said = theirs ? ui::Known::Code : ui::Known::NoSuchCode;
+    if (theirs) record_ = *id;
+  } else if (tells_known_) {
+    const auto same = store_->subjects({.name = claimed_, .whole_name = true, .limit = 1});
+    if (!same) return same.error();
+    said = same->empty() ? ui::Known::Nobody : ui::Known::Name;
+  }
+  found_.store(said, std::memory_order_release);
+  return {};
+}
+
+// A consent must not bear a date before the newest record's, nor one before this program was.
+ui::Trouble Kiosk::out_of_order() const {
+  using namespace std::chrono_literals;
+  constexpr std::chrono::sys_days kNoEarlier{std::chrono::year{2026} / 1 / 1};
+  const auto now = board_->clock().wall_now();
+  if (now < kNoEarlier || now < newest_record_ - 24h) return ui::Trouble::Clock;
+  return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
 void Kiosk::look() {
@@ -110,6 +155,11 @@ void Kiosk::look() {
   view_.now = board_->clock().now();
   view_.wall_now = board_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
+  view_.languages = languages_;
+  while (!languages_[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>(static_cast<int>(view_.home) + 1);
+  view_.consent = consent_ ? &*consent_ : nullptr;
+  view_.known = found_.load(std::memory_order_acquire);
+  view_.out_of_order = out_of_order();
   if (showpiece_) view_.showpiece = &showpiece_->model();
   view_.service = &desk_->view();
 }
@@ -122,17 +172,38 @@ void Kiosk::feed(const ui::Input& input) {
 void Kiosk::ask(ui::Intent intent) {
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
-    consented_ = {std::string(wish.wording), std::string(wish.language), wish.agreed_at};
-    appliance_->set_subject(wish.name);
+    consented_ = {consent_ ? consent_->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand};
+    appliance_->set_subject(wish.errand == ui::Errand::New ? wish.name : std::string_view(claimed_));
+  }
+  if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
+    const ui::Wish wish = ui_->wish();
+    (wish.quotes_code ? quoted_ : claimed_) = wish.name;
+    if (!wish.quotes_code) wipe(quoted_);
+    found_.store(ui::Known::Asking);
   }
   appliance_->ask(intent);
   appliance_->forget_subject();  // the session has it
 }
 
+// Who was asked about; not while the keeper still reads it.
+void Kiosk::forget_asked() {
+  wipe(claimed_);
+  wipe(quoted_);
+  record_ = {};
+  found_.store(ui::Known::NotAsked);
+  forgets_asked_ = false;
+}
+
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
   desk_->turn();
+  if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there
   look();
+  // What fingers asked for comes first: a frame must not take an older answer for the new one's.
+  while (const auto intent = ui_->take_intent()) {
+    ask(*intent);
+    look();
+  }
   ui_->frame(view_);
   while (const auto wish = ui_->take_staff_wish()) {
     desk_->ask(*wish);
@@ -146,11 +217,14 @@ void Kiosk::turn() {
     look();
     ui_->frame(view_);
   }
+  told_ = told_ || ui_->visit().step == ui::Step::Trouble;
   if (ui_->take_forgotten()) {
     wipe(receipt_);
+    forgets_asked_ = true;
     consented_ = {};
     forgotten_ = true;
   }
+  if (forgets_asked_ && found_.load() != ui::Known::Asking) forget_asked();
 }
 
 }  // namespace relievo::firmware

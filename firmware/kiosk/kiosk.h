@@ -10,12 +10,14 @@
 // Errors of open(): NotCalibrated, those of board, store, fonts, words and algorithms.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "firmware/appliance.h"
 #include "firmware/command/services.h"
+#include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/showpiece.h"
 #include "firmware/service/desk.h"
 #include "firmware/work/pipeline_stages.h"
@@ -46,12 +48,16 @@ class Kiosk {
   struct Consented {
     std::string wording, language;
     std::chrono::system_clock::time_point at;
+    ui::Errand errand = ui::Errand::New;
   };
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
   Result<pipeline::StereoCalibration> find_calibration(const KioskArgs& args, Services& services);
   Result<pipeline::Pipeline> chosen_pipeline(const KioskArgs& args, const pipeline::StereoCalibration& calibration);
   std::unique_ptr<Bench> make_bench(const KioskArgs& args, Services& services);
+  Result<void> look_up();
+  void forget_asked();
+  ui::Trouble out_of_order() const;
   Result<void> keep(std::string_view subject, const pipeline::FaceModel& model);
   void look();
   void ask(ui::Intent intent);
@@ -66,6 +72,17 @@ class Kiosk {
   std::unique_ptr<ui::Ui> ui_;
   std::uint32_t revision_ = 0;
   Consented consented_;
+  std::optional<ui::ConsentTexts> consent_;
+  std::bitset<ui::kLanguages> languages_;
+  // A name that is asked about, a code that is quoted, and the record both belong to. Main's, but while
+  // the keeper looks up: then Asking is to be seen, and found_ is written last.
+  std::string claimed_, quoted_;
+  storage::SubjectId record_{};
+  std::atomic<ui::Known> found_{ui::Known::NotAsked};
+  bool tells_known_ = true, forgets_asked_ = false;
+  std::unique_ptr<RunMark> run_mark_;
+  bool restarted_ = false, told_ = false;
+  storage::WallTime newest_record_{};
   std::string receipt_;         // written by the keeper while the state is Store
   ui::ViewState view_;
   bool forgotten_ = false;

@@ -41,6 +41,7 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
     console.progress(name_of(kiosk.appliance().state()), 0);
     if (step == ui::Step::Trouble) return kiosk.appliance().problem() ? *kiosk.appliance().problem() : Error{Errc::InvalidState, "the enrolment ended early"};
     if (step == ui::Step::Attract) tap(kiosk, "start");
+    if (step == ui::Step::Known) tap(kiosk, "somebody_else");
     if (step == ui::Step::Consent) tap(kiosk, "agree");
     const ImageView& picture = kiosk.view().live.picture;
     if (step == ui::Step::Position && !picture.empty()) {

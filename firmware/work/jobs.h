@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The jobs of the three threads. Each is made once, with the appliance, and started many times.
-//   capture: OpenCamerasJob, PoseJob, GrabJob    worker: StageJob    keeper: KeepJob
+//   capture: OpenCamerasJob, PoseJob, GrabJob    worker: StageJob    keeper: KeepJob, LookUpJob
 #pragma once
 
 #include <functional>
@@ -102,6 +102,16 @@ class KeepJob final : public Job {
  private:
   Keep keep_;
   EnrolmentSession& session_;
+};
+
+// Asks the records while nobody's session is open.
+class LookUpJob final : public Job {
+ public:
+  explicit LookUpJob(std::function<Result<void>()> look_up) : look_up_(std::move(look_up)) {}
+  Result<void> run(JobControl&) override { return look_up_(); }
+
+ private:
+  std::function<Result<void>()> look_up_;
 };
 
 }  // namespace relievo::firmware

@@ -4,6 +4,8 @@
 #include "storage/model_blob.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/store_directory.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -73,7 +75,8 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
   return without_exceptions(database_->where(), [&]() -> Result<EnrolmentId> {
     RELIEVO_TRY(check_texts(enrolment));
     RELIEVO_TRY_ASSIGN(const auto blob, encode_model(enrolment.model));
-    return change([&](WallTime at) -> Result<EnrolmentId> {
+    if (enrolment.renews && mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
+    const auto added = change([&](WallTime at) -> Result<EnrolmentId> {
       if (enrolment.calibration_revision != 0) {
         RELIEVO_TRY_ASSIGN(auto known, database_->prepare("SELECT 1 FROM calibration WHERE revision = ?"));
         RELIEVO_TRY_ASSIGN(const bool row, known.bind(std::int64_t{enrolment.calibration_revision}).step());
@@ -81,9 +84,19 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
           return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(subject, at));
-      return insert_enrolment(id, enrolment, blob, at);
+      RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at));
+      if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
+      return made;
     });
+    if (added && enrolment.renews) RELIEVO_TRY(empty_the_log());
+    return added;
   });
+}
+
+Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {
+  RELIEVO_TRY_ASSIGN(auto erase, database_->prepare("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?"));
+  RELIEVO_TRY(erase.bind(number(subject)).bind(number(but)).run());
+  return append_audit_line(*database_, {"enrolment.renewed", subject, std::to_string(number(but))}, at);
 }
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {

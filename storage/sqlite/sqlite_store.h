@@ -77,6 +77,8 @@ class SqliteStore final : public Store {
   Error not_found(Literal what, std::int64_t number) const;
   Result<void> subject_must_exist(SubjectId id);
   Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
+  Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
+  Result<void> empty_the_log();
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                        std::span<const std::byte> blob, WallTime at);

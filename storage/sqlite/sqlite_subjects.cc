@@ -90,15 +90,15 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
       erased = change(erase);
     }
     if (!erased) return erased;
-    // The log still holds the pages as they were: move it into the file, and empty it.
-    RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));
-    if (busy != 0) {
-      return Error{Errc::Timeout,
-                   "erased, but another program keeps traces in the log: close it, then restart"}
-          .at(database_->where());
-    }
-    return {};
+    return empty_the_log();
   });
+}
+
+// The log still holds the pages as they were: move it into the file, and empty it.
+Result<void> SqliteStore::empty_the_log() {
+  RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));
+  if (busy == 0) return {};
+  return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}.at(database_->where());
 }
 
 }  // namespace relievo::storage

@@ -37,7 +37,9 @@ class VisitTest : public testing::Test {
     act(ActionKind::Start);
     act(ActionKind::Agree);
     visit.type("Z");
-    ASSERT_EQ(act(ActionKind::Done), Intent::Pose);
+    ASSERT_EQ(act(ActionKind::Done), Intent::LookUp);
+    view.known = Known::Nobody;
+    ASSERT_EQ(pass(milliseconds(1)), Intent::Pose);
     machine(Screen::Position);
     ASSERT_EQ(visit.step, Step::Position);
   }
@@ -61,7 +63,11 @@ TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
   EXPECT_EQ(visit.agreed_at(), view.wall_now);
   EXPECT_EQ(act(ActionKind::Done), std::nullopt) << "without a name";
   visit.type("A");
-  EXPECT_EQ(act(ActionKind::Done), Intent::Pose);
+  EXPECT_EQ(act(ActionKind::Done), Intent::LookUp);
+  view.known = Known::Asking;
+  EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
+  view.known = Known::Nobody;
+  EXPECT_EQ(pass(milliseconds(1)), Intent::Pose);
 }
 
 TEST_F(VisitTest, WhoSaysNoIsForgotten) {
@@ -80,6 +86,28 @@ TEST_F(VisitTest, AWholeVisitTakesFewTouches) {
   act(ActionKind::Finish);
   EXPECT_EQ(visit.step, Step::Attract);
   EXPECT_EQ(visit.name(), "");
+}
+
+TEST_F(VisitTest, WhoTriesManyCodesIsSentAway) {
+  act(ActionKind::Start);
+  act(ActionKind::Agree);
+  visit.type("A");
+  act(ActionKind::Done);
+  view.known = Known::Name;
+  pass(milliseconds(1));
+  ASSERT_EQ(visit.step, Step::Known);
+  act(ActionKind::HaveCode);
+  EXPECT_EQ(visit.name(), "");
+  EXPECT_TRUE(visit.quotes_code());
+  visit.type("1");
+  view.known = Known::NoSuchCode;
+  int tried = 0;
+  for (; visit.step == Step::Name && tried < 50; ++tried) {
+    act(ActionKind::Done);
+    pass(milliseconds(1));
+  }
+  EXPECT_EQ(tried, kMostLookUps);
+  EXPECT_EQ(visit.step, Step::Attract);
 }
 
 TEST_F(VisitTest, NobodyThereIsAskedThenWiped) {

@@ -15,7 +15,8 @@ constexpr Colour kNone{};
 int number_of(Step step) {
   switch (step) {
     case Step::Consent: return 0;
-    case Step::Name: return 1;
+    case Step::Name:
+    case Step::Known: return 1;
     case Step::Position: return 2;
     case Step::Working:
     case Step::Review: return 3;

@@ -89,6 +89,29 @@ TEST_F(SqliteStoreVerbs, AddsASecondEnrolmentToSomebodyKnown) {
   EXPECT_TRUE(identical(second, *store->load_model((*both)[1].id, std::pmr::new_delete_resource())));
 }
 
+TEST_F(SqliteStoreVerbs, RenewingErasesTheEarlierOnesOfThatPersonAlone) {
+  const auto ada = store->add_subject({"Ada"}), bob = store->add_subject({"Bob"});
+  const auto first = sample_model(6, 1), second = sample_model(6, 2);
+  const auto old = store->add_enrolment(*ada, sample_enrolment(first));
+  ASSERT_TRUE(old);
+  ASSERT_TRUE(store->add_enrolment(*bob, sample_enrolment(first)));
+  auto renewed = sample_enrolment(second);
+  renewed.renews = true;
+  renewed.calibration_revision = 77;
+  EXPECT_EQ(code_of(store->add_enrolment(*ada, renewed)), Errc::NotFound);
+  EXPECT_TRUE(store->enrolment(*old)) << "refused, and yet erased";
+  renewed.calibration_revision = 0;
+  const auto made = store->add_enrolment(*ada, renewed);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(store->enrolments(*ada)->size(), 1u);
+  EXPECT_EQ(store->enrolments(*ada)->front().id, *made);
+  EXPECT_TRUE(identical(second, *store->load_model(*made, std::pmr::new_delete_resource())));
+  EXPECT_EQ(store->enrolments(*bob)->size(), 1u) << "of somebody else";
+  EXPECT_EQ(code_of(store->load_model(*old, std::pmr::new_delete_resource())), Errc::NotFound);
+  EXPECT_EQ(store->audit(0, 100)->back().event.what, "enrolment.renewed");
+  EXPECT_TRUE(store->check());
+}
+
 TEST_F(SqliteStoreVerbs, RefusedEnrolmentsLeaveNobodyBehind) {
   auto model = sample_model(6);
   auto enrolment = sample_enrolment(model);

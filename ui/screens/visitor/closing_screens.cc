@@ -38,7 +38,8 @@ struct Words4 {
 
 Words4 words_of(const Page& page) {
   const auto& tr = page.tr;
-  switch (page.view.trouble) {
+  const bool waits = page.view.screen == Screen::Idle && page.view.trouble == Trouble::None;
+  switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
       return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing of you was kept.")};
     case Trouble::Calibration:
@@ -49,6 +50,10 @@ Words4 words_of(const Page& page) {
       return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing of you was kept.")};
     case Trouble::TookTooLong:
       return {icon::kWait, tr("That took too long"), tr("You can start anew. Nothing of you was kept.")};
+    case Trouble::Clock:
+      return {icon::kWait, tr("The clock of this device is wrong"), tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device goes on by itself. Nothing of you was kept.")};
+    case Trouble::Restarted:
+      return {icon::kAgain, tr("This device has just restarted"), tr("Whoever was in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored before are safe.")};
     case Trouble::None:
     case Trouble::Other: break;
   }
@@ -89,7 +94,9 @@ void trouble_screen(Page& page) {
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  if (page.view.screen == Screen::Idle) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
+  // A wrong clock is nothing a visitor can pass by.
+  const bool barred = page.view.out_of_order == Trouble::Clock;
+  if (page.view.screen == Screen::Idle && !barred) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
   end_message(page);
 }
 

@@ -7,8 +7,19 @@
 namespace relievo::ui {
 namespace {
 
-void point(Page& page, const char* letter, const char* title, const char* words) {
-  Node row = page.box(Flow::Row, space::kM, 22, 16);
+void badge(Page& page, const char* letter) {
+  Node box = page.sized(page.box(Flow::Column), 48, 48);
+  box.box.along = Along::Centre;
+  page.tree.open(box);
+  Node sign = page.text(letter, 38 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  sign.role = Role::Icon;
+  sign.style.icon = true;
+  page.tree.leaf(sign);
+  page.tree.close();
+}
+
+void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
+  Node row = page.box(Flow::Row, space::kM, 22, 10);
   row.box.across = Across::Centre;
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
@@ -16,18 +27,11 @@ void point(Page& page, const char* letter, const char* title, const char* words)
   row.box.radius = page.px(size::kRadius);
   row.box.grow = 1;
   page.tree.open(row);
-  Node badge = page.sized(page.box(Flow::Column), 48, 48);
-  badge.box.along = Along::Centre;
-  page.tree.open(badge);
-  Node sign = page.text(letter, 38 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
-  sign.role = Role::Icon;
-  sign.style.icon = true;
-  page.tree.leaf(sign);
-  page.tree.close();
-  Node column = page.grown(page.box(Flow::Column, 6));
+  if (letter != nullptr) badge(page, letter);
+  Node column = page.grown(page.box(Flow::Column, 4));
   page.tree.open(column);
   page.tree.leaf(page.text(title, type::kBody, Weight::Bold, page.palette.ink));
-  page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
+  if (!words.empty()) page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
   page.tree.close();
   page.tree.close();
 }
@@ -47,18 +51,25 @@ void points(Page& page) {
   close_row();
 }
 
+// The operator's own words, one under the other, as they wrote them.
+void own_points(Page& page, const ConsentText& own) {
+  for (const ConsentPoint& said : own.points) point(page, nullptr, said.title, said.words);
+}
+
 }  // namespace
 
 void consent_screen(Page& page) {
   const auto& tr = page.tr;
   page.begin(true);
-  page.heading("title", tr("What happens here"));
+  const ConsentText* own = page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
+  page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "points";
   list.box.scroll = true;
   page.tree.open(list);
-  points(page);
-  page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), type::kSmall, Weight::Regular, page.palette.ink_soft));
+  if (own != nullptr) own_points(page, *own);
+  else points(page);
+  if (own == nullptr) page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), type::kSmall, Weight::Regular, page.palette.ink_soft));
   page.tree.close();
   page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
   const float grow = page.portrait ? 0.0F : 1.0F;

@@ -14,12 +14,22 @@ void name_screen(Page& page) {
     row.box.across = Across::Centre;
     page.tree.open(row);
   }
-  page.heading("title", tr("Your name or your number"), abreast ? type::kBody : 38);
+  const bool wrong = page.view.known == Known::NoSuchCode && page.visit.name().size() > 0;
+  const char* const asked = page.visit.quotes_code() ? tr("Type your code") : tr("Your name or your number");
+  if (wrong) {
+    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall, Weight::Bold, page.palette.bad);
+    note.id = "wrong_code";
+    note.role = Role::Status;
+    note.box.max_width = page.px(abreast ? 520.0F : page.width_dp - 80);
+    page.tree.leaf(note);
+  } else {
+    page.heading("title", asked, abreast ? type::kBody : 38);
+  }
   Node field = page.box(Flow::Row, 3, 26, 14);
   field.box.grow = abreast ? 1.0F : 0.0F;
   field.id = "name";
   field.role = Role::Field;
-  field.name = tr("Your name or your number");
+  field.name = asked;
   field.box.min_height = page.px(72);
   field.box.across = Across::Centre;
   field.box.fill = page.palette.card;

@@ -14,6 +14,7 @@ const char* help_for(const Page& page) {
   switch (page.visit.step) {
     case Step::Attract: return tr("This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time.");
     case Step::Consent: return tr("Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way.");
+    case Step::Known: return tr("Is it you? With the code you were given you can renew your portrait or add another one. Without it nothing of the record is shown.");
     case Step::Name: return tr("Type your name, or the number you were given. With the arrow key you erase a letter.");
     case Step::Position: return tr("Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
     case Step::Working: return tr("Please wait a few seconds. You can stop with the cross.");

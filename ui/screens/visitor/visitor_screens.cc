@@ -18,6 +18,7 @@ void step_screen(Page& page) {
     case Step::Attract: return attract_screen(page);
     case Step::Consent: return consent_screen(page);
     case Step::Name: return name_screen(page);
+    case Step::Known: return known_screen(page);
     case Step::Position: return position_screen(page);
     case Step::Working: return working_screen(page);
     case Step::Review: return review_screen(page);

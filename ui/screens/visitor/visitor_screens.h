@@ -23,6 +23,7 @@ void language_grid(Page& page, std::size_t columns);
 void attract_screen(Page& page);
 void consent_screen(Page& page);
 void name_screen(Page& page);
+void known_screen(Page& page);
 // `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
 void keyboard(Page& page, Action done = {ActionKind::Done, 0});
 void position_screen(Page& page);

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The real kiosk in bad and in special moments: a wrong clock, a start after a crash, a camera that is
+// pulled, the operator's own consent text, somebody who is in the records already. The cameras are
+// played: grey pictures, faults and a clock as the test says.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "firmware/kiosk/kiosk.h"
+#include "firmware/kiosk/receipt.h"
+#include "hal/monotonic_clock.h"
+#include "hal/sim/board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr int kWidthPx = 1920, kHeightPx = 1200;  // as the calibration of the simulated rig
+
+// What the test and the played board share; it outlives the board.
+struct World {
+  std::atomic<bool> pulled{false};
+  std::atomic<std::int64_t> wall_shift_s{0};
+};
+
+class SetClock final : public hal::Clock {
+ public:
+  explicit SetClock(const World& world) : world_(world) {}
+  hal::Instant now() const override { return real_.now(); }
+  std::chrono::system_clock::time_point wall_now() const override { return real_.wall_now() + std::chrono::seconds(world_.wall_shift_s.load()); }
+
+ private:
+  hal::MonotonicClock real_;
+  const World& world_;
+};
+
+class GreyCamera final : public hal::Camera {
+ public:
+  GreyCamera(const World& world, const hal::Instant& pulsed_at) : world_(world), pulsed_at_(pulsed_at) {}
+
+ private:
+  Result<void> plugged() const { return world_.pulled.load() ? Result<void>(Error{Errc::Disconnected, "as the test says"}) : Result<void>(); }
+  Result<void> do_open(const hal::CaptureMode&) override { return plugged(); }
+  Result<void> do_start() override { return plugged(); }
+  void do_stop() override {}
+  Result<hal::Frame> do_next_frame(hal::Instant) override {
+    RELIEVO_TRY(plugged());
+    return hal::Frame({pixels_.data(), pixels_.size(), kWidthPx, kHeightPx, kWidthPx, {}}, {pulsed_at_, ++sequence_}, [](void*, int) {}, this, 0);
+  }
+  const World& world_;
+  const hal::Instant& pulsed_at_;
+  std::vector<std::byte> pixels_ = std::vector<std::byte>(std::size_t{kWidthPx} * kHeightPx, std::byte{0x5A});
+  std::uint32_t sequence_ = 0;
+};
+
+class PlayedLine final : public hal::TriggerLine {
+ public:
+  explicit PlayedLine(const hal::Clock& clock) : TriggerLine(clock), clock_(clock) {}
+  hal::Instant pulsed_at;
+
+ private:
+  Result<void> do_pulse(std::chrono::microseconds, hal::Light) override {
+    pulsed_at = clock_.now();
+    return {};
+  }
+  const hal::Clock& clock_;
+};
+
+class PlayedBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
+ public:
+  explicit PlayedBoard(const World& world) : time_(world), left_(world, line_.pulsed_at), right_(world, line_.pulsed_at) {}
+  std::string_view name() const override { return "played"; }
+  hal::CaptureMode preferred_mode() const override { return {kWidthPx, kHeightPx, std::chrono::microseconds(1)}; }
+  hal::Camera& left() override { return left_; }
+  hal::Camera& right() override { return right_; }
+  hal::TriggerLine& trigger() override { return line_; }
+  bool is_live() const override { return false; }
+  hal::RemovableMedia& media() override { return *this; }
+  hal::Clock& clock() override { return time_; }
+  hal::Watchdog& watchdog() override { return *this; }
+
+ private:
+  std::optional<hal::Medium> current() override { return std::nullopt; }
+  Result<void> flush_and_eject() override { return {}; }
+  void kick() override {}
+  SetClock time_;
+  PlayedLine line_{time_};
+  GreyCamera left_, right_;
+};
+
+class KioskMomentsTest : public testing::Test {
+ protected:
+  KioskMomentsTest() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    args.store = folder.path() / "store";
+    std::filesystem::create_directories(args.store);
+    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<PlayedBoard>(world)); };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
+      RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig({})));
+      return pipeline::read_calibration(folder.path() / "rig.yml");
+    };
+  }
+  void open() {
+    auto opened = Kiosk::open(args, services);
+    ASSERT_TRUE(opened.has_value()) << opened.error().where() << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+  const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
+  bool says(std::string_view words) const {
+    for (const ui::Node& node : kiosk->ui().tree().nodes()) {
+      if (node.text.find(words) != std::string_view::npos) return true;
+    }
+    return false;
+  }
+  void tap(std::string_view id) {
+    const ui::Node* node = find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
+    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+    kiosk->turn();
+  }
+  // A minute is "never".
+  bool reach(ui::Step step) {
+    for (int turn = 0; turn < 30'000 && kiosk->ui().visit().step != step; ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    kiosk->turn();
+    return kiosk->ui().visit().step == step;
+  }
+  void type_name(std::string_view name) {
+    ASSERT_TRUE(reach(ui::Step::Attract));
+    tap("start");
+    tap("agree");
+    kiosk->ui().visit().type(name);
+    kiosk->turn();
+    tap("done");
+  }
+  void erase_all() {
+    ASSERT_EQ(kiosk->ui().visit().step, ui::Step::Name);
+    while (!kiosk->ui().visit().name().empty()) tap("erase");
+  }
+  storage::SubjectId put_into_the_store(const char* name) {
+    auto store = storage::open_sqlite_store(args.store, clock, {});
+    EXPECT_TRUE(store.has_value());
+    return *(*store)->add_subject({name});
+  }
+
+  World world;
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  KioskArgs args;
+  std::unique_ptr<Kiosk> kiosk;
+};
+
+TEST_F(KioskMomentsTest, AWrongClockBarsTheWayUntilItIsSet) {
+  put_into_the_store("Ada");
+  world.wall_shift_s = -40 * 86'400;  // before the newest record
+  open();
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  EXPECT_TRUE(says("clock")) << "its own words";
+  EXPECT_EQ(find("finish"), nullptr) << "nobody may consent now";
+  world.wall_shift_s = 0;
+  EXPECT_TRUE(reach(ui::Step::Attract)) << "it goes on by itself";
+}
+
+TEST_F(KioskMomentsTest, AfterACrashItIsSaidOnce) {
+  open();
+  EXPECT_TRUE(std::filesystem::exists(args.store / "relievo.running"));
+  kiosk.reset();
+  EXPECT_FALSE(std::filesystem::exists(args.store / "relievo.running")) << "it ended as it should";
+  std::ofstream(args.store / "relievo.running").put('\n');  // the power went
+  open();
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  EXPECT_TRUE(says("restarted"));
+  tap("finish");
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  for (int turn = 0; turn < 5; ++turn) kiosk->turn();
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract) << "once";
+}
+
+TEST_F(KioskMomentsTest, APulledCameraIsSaidAndNothingOfThePersonStays) {
+  open();
+  type_name("Grace Hopper");
+  ASSERT_TRUE(reach(ui::Step::Position));
+  (void)kiosk->take_forgotten();
+  world.pulled = true;
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  EXPECT_EQ(kiosk->view().trouble, ui::Trouble::Camera);
+  EXPECT_TRUE(says("camera"));
+  EXPECT_FALSE(says("Grace"));
+  EXPECT_EQ(kiosk->ui().visit().name(), "");
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+  EXPECT_TRUE(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
+}
+
+TEST_F(KioskMomentsTest, TheOperatorsOwnTextIsShownInItsLanguagesAlone) {
+  const auto write = [this](const char* version, const char* file, const char* words) {
+    std::filesystem::create_directories(args.store / "consent" / version);
+    std::ofstream(args.store / "consent" / version / file) << words;
+  };
+  write("2026-03", "en.txt", "An older title\n\nA point\n");
+  write("2026-09", "de.txt", "Unser Text\r\n\r\nErster Punkt\r\nmit Worten,\r\nüber zwei Zeilen.\r\n\r\nZweiter Punkt\r\n");
+  open();
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German) << "English has no text that can be agreed to";
+  EXPECT_EQ(find("en"), nullptr);
+  tap("start");
+  EXPECT_TRUE(says("Unser Text"));
+  EXPECT_TRUE(says("mit Worten, über zwei Zeilen."));
+  EXPECT_TRUE(says("Zweiter Punkt"));
+  EXPECT_FALSE(says("Mustertext"));
+  ASSERT_NE(kiosk->view().consent, nullptr);
+  EXPECT_EQ(kiosk->view().consent->version, "2026-09") << "stored with the record";
+  kiosk.reset();
+  for (const char* bad : {"", "A title alone\n", "T\n\n\xC3\x28\n", "T\n\nbell \a\n"}) {
+    write("2026-09", "fr.txt", bad);
+    const auto refused = Kiosk::open(args, services);
+    ASSERT_FALSE(refused.has_value()) << bad;
+    EXPECT_NE(std::string(refused.error().where()).find("fr.txt"), std::string::npos);
+  }
+}
+
+TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
+  const std::string code = receipt_of(put_into_the_store("Ada")), other = receipt_of(put_into_the_store("Bob"));
+  open();
+  type_name("Ada");
+  ASSERT_TRUE(reach(ui::Step::Known));
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle) << "no camera runs yet";
+  EXPECT_EQ(find("renew"), nullptr) << "a name proves nothing";
+  EXPECT_FALSE(says(code)) << "the code is not given away";
+  tap("have_code");
+  for (const std::string& tried : {other, std::string("123")}) {
+    erase_all();
+    kiosk->ui().visit().type(tried);
+    kiosk->turn();
+    tap("done");
+    for (int turn = 0; turn < 2000 && kiosk->view().known != ui::Known::NoSuchCode; ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Name);
+    EXPECT_NE(find("wrong_code"), nullptr) << tried;
+  }
+  erase_all();
+  kiosk->ui().visit().type(code);
+  kiosk->turn();
+  tap("done");
+  ASSERT_TRUE(reach(ui::Step::Known));
+  tap("renew");
+  ASSERT_TRUE(reach(ui::Step::Position));
+  EXPECT_EQ(kiosk->view().subject, "Ada");
+  EXPECT_LE(kiosk->ui().visit().touches, 9);
+}
+
+TEST_F(KioskMomentsTest, WhereTheOperatorWantsItNobodyIsTold) {
+  put_into_the_store("Ada");
+  args.tells_known = false;
+  open();
+  type_name("Ada");
+  EXPECT_TRUE(reach(ui::Step::Position));
+}
+
+}  // namespace
+}  // namespace relievo::firmware
