@@ -124,6 +124,10 @@ std::optional<StaffWish> Service::take_wish() {
 }
 
 void Service::follow(const ViewState& view) {
+  // Whoever comes first would choose the PINs: that is the staff, before there are visitors.
+  if (!open && view.service != nullptr && view.service->access.demanded && !view.service->access.set_up &&
+      (view.screen == Screen::Idle || view.screen == Screen::Fault))
+    enter(view);
   if (!open) return;
   if (view.service == nullptr) return close();
   const StaffRole role = view.service->role;

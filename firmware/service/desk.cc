@@ -50,7 +50,7 @@ ui::Outcome outcome_of(const Error& error) {
 Desk::Desk(Parts parts)
     : parts_(std::move(parts)), log_(parts_.board.clock(), parts_.folder / kLogFile), errands_(parts_.appliance),
       tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, parts_.folder},
-      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock}) {
+      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, parts_.board.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });
 }

@@ -22,7 +22,7 @@ const char* word_of(StaffRole role) { return role == StaffRole::Technician ? "te
 
 Door::Door(Parts parts)
     : store_(parts.store), clock_(parts.clock), errands_(parts.errands), log_(parts.log), set_clock_(std::move(parts.set_clock)),
-      access_(store_, clock_) {}
+      access_(store_, clock_), demands_set_up_(parts.demands_set_up) {}
 
 Result<void> Door::look() {
   RELIEVO_TRY_ASSIGN(set_up_, access_.is_set_up());
@@ -186,7 +186,7 @@ void Door::save_own(std::string pin, StaffRole role) {
 void Door::show(ui::AccessView& view) const {
   const auto wait = std::chrono::ceil<std::chrono::seconds>(wait_until_ - clock_.now());
   clock_text_ = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now() + clock_moved_));
-  view = {set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count()))};
+  view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count()))};
 }
 
 }  // namespace relievo::firmware

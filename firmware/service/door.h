@@ -28,6 +28,7 @@ class Door {
     Errands& errands;
     EventLog& log;
     SetClock set_clock;
+    bool demands_set_up = false;   // see ui::AccessView::demanded
   };
   explicit Door(Parts parts);
   ~Door() { forget(); }
@@ -60,6 +61,7 @@ class Door {
   EventLog& log_;
   SetClock set_clock_;
   Access access_;
+  const bool demands_set_up_;
   bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false;
   std::chrono::minutes clock_moved_{0};
   ui::PinStep step_ = ui::PinStep::Technician;

@@ -38,6 +38,23 @@ hal::sim::RigOptions tiny_rig() {
   return rig;
 }
 
+// The same board, as if people stood before its cameras.
+class LiveBoard final : public hal::Board {
+ public:
+  explicit LiveBoard(std::unique_ptr<hal::Board> board) : board_(std::move(board)) {}
+  std::string_view name() const override { return board_->name(); }
+  hal::CaptureMode preferred_mode() const override { return board_->preferred_mode(); }
+  hal::Camera& left() override { return board_->left(); }
+  hal::Camera& right() override { return board_->right(); }
+  hal::TriggerLine& trigger() override { return board_->trigger(); }
+  hal::RemovableMedia& media() override { return board_->media(); }
+  hal::Clock& clock() override { return board_->clock(); }
+  hal::Watchdog& watchdog() override { return board_->watchdog(); }
+
+ private:
+  std::unique_ptr<hal::Board> board_;
+};
+
 class StaffRoundTest : public testing::Test {
  protected:
   StaffRoundTest() {
@@ -56,6 +73,7 @@ class StaffRoundTest : public testing::Test {
       RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
       media = &dynamic_cast<hal::ReplayBoard&>(*board).folder_media();
       media->plug(stick());
+      if (demands) board = std::make_unique<LiveBoard>(std::move(board));
       return board;
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
@@ -165,6 +183,7 @@ class StaffRoundTest : public testing::Test {
     EXPECT_TRUE(kiosk->take_forgotten());
   }
 
+  bool demands = false;   // the first start, as a device with cameras does
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
@@ -173,6 +192,26 @@ class StaffRoundTest : public testing::Test {
   hal::FolderMedia* media = nullptr;
   std::unique_ptr<Kiosk> kiosk;
 };
+
+TEST_F(StaffRoundTest, WhereRealPeopleStandNobodyGetsPastTheFirstStart) {
+  demands = true;
+  start();
+  kiosk->turn();
+  ASSERT_TRUE(kiosk->ui().service().open);
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
+  EXPECT_EQ(find("start"), nullptr) << "no way to a visit";
+  tap("sign out");
+  kiosk->turn();
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::FirstStart) << "leaving leads back here";
+  ASSERT_TRUE(kiosk->ui().service().open);
+  tap("go on");
+  tap("clock right");
+  for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
+  ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+  tap("sign out");
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+  EXPECT_NE(find("start"), nullptr);
+}
 
 TEST_F(StaffRoundTest, AFingerThatOnlyPassesDoesNotOpenTheDoor) {
   start();
