@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "firmware/bench/touched_point.h"
+#include "firmware/bench/show/touched_point.h"
 
 namespace relievo::firmware {
 namespace {

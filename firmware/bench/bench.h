@@ -16,7 +16,7 @@
 
 #include "firmware/appliance.h"
 #include "firmware/bench/algorithm_desk.h"
-#include "firmware/bench/bench_tables.h"
+#include "firmware/bench/show/bench_tables.h"
 #include "firmware/bench/calibration_desk.h"
 #include "firmware/bench/camera_watch.h"
 #include "firmware/bench/run_job.h"

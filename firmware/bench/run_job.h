@@ -12,8 +12,8 @@
 #include <atomic>
 #include <optional>
 
-#include "firmware/bench/bench_figures.h"
-#include "firmware/bench/bench_pictures.h"
+#include "firmware/bench/show/bench_figures.h"
+#include "firmware/bench/show/bench_pictures.h"
 #include "firmware/work/jobs.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/model/calibration.h"

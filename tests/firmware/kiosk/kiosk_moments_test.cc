@@ -18,6 +18,7 @@
 #include "hal/sim/board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -96,7 +97,7 @@ class PlayedBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog 
   GreyCamera left_, right_;
 };
 
-class KioskMomentsTest : public testing::Test {
+class KioskMomentsTest : public KioskHands {
  protected:
   KioskMomentsTest() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
@@ -115,29 +116,11 @@ class KioskMomentsTest : public testing::Test {
     kiosk = std::move(*opened);
     kiosk->ui().resize(1280, 800);
   }
-  const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
   bool says(std::string_view words) const {
     for (const ui::Node& node : kiosk->ui().tree().nodes()) {
       if (node.text.find(words) != std::string_view::npos) return true;
     }
     return false;
-  }
-  void tap(std::string_view id) {
-    const ui::Node* node = find(id);
-    ASSERT_NE(node, nullptr) << id << " is not on the screen";
-    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
-    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
-    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
-    kiosk->turn();
-  }
-  // A minute is "never".
-  bool reach(ui::Step step) {
-    for (int turn = 0; turn < 30'000 && kiosk->ui().visit().step != step; ++turn) {
-      kiosk->turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    kiosk->turn();
-    return kiosk->ui().visit().step == step;
   }
   void type_name(std::string_view name) {
     ASSERT_TRUE(reach(ui::Step::Attract));
@@ -163,7 +146,6 @@ class KioskMomentsTest : public testing::Test {
   Console console;
   Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
   KioskArgs args;
-  std::unique_ptr<Kiosk> kiosk;
 };
 
 TEST_F(KioskMomentsTest, AWrongClockBarsTheWayUntilItIsSet) {

@@ -15,6 +15,7 @@
 #include "hal/sim/board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -29,7 +30,7 @@ hal::sim::RigOptions small_rig() {
   return rig;
 }
 
-class KioskTest : public testing::Test {
+class KioskTest : public KioskHands {
  protected:
   KioskTest() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
@@ -51,22 +52,6 @@ class KioskTest : public testing::Test {
     kiosk->ui().resize(1280, 800);
   }
 
-  void tap(std::string_view id) {
-    const ui::Node* node = kiosk->ui().tree().find(id);
-    ASSERT_NE(node, nullptr) << id << " is not on the screen";
-    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
-    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
-    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
-    kiosk->turn();
-  }
-  // Minutes are "never".
-  bool reach(ui::Step step) {
-    for (int turn = 0; turn < 100'000 && kiosk->ui().visit().step != step; ++turn) {
-      kiosk->turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return kiosk->ui().visit().step == step;
-  }
   void to_position() {
     ASSERT_TRUE(reach(ui::Step::Attract));
     tap("start");
@@ -143,7 +128,6 @@ class KioskTest : public testing::Test {
   Console console;
   Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
   KioskArgs args;
-  std::unique_ptr<Kiosk> kiosk;
 };
 
 // One test for both, since building the simulated person takes longest.

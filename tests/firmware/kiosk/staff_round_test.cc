@@ -20,6 +20,7 @@
 #include "hal/sim/replay/replay_board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
 #include "ui/records_view.h"
 #include "ui/staff_views.h"
 #include "tests/storage/sample.h"
@@ -55,7 +56,7 @@ class LiveBoard final : public hal::Board {
   std::unique_ptr<hal::Board> board_;
 };
 
-class StaffRoundTest : public testing::Test {
+class StaffRoundTest : public KioskHands {
  protected:
   StaffRoundTest() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
@@ -104,23 +105,6 @@ class StaffRoundTest : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
-  void tap(std::string_view id) {
-    const ui::Node* node = find(id);
-    ASSERT_NE(node, nullptr) << id << " is not on the screen";
-    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
-    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
-    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
-    kiosk->turn();
-  }
-  // Minutes are "never".
-  bool until(const std::function<bool()>& reached) {
-    for (int turn = 0; turn < 60'000 && !reached(); ++turn) {
-      kiosk->turn();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return reached();
-  }
   // By the keypad, which needs not hold: on until the door has the focus.
   void knock() {
     ASSERT_NE(find("staff"), nullptr);
@@ -190,7 +174,6 @@ class StaffRoundTest : public testing::Test {
   Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
   KioskArgs args;
   hal::FolderMedia* media = nullptr;
-  std::unique_ptr<Kiosk> kiosk;
 };
 
 TEST_F(StaffRoundTest, WhereRealPeopleStandNobodyGetsPastTheFirstStart) {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/hal/temporary_folder.h"
-#include "tests/support/v4l2_fake_kernel.h"
+#include "tests/support/kernel/v4l2_fake_kernel.h"
 
 namespace relievo::hal {
 namespace {

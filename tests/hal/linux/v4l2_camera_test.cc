@@ -11,7 +11,7 @@
 
 #include <linux/videodev2.h>
 
-#include "tests/support/v4l2_fake_kernel.h"
+#include "tests/support/kernel/v4l2_fake_kernel.h"
 
 namespace relievo::hal {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "hal/linux/v4l2_camera.h"
 #include "hal/linux/v4l2_formats.h"
-#include "tests/support/v4l2_fake_kernel.h"
+#include "tests/support/kernel/v4l2_fake_kernel.h"
 
 namespace relievo::hal {
 namespace {

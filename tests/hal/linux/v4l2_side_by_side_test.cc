@@ -7,7 +7,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/linux/v4l2_camera.h"
-#include "tests/support/v4l2_fake_kernel.h"
+#include "tests/support/kernel/v4l2_fake_kernel.h"
 
 namespace relievo::hal {
 namespace {

@@ -8,7 +8,7 @@
 // Thread: main, while no job runs. Errors: none: without a partner `matched` stays false.
 #pragma once
 
-#include "firmware/bench/bench_figures.h"
+#include "firmware/bench/show/bench_figures.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 #include "ui/bench/bench_result.h"

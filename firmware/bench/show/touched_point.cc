@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/bench/touched_point.h"
+#include "firmware/bench/show/touched_point.h"
 
 #include <algorithm>
 #include <bit>

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/bench/bench_figures.h"
+#include "firmware/bench/show/bench_figures.h"
 #include "firmware/session.h"
 #include "pipeline/model/calibration.h"
 #include "ui/bench/bench_choice.h"

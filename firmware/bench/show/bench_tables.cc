@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/bench/bench_tables.h"
+#include "firmware/bench/show/bench_tables.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/bench/bench_figures.h"
+#include "firmware/bench/show/bench_figures.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/support/v4l2_fake_kernel.h"
+#include "tests/support/kernel/v4l2_fake_kernel.h"
 
 #include <algorithm>
 #include <cerrno>

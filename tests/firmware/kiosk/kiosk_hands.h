@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// KioskHands: a test that touches a kiosk as people do: what is on the screen is found by its name and tapped,
+// and what takes its time is waited for.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <thread>
+
+#include "firmware/kiosk/kiosk.h"
+
+namespace relievo::firmware {
+
+class KioskHands : public testing::Test {
+ protected:
+  // Before what the test lends it goes.
+  void TearDown() override { kiosk.reset(); }
+  const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
+  void tap(std::string_view id) {
+    const ui::Node* node = find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
+    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+    kiosk->turn();
+  }
+  // Minutes are "never".
+  bool until(const std::function<bool()>& reached) {
+    for (int turn = 0; turn < 100'000 && !reached(); ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return reached();
+  }
+  bool reach(ui::Step step) {
+    return until([this, step] { return kiosk->ui().visit().step == step; });
+  }
+
+  std::unique_ptr<Kiosk> kiosk;
+};
+
+}  // namespace relievo::firmware
