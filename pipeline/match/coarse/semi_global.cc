@@ -102,8 +102,17 @@ RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_pen
 }
 
 struct Volume {
+  // Every cell is written before it is read: nothing is cleared.
+  Volume(std::pmr::memory_resource& memory, int w, int h, int many)
+      : scratch(&memory), width(w), height(h), candidates(many), cells(cell(0, h) + kLanes), cost(scratch.allocate_object<std::uint8_t>(cells)),
+        sum(scratch.allocate_object<std::uint16_t>(cells)) {}
+  ~Volume() { scratch.deallocate_object(sum, cells), scratch.deallocate_object(cost, cells); }
+  Volume(const Volume&) = delete;
+  Volume& operator=(const Volume&) = delete;
+  std::pmr::polymorphic_allocator<> scratch;
   int width, height, candidates;
-  std::uint8_t* cost;    // both on scratch, with room for the lanes behind the last pixel
+  std::size_t cells;
+  std::uint8_t* cost;    // both with room for the lanes behind the last pixel
   std::uint16_t* sum;
   std::size_t cell(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
@@ -264,13 +273,9 @@ RELIEVO_SIMD void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& ce
 
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
                  const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity, const std::atomic<bool>* cancelled) {
-  const int w = first.width;
   const int h = first.height;
-  const std::size_t cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates) + kLanes;
-  // Every cell is written before it is read: nothing is cleared.
-  Volume volume{w, h, candidates, static_cast<std::uint8_t*>(scratch.allocate(cells, 1)),
-                static_cast<std::uint16_t*>(scratch.allocate(cells * sizeof(std::uint16_t), alignof(std::uint16_t)))};
-  std::memset(volume.cost + cells - kLanes, 0, kLanes);
+  Volume volume(scratch, first.width, h, candidates);
+  std::memset(volume.cost + volume.cells - kLanes, 0, kLanes);
   for (int y = 0; y < h; ++y) matching_costs(pair, first.row(y), y, candidates, volume.cost + volume.cell(0, y));
   if (sweep(Sweep(pair, volume, first, costs, +1, scratch), nullptr, cancelled)) sweep(Sweep(pair, volume, first, costs, -1, scratch), &disparity, cancelled);
 }
