@@ -21,7 +21,7 @@ enum class StaffPage : std::uint8_t {
   Pin, FirstStart, Menu,
   Records, Statistics,                             // operator's
   Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate,  // technician's, on the workbench
-  SelfTest, Trigger, Health, Log, Settings, Touch,  // technician's
+  SelfTest, Trigger, Health, Log,  // technician's
   Pins,                                            // everybody's
   Count
 };
@@ -73,8 +73,6 @@ struct ServiceView {
   const struct TriggerView* trigger = nullptr;
   const struct HealthView* health = nullptr;
   const struct LogView* log = nullptr;
-  const struct SettingsView* settings = nullptr;
-  const struct TouchView* touch = nullptr;
   const struct BenchView* bench = nullptr;   // of all pages on the workbench
 };
 

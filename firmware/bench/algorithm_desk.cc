@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <string_view>
 
+#include "pipeline/algorithms/algorithm_table.h"
+
 namespace relievo::firmware {
 namespace {
 
 constexpr std::size_t kMostTyped = 24;
-
-std::vector<std::string> parts_of(std::string_view text) {
-  std::vector<std::string> parts;
-  while (true) {
-    const std::size_t plus = text.find('+');
-    parts.emplace_back(text.substr(0, plus));
-    if (plus == std::string_view::npos) return parts;
-    text.remove_prefix(plus + 1);
-  }
-}
 
 bool contains(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
@@ -82,7 +74,7 @@ void AlgorithmDesk::rebuild() {
   kind_views_.clear();
   for (std::size_t i = 0; i < kinds_.size(); ++i) kind_views_.push_back({kinds_[i]->key, kind_values_[i], kinds_[i]->sentence, kinds_[i]->several});
   const pipeline::OptionDescription& kind = *kinds_[kind_];
-  const std::vector<std::string> chosen = parts_of(kind_values_[kind_]);
+  const std::vector<std::string> chosen = pipeline::split_names(kind_values_[kind_]);
   names_.clear();
   for (const std::string& name : kind.names) names_.push_back({name, contains(chosen, name)});
   shown_.clear();
@@ -106,7 +98,7 @@ void AlgorithmDesk::choose_name(std::size_t index) {
   if (index >= kind.names.size()) return;
   std::string value = kind.names[index];
   if (kind.several && value != "none") {
-    std::vector<std::string> chosen = parts_of(kind_values_[kind_]);
+    std::vector<std::string> chosen = pipeline::split_names(kind_values_[kind_]);
     const auto at = std::find(chosen.begin(), chosen.end(), value);
     if (at == chosen.end()) chosen.push_back(value);
     else chosen.erase(at);
