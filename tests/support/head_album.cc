@@ -65,11 +65,28 @@ std::vector<std::uint16_t> kept(const sim::LightPicture& light) {
   return out;
 }
 
-std::string name_of(const Shot& s) {
+// Nothing for a face at rest.
+std::string name_of(const Guise& guise) {
+  const sim::Expression& e = guise.expression;
+  const sim::Glasses& g = guise.glasses;
   char text[160];
-  std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d", s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
+  std::string out;
+  if (e.lids_open < 1 || e.jaw_mm > 0 || e.smile > 0) {
+    std::snprintf(text, sizeof text, "_lids%.2f_jaw%.1f_smile%.2f_tongue%.1f", e.lids_open, e.jaw_mm, e.smile, e.tongue_mm);
+    out += text;
+  }
+  if (guise.wears_glasses) {
+    std::snprintf(text, sizeof text, "_glasses%.1f_%.1f_%.1f_%.1f_%.2f_%.1f", g.curve_mm, g.half_width_mm, g.half_height_mm, g.tilt_deg, g.passes, g.rim_mm);
+    out += text;
+  }
+  return out;
+}
+
+std::string name_of(const Shot& s) {
+  char text[320];
+  const int used = std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d", s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
                 s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
-  return text;
+  return std::string(text, static_cast<std::size_t>(used)) + name_of(s.guise);
 }
 
 void smear(sim::LightPicture& light, double length_px) {
@@ -108,15 +125,25 @@ Album::Album(std::filesystem::path cache) : cache_(std::move(cache)), rig_(sim::
   if (!cache_.empty()) std::filesystem::create_directories(cache_);
 }
 
+std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression) {
+  auto& model = heads_[std::to_string(seed) + name_of(Guise{expression, false, {}})];
+  if (!model) {
+    sim::HeadTraits traits = sim::traits_of(seed);
+    traits.expression = expression;
+    model = sim::make_head(traits, pool_);
+  }
+  return model;
+}
+
 void Album::expose(Shot& shot) {
   std::unique_ptr<sim::Scene> scene;
-  const auto head = [&](std::uint32_t seed, const sim::HeadPose& pose) {
-    auto& model = heads_[seed];
-    if (!model) model = sim::make_head(sim::traits_of(seed), pool_);
-    return sim::make_head_scene(model, pose, pool_);
-  };
-  if (shot.pose.distance_mm <= 0) scene = std::make_unique<Room>();
-  else scene = head(shot.seed, shot.pose);
+  if (shot.pose.distance_mm <= 0) {
+    scene = std::make_unique<Room>();
+  } else {
+    const auto model = person(shot.seed, shot.guise.expression);
+    scene = sim::make_head_scene(model, shot.pose, pool_);
+    if (shot.guise.wears_glasses) scene = sim::make_glasses_scene(std::move(scene), sim::wearer_of(*model), shot.pose, shot.guise.glasses);
+  }
   if (shot.extra == Extra::HandBefore) {
     const sim::ArtefactPose place{sim::rotation(0.1, 0.15, 0.3), {shot.pose.right_mm + 4, shot.pose.down_mm + 30, shot.pose.distance_mm - 75}};
     scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
@@ -124,15 +151,15 @@ void Album::expose(Shot& shot) {
   if (shot.extra == Extra::Friend) {
     sim::HeadPose other = shot.pose;
     other.right_mm += 175, other.distance_mm += 260, other.yaw_deg += 14;
-    scene = std::make_unique<Both>(std::move(scene), head(shot.seed + 1, other));
+    scene = std::make_unique<Both>(std::move(scene), sim::make_head_scene(person(shot.seed + 1, {}), other, pool_));
   }
   const sim::SensorOptions lens;
   shot.left = kept(sim::expose(*scene, rig_.left, lens, pool_));
   shot.right = kept(sim::expose(*scene, rig_.right, lens, pool_));
 }
 
-const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra extra) {
-  Shot shot{seed, pose, extra, {}, {}};
+const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra extra, const Guise& guise) {
+  Shot shot{seed, pose, extra, guise, {}, {}};
   const std::string name = name_of(shot);
   if (const auto known = shots_.find(name); known != shots_.end()) return known->second;
   constexpr std::size_t kValues = 3 * static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(kHeight);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hal/base/thread_pool.h"
+#include "hal/sim/head/glasses_scene.h"
 #include "hal/sim/head/head_scene.h"
 #include "hal/sim/render.h"
 #include "pipeline/model/calibration.h"
@@ -24,10 +25,18 @@ namespace relievo::test {
 // Something before or beside the person.
 enum class Extra : std::uint8_t { None, HandBefore, Friend };
 
+// What the person does with the face, and wears on it.
+struct Guise {
+  hal::sim::Expression expression;
+  bool wears_glasses = false;
+  hal::sim::Glasses glasses;
+};
+
 struct Shot {
   std::uint32_t seed = 0;
   hal::sim::HeadPose pose;
   Extra extra = Extra::None;
+  Guise guise;
   std::vector<std::uint16_t> left, right;  // linear light, kLightUnit a unit; empty room where pose.distance_mm is 0
 };
 inline constexpr double kLightUnit = 16384;
@@ -44,7 +53,7 @@ struct Developing {
 class Album {
  public:
   explicit Album(std::filesystem::path cache = {});  // a folder where shots survive the program; empty: none
-  const Shot& shoot(std::uint32_t seed, const hal::sim::HeadPose& pose, Extra extra = Extra::None);
+  const Shot& shoot(std::uint32_t seed, const hal::sim::HeadPose& pose, Extra extra = Extra::None, const Guise& guise = {});
   hal::sim::PicturePair develop(const Shot& shot, const Developing& how) const;
   const pipeline::StereoCalibration& calibration() const { return calibration_; }
 
@@ -54,7 +63,8 @@ class Album {
   ThreadPool pool_{2};
   hal::sim::SimRig rig_;
   pipeline::StereoCalibration calibration_;
-  std::map<std::uint32_t, std::shared_ptr<const hal::sim::HeadModel>> heads_;
+  std::shared_ptr<const hal::sim::HeadModel> person(std::uint32_t seed, const hal::sim::Expression& expression);
+  std::map<std::string, std::shared_ptr<const hal::sim::HeadModel>> heads_;
   std::map<std::string, Shot> shots_;
 };
 

@@ -27,6 +27,7 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
   const Panel& panel = panels_[panel_index];
   std::vector<float>& seen = seen_[shell_index][panel_index];
   seen.assign(shell.mesh.points.size(), 0.0F);
+  if (seen.empty()) return;
   pool.for_each_band(static_cast<int>(seen.size()), 64, [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);

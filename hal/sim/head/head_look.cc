@@ -59,6 +59,12 @@ Surface SkinLook::surface(Vec3 p) const {
     const Vec3 tone = t_.skin * mix(Vec3{0.82, 0.56, 0.57}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
     c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.85);
   }
+  const Vec3 leaning = field_.swayed(p);
+  if (t_.expression.jaw_mm > 0 && leaning.z < field_.mouth.front() - 3 && field_.mouth.gape(leaning) < 1.5) {  // lining of the cheeks and the palate
+    c = Vec3{0.34, 0.12, 0.11};
+    s.gloss = 0.6, s.colour = c, s.roughness = 0.4, s.translucent = 1;
+    return s;
+  }
   const double line = q.z > 75 && std::abs(q.x) < field_.mouth.half_width() + 1 ? gauss((q.y - field_.mouth.line_y(q.x)) / 0.55) : 0;
   c = c * (1 - 0.6 * line);
   const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
@@ -119,6 +125,19 @@ EyeLook eye_look(const HeadTraits& t, Vec3 from, Vec3 gaze) {
   const double bulge = smoothstep(6.4, 5.2, off);
   look.normal = normalised(n + normalised(side + Vec3{1e-9, 0, 0}) * (bulge * 0.5 * off / 12.0));
   return look;
+}
+
+Surface teeth_look(Vec3 p) {
+  constexpr std::array<double, 4> kEdge{0, 8.5, 15, 22.5};  // central and lateral incisors, canines
+  double gap = 0;
+  for (const double x : kEdge) gap = std::max(gap, gauss((std::abs(p.x) - x) / 0.35));
+  return {Vec3{0.62, 0.58, 0.49} * (1 - 0.55 * gap), 1.6, 0.22, 0.3};
+}
+
+Surface tongue_look(const HeadTraits& t, Vec3 p) {
+  const NearestDot papilla = nearest_dot(p * (1 / 1.4), t.seed + 81);
+  const double furrow = gauss(p.x / 1.2);
+  return {Vec3{0.50, 0.26, 0.25} * (1 - 0.15 * furrow + 0.18 * smoothstep(0.45, 0.1, papilla.distance)), 0.9, 0.32, 0.8};
 }
 
 Surface shirt_look(const HeadTraits& t, Vec3 p) {

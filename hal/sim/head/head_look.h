@@ -37,6 +37,10 @@ struct EyeLook {
 // `from_centre`: of the eyeball; `gaze`: unit vector to what the eye looks at.
 EyeLook eye_look(const HeadTraits& traits, Vec3 from_centre, Vec3 gaze);
 
+// Wet: they mirror the lamps, and are dark between one tooth and the next.
+Surface teeth_look(Vec3 p);
+Surface tongue_look(const HeadTraits& traits, Vec3 p);
+
 Surface shirt_look(const HeadTraits& traits, Vec3 p);
 
 }  // namespace relievo::hal::sim

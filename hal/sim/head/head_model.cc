@@ -51,7 +51,9 @@ HeadModel::HeadModel(const HeadTraits& t, ThreadPool& pool) : traits(t), field(t
   build_skin(pool);
   build_eyes();
   build_shirt(pool);
+  build_mouth(pool);
   for (Shell& shell : shells) {
+    if (shell.mesh.triangles.empty()) continue;   // the last ones only, so that bodies keep their numbers
     shell.normals = smooth_normals(shell.mesh);
     caster.add(shell.mesh);
   }
@@ -69,11 +71,11 @@ void HeadModel::build_skin(ThreadPool& pool) {
   const double eye_x = std::abs(field.eye.centre().x);
   Mesh& mesh = shells[Skin].mesh;
   mesh = mesh_of_field(at, {{-98, gn - 75, -70}, {98, 125, 140}}, 1.25, pool);
-  refine(mesh, at, [&](Vec3 p) { return (p.z > 55 && p.y < 48 && p.y > gn - 12) || std::abs(p.x) > traits.face_breadth / 2 + 2; }, pool);
+  refine(mesh, at, [&](Vec3 p) { return (p.z > 55 && p.y < 48 && p.y > gn - 12 - traits.expression.jaw_mm) || std::abs(p.x) > traits.face_breadth / 2 + 2; }, pool);
   refine(mesh, at, [&](Vec3 p) {
     const double ax = std::abs(p.x);
     const bool eye = std::abs(ax - eye_x) < 22 && std::abs(p.y) < 15, nose = ax < 24 && p.y < -20 && p.y > subnasale_y(traits) - 6;
-    return p.z > 68 && (eye || nose || (ax < traits.mouth_width / 2 + 5 && std::abs(p.y - sto) < 14));
+    return p.z > 68 && (eye || nose || (ax < field.mouth.half_width() + 5 && p.y < sto + 14 && p.y > sto - 14 - traits.expression.jaw_mm));
   }, pool);
 }
 
@@ -103,10 +105,37 @@ void HeadModel::build_shirt(ThreadPool& pool) {
   shells[Shirt].mesh = mesh_of_field(cloth, {{-230, gn - 190, -110}, {230, gn + 10, 75}}, 3.0, pool);
 }
 
+// The upper teeth stay, the lower ones and the tongue go with the jaw.
+void HeadModel::build_mouth(ThreadPool& pool) {
+  const double jaw = traits.expression.jaw_mm, out = traits.expression.tongue_mm;
+  if (jaw <= 0) return;
+  const double sto = stomion_y(traits), front = field.mouth.front();
+  const auto arch = [](double x) { return -0.022 * x * x; };   // 14 mm back at the molars
+  const auto row = [&](Vec3 p, double low, double high, double z) {
+    return std::max({std::abs(p.x) - 25, std::abs(p.z - z - arch(p.x)) - 2.4, low - p.y, p.y - high});
+  };
+  const Field teeth = [&](Vec3 p) {
+    const Vec3 q = field.swayed(p);
+    return std::min(row(q, sto - 2.2, sto + 8, front - 4.5), row(q, sto - jaw - 9, sto - jaw - 1, front - 6.5));
+  };
+  const Box box{{-30, sto - jaw - 12, front - 30}, {30, sto + 11, front + 4}};
+  shells[Teeth].mesh = mesh_of_field(teeth, box, 0.8, pool);
+  // Wider than thick by 2.3; put out, it lies on the lower lip and hangs over it.
+  const double floor = sto - jaw - (out > 0 ? 0 : 4);
+  const BeadString body({{{0, floor - 6, front - 34}, 8.5}, {{0, floor + 1.5, front - 9}, 7.0}, {{0, floor + 1, front + 0.45 * out}, 6.0}, {{0, floor - 0.75 * out, front + 0.8 * out}, 4.2}}, 4);
+  const BeadString still({{{0, floor - 6, front - 34}, 8.5}, {{0, floor, front - 14}, 6.5}}, 3);
+  const Field tongue = [&](Vec3 p) {
+    const Vec3 q = field.swayed(p), thick{q.x / 2.3, q.y, q.z};
+    return out > 0 ? body.distance(thick) : still.distance(thick);
+  };
+  shells[Tongue].mesh = mesh_of_field(tongue, {{-26, floor - 30 - out, front - 50}, {26, floor + 16, front + 14 + out}}, 1.2, pool);
+}
+
 void HeadModel::measure_openness(ThreadPool& pool) {
   constexpr int kRays = 10;
   constexpr double kReachMm = 90;
   for (Shell& shell : shells) {
+    if (shell.mesh.points.empty()) continue;
     shell.openness.assign(shell.mesh.points.size(), 0.8F);
     pool.for_each_band(static_cast<int>(shell.mesh.points.size()), 64, [&](int begin, int end, int) {
       for (int i = begin; i < end; ++i) {

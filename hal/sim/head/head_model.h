@@ -23,7 +23,7 @@ struct Shell {                          // one solid body
 
 class HeadModel {
  public:
-  enum Body : std::uint8_t { Skin, Eyes, Inner, Shirt, BodyCount };
+  enum Body : std::uint8_t { Skin, Eyes, Inner, Shirt, Teeth, Tongue, BodyCount };
   static constexpr int kHairBody = 1000;
 
   HeadModel(const HeadTraits& traits, ThreadPool& pool);
@@ -39,6 +39,7 @@ class HeadModel {
   void build_skin(ThreadPool& pool);
   void build_eyes();
   void build_shirt(ThreadPool& pool);
+  void build_mouth(ThreadPool& pool);   // nothing behind closed lips
   void measure_openness(ThreadPool& pool);
 };
 

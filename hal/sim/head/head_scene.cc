@@ -95,6 +95,12 @@ Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
     case HeadModel::Inner:
       s = {Vec3{0.56, 0.34, 0.30} * (0.45 + head_->traits.skin.x), 1.4, 0.25, 0.6};
       break;
+    case HeadModel::Teeth:
+      s = teeth_look(at);
+      break;
+    case HeadModel::Tongue:
+      s = tongue_look(head_->traits, at);
+      break;
     case HeadModel::Shirt:
     case HeadModel::BodyCount:
       s = shirt_look(head_->traits, at);

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 
+#include "hal/sim/head/expression.h"
 #include "hal/sim/vec3.h"
 
 namespace relievo::hal::sim {
@@ -50,6 +51,7 @@ struct HeadTraits {
   int shirt = 0;
   // No person has this: waves along x over the whole face, to see what detail a measurement keeps.
   double ripple_mm = 0, ripple_wave_mm = 6;
+  Expression expression;            // at rest, whatever the seed
 };
 
 HeadTraits traits_of(std::uint32_t seed);

@@ -62,8 +62,14 @@ class MouthForm {
   double upper_edge(double x) const;          // of the vermilion
   double lower_edge(double x) const;
   double half_width() const { return half_width_; }
+  // An open mouth is a closed one whose lower lip, and the jaw with it, were moved down: where in the closed mouth a point was. Points
+  // between the lips were on the line where they meet.
+  Vec3 closed(Vec3 p) const;
+  double gape(Vec3 p) const;                  // negative between parted lips; asked where the point is, not where it was
+  double front() const { return front_; }
 
  private:
+  double dropped(double x, double z) const;   // the lower lip, mm
   HeadTraits t_;
   double half_width_, sto_, upper_mm_, lower_mm_;
   BeadString upper_, lower_, line_;
@@ -83,6 +89,7 @@ class EyeForm {
   Vec3 lid_point(double s, bool upper) const; // on the lid's edge
 
  private:
+  double raised_lid(double s) const;          // the upper lid's edge when the eye is open
   HeadTraits t_;
   Vec3 centre_;
   double middle_x_, half_fissure_;
@@ -105,7 +112,8 @@ struct HeadField {
   explicit HeadField(const HeadTraits& traits);
   double distance(Vec3 p) const;
   Vec3 gradient(Vec3 p) const;                 // normalised; outward
-  Vec3 warped(Vec3 p) const;                   // where the symmetric sculpture is asked: faces lean
+  Vec3 swayed(Vec3 p) const;                   // faces lean: where in the upright one a point was
+  Vec3 warped(Vec3 p) const;                   // where the symmetric sculpture of a closed mouth is asked
 
   HeadTraits traits;
   SkullForm skull;
