@@ -19,6 +19,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/played_board.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -26,84 +27,13 @@ namespace {
 
 constexpr int kWidthPx = 1920, kHeightPx = 1200;  // as the calibration of the simulated rig
 
-// What the test and the played board share; it outlives the board.
-struct World {
-  std::atomic<bool> pulled{false};
-  std::atomic<std::int64_t> wall_shift_s{0};
-};
-
-class SetClock final : public hal::Clock {
- public:
-  explicit SetClock(const World& world) : world_(world) {}
-  hal::Instant now() const override { return real_.now(); }
-  std::chrono::system_clock::time_point wall_now() const override { return real_.wall_now() + std::chrono::seconds(world_.wall_shift_s.load()); }
-
- private:
-  hal::MonotonicClock real_;
-  const World& world_;
-};
-
-class GreyCamera final : public hal::Camera {
- public:
-  GreyCamera(const World& world, const hal::Instant& pulsed_at) : world_(world), pulsed_at_(pulsed_at) {}
-
- private:
-  Result<void> plugged() const { return world_.pulled.load() ? Result<void>(Error{Errc::Disconnected, "as the test says"}) : Result<void>(); }
-  Result<void> do_open(const hal::CaptureMode&) override { return plugged(); }
-  Result<void> do_start() override { return plugged(); }
-  void do_stop() override {}
-  Result<hal::Frame> do_next_frame(hal::Instant) override {
-    RELIEVO_TRY(plugged());
-    return hal::Frame({pixels_.data(), pixels_.size(), kWidthPx, kHeightPx, kWidthPx, {}}, {pulsed_at_, ++sequence_}, [](void*, int) {}, this, 0);
-  }
-  const World& world_;
-  const hal::Instant& pulsed_at_;
-  std::vector<std::byte> pixels_ = std::vector<std::byte>(std::size_t{kWidthPx} * kHeightPx, std::byte{0x5A});
-  std::uint32_t sequence_ = 0;
-};
-
-class PlayedLine final : public hal::TriggerLine {
- public:
-  explicit PlayedLine(const hal::Clock& clock) : TriggerLine(clock), clock_(clock) {}
-  hal::Instant pulsed_at;
-
- private:
-  Result<void> do_pulse(std::chrono::microseconds, hal::Light) override {
-    pulsed_at = clock_.now();
-    return {};
-  }
-  const hal::Clock& clock_;
-};
-
-class PlayedBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
- public:
-  explicit PlayedBoard(const World& world) : time_(world), left_(world, line_.pulsed_at), right_(world, line_.pulsed_at) {}
-  std::string_view name() const override { return "played"; }
-  hal::CaptureMode preferred_mode() const override { return {kWidthPx, kHeightPx, std::chrono::microseconds(1)}; }
-  hal::Camera& left() override { return left_; }
-  hal::Camera& right() override { return right_; }
-  hal::TriggerLine& trigger() override { return line_; }
-  bool is_live() const override { return false; }
-  hal::RemovableMedia& media() override { return *this; }
-  hal::Clock& clock() override { return time_; }
-  hal::Watchdog& watchdog() override { return *this; }
-
- private:
-  std::optional<hal::Medium> current() override { return std::nullopt; }
-  Result<void> flush_and_eject() override { return {}; }
-  void kick() override {}
-  SetClock time_;
-  PlayedLine line_{time_};
-  GreyCamera left_, right_;
-};
-
 class KioskMomentsTest : public KioskHands {
  protected:
   KioskMomentsTest() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     args.store = folder.path() / "store";
     std::filesystem::create_directories(args.store);
-    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<PlayedBoard>(world)); };
+    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kWidthPx, kHeightPx)); };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig({})));
@@ -140,7 +70,7 @@ class KioskMomentsTest : public KioskHands {
     return *(*store)->add_subject({name});
   }
 
-  World world;
+  test::PlayedWorld world;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;

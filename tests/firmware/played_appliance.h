@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// An appliance with cameras, stages and a store that do as the test says.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <string>
+#include <thread>
+
+#include "firmware/appliance.h"
+#include "firmware/budget.h"
+#include "firmware/view/view_of.h"
+#include "tests/support/played_board.h"
+
+namespace relievo::firmware {
+
+using std::chrono::milliseconds;
+
+// Errors are given out one a stage; Cancelled means: run until cancelled.
+class TestStages final : public StageRunner {
+ public:
+  std::deque<std::pair<State, Errc>> errors;
+  std::atomic<bool> waiting{false};
+  std::optional<pipeline::DriftJudgement> drift;
+  std::string ran;
+  Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override {
+    ran += name_of(stage).substr(0, 2);
+    if (stage == State::Match) products.drift = drift;
+    if (!errors.empty() && errors.front().first == stage) {
+      const Errc code = errors.front().second;
+      errors.pop_front();
+      waiting.store(code == Errc::Cancelled);
+      while (code == Errc::Cancelled && !context.stop()) std::this_thread::sleep_for(milliseconds(1));
+      return Error{code, "as the test says"};
+    }
+    record.out = 1;
+    if (stage == State::Texture) products.model.emplace(&context.output);
+    return {};
+  }
+};
+
+class ApplianceTest : public testing::Test {
+ protected:
+  ApplianceTest() {
+    appliance.set_subject("Ada");
+    appliance.on_change([this](const Change& change) { path += std::string(name_of(change.to)) + " "; });
+  }
+  // Turns the main loop until the state is reached; a minute is "never".
+  bool reach(State state) {
+    for (int turn = 0; turn < 60'000 && appliance.state() != state; ++turn) appliance.step(milliseconds(1));
+    return appliance.state() == state;
+  }
+  bool memory_is_wiped() const {
+    for (const std::byte b : memory.all()) {
+      if (b != std::byte{0}) return false;
+    }
+    return true;
+  }
+  static BootMemory zeroed() {
+    BootMemory made(2 * 7 * 16, 1 << 16, 1 << 16);
+    std::fill(made.frames().begin(), made.frames().end(), std::byte{0});
+    std::fill(made.output().begin(), made.output().end(), std::byte{0});
+    std::fill(made.scratch().begin(), made.scratch().end(), std::byte{0});
+    return made;
+  }
+
+  test::PlayedWorld world;
+  test::PlayedBoard board{world, 4, 4};
+  TestStages stages;
+  BootMemory memory = zeroed();
+  ThreadPool pool{1};
+  std::deque<Errc> keep_errors;
+  std::string kept;
+  std::string path;
+  Appliance appliance{{board, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
+                         if (!keep_errors.empty()) {
+                           const Errc code = keep_errors.front();
+                           keep_errors.pop_front();
+                           return Result<void>(Error{code, "as the test says"});
+                         }
+                         kept += subject;
+                         return Result<void>();
+                       }}};
+};
+
+}  // namespace relievo::firmware
