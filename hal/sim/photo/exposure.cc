@@ -65,9 +65,39 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
 
 double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
+std::uint8_t to_byte_by_power(double v) { return static_cast<std::uint8_t>(std::lround(255 * srgb(clamp01(v)))); }
+
+// to_byte_by_power() without a power a value: the least light of every byte, found once by bisection.
+class GammaTable {
+ public:
+  GammaTable() {
+    for (std::size_t byte = 1; byte < least_.size(); ++byte) {
+      double below = least_[byte - 1], reached = 1;
+      for (;;) {
+        const double middle = 0.5 * (below + reached);
+        if (middle <= below || middle >= reached) break;
+        (to_byte_by_power(middle) >= byte ? reached : below) = middle;
+      }
+      least_[byte] = reached;
+    }
+    for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = to_byte_by_power(static_cast<double>(i) / kCells);
+  }
+  std::uint8_t operator()(double v) const {
+    if (v >= 1) return 255;
+    std::uint8_t byte = near_[static_cast<std::size_t>(std::max(v, 0.0) * kCells)];
+    while (byte < 255 && v >= least_[byte + 1U]) ++byte;
+    return byte;
+  }
+
+ private:
+  static constexpr int kCells = 4096;
+  std::array<double, 256> least_{};
+  std::array<std::uint8_t, kCells> near_{};  // of the darkest light of every cell
+};
+
 std::uint8_t to_byte(double v, bool gamma) {
-  const double level = gamma ? srgb(clamp01(v)) : clamp01(v);
-  return static_cast<std::uint8_t>(std::lround(255 * level));
+  static const GammaTable table;
+  return gamma ? table(v) : static_cast<std::uint8_t>(std::lround(255 * clamp01(v)));
 }
 
 }  // namespace

@@ -9,25 +9,38 @@
 namespace relievo::hal {
 namespace {
 
-// Exposes both views of a scene once; each further frame only rolls new noise over the same light.
+// Exposes both views of a scene once; each further frame only rolls new noise over the same light. Of a
+// head a few rolls are made at the start and come by turns: a camera does not take a second for a picture.
 class RenderedSource final : public PairSource {
  public:
   RenderedSource(const SimBoardOptions& options, std::vector<sim::BoardPose> poses)
       : o_(options.simulation), rig_(sim::make_rig(o_.rig)), pool_(options.threads), poses_(std::move(poses)) {
     expose_both(0);  // here, since a frame has a deadline, and a slow machine takes half a minute to make a head
+    if (!poses_.empty()) return;
+    rolls_.resize(2 * kRolls);
+    pool_.for_each_band(static_cast<int>(rolls_.size()), static_cast<int>(rolls_.size()), [this](int begin, int end, int) {
+      for (int i = begin; i < end; ++i) rolls_[static_cast<std::size_t>(i)] = roll(i % 2 == 0 ? Side::Left : Side::Right, static_cast<std::uint32_t>(i / 2));
+    });
   }
 
   Result<Exposure> expose(Side side, std::uint32_t number) override {
+    if (poses_.empty()) return Exposure{rolls_[2 * (number % kRolls) + (side == Side::Left ? 0 : 1)], std::chrono::nanoseconds(0)};
     const std::lock_guard lock(mutex_);
-    const std::size_t pose = poses_.empty() ? 0 : (number - 1) % poses_.size();
+    const std::size_t pose = (number - 1) % poses_.size();
     if (pose != pose_) expose_both(pose);
-    sim::SensorOptions sensor = o_.sensor;
-    sensor.grey = o_.scene == sim::SceneKind::Board;
-    const sim::LightPicture& light = side == Side::Left ? left_ : right_;
-    return Exposure{sim::read_sensor(light, sensor, o_.seed * 100000ULL + 2ULL * number + (side == Side::Left ? 0 : 1)), std::chrono::nanoseconds(0)};
+    return Exposure{roll(side, number), std::chrono::nanoseconds(0)};
   }
 
  private:
+  static constexpr std::uint32_t kRolls = 2;
+
+  Picture roll(Side side, std::uint32_t number) const {
+    sim::SensorOptions sensor = o_.sensor;
+    sensor.grey = o_.scene == sim::SceneKind::Board;
+    const sim::LightPicture& light = side == Side::Left ? left_ : right_;
+    return sim::read_sensor(light, sensor, o_.seed * 100000ULL + 2ULL * number + (side == Side::Left ? 0 : 1));
+  }
+
   void expose_both(std::size_t pose) {
     std::unique_ptr<sim::Scene> scene;
     if (o_.scene == sim::SceneKind::Board) scene = std::make_unique<sim::BoardScene>(o_.board, poses_[pose], o_.board_look, 1 / rig_.left.fx_px);
@@ -43,6 +56,7 @@ class RenderedSource final : public PairSource {
   ThreadPool pool_;
   std::vector<sim::BoardPose> poses_;
   sim::LightPicture left_, right_;
+  std::vector<Picture> rolls_;
   std::size_t pose_ = 0;
 };
 
