@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "firmware/allocation_count.h"
 #include "firmware/command/services.h"
 #include "firmware/work/pool_size.h"
 #include "hal/linux/board.h"
@@ -19,6 +20,7 @@
 #include "hal/sim/board.h"
 #include "hal/picture_file.h"
 #include "hal/sim/photo/held_board.h"
+#include "hal/sim/replay/folder_media.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "hal/sim/target/target_photo.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -171,6 +173,14 @@ Result<void> set_system_clock(std::chrono::system_clock::time_point time) {
   return {};
 }
 
+Result<void> plug_stick(hal::Board& board, const std::string& folder) {
+  auto* const stick = dynamic_cast<hal::FolderMedia*>(&board.media());
+  if (stick == nullptr) return Error{Errc::Unsupported, "has real sticks: a script cannot plug them"}.at(board.name());
+  if (folder.empty()) stick->unplug();
+  else stick->plug(folder);
+  return {};
+}
+
 }  // namespace
 }  // namespace relievo::firmware
 
@@ -178,6 +188,6 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock, fw::set_system_clock};
+  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock, fw::set_system_clock, fw::plug_stick, fw::allocation_count()};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

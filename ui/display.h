@@ -19,6 +19,8 @@ class Display {
   virtual int width_px() const = 0;
   virtual int height_px() const = 0;
   virtual std::optional<Input> poll() = 0;
+  // A synthetic finger: it comes back through poll(), as a person's does.
+  virtual void push(const Input& finger) = 0;
   virtual void show() = 0;  // what was drawn; waits for the screen where it can
 };
 

@@ -25,6 +25,8 @@
 namespace relievo::ui {
 
 enum class Step : std::uint8_t { Attract, Consent, Name, Known, Position, Working, Review, Thanks, Trouble, Starting };
+inline constexpr std::array<std::string_view, 10> kStepNames{"Attract", "Consent", "Name", "Known", "Position", "Working", "Review", "Thanks", "Trouble", "Starting"};
+constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
 
 inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15}, kThanks{30};

@@ -39,6 +39,11 @@ struct Services {
   const hal::Clock& clock;
   // Sets the system's clock; may be empty. Errors: Unsupported (it may not).
   std::function<Result<void>(std::chrono::system_clock::time_point)> set_clock{};
+  // For scripted visits. Plugs a folder that plays a USB stick into a board without hardware; no name pulls
+  // it. Errors: Unsupported (a board with hardware).
+  std::function<Result<void>(hal::Board& board, const std::string& folder)> plug_stick{};
+  // How often this thread has taken memory from the heap; may be empty.
+  std::function<long()> allocations{};
 };
 
 // Does what was asked for. Returns the exit code; the error, if any, is told.

@@ -39,7 +39,9 @@ class Kiosk {
   bool take_forgotten() { return std::exchange(forgotten_, false); }
 
   ui::Ui& ui() { return *ui_; }
+  const ui::Ui& ui() const { return *ui_; }
   const ui::ViewState& view() const { return view_; }
+  hal::Board& board() { return *board_; }
   const Appliance& appliance() const { return *appliance_; }
   const Desk& desk() const { return *desk_; }
   const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }

@@ -185,7 +185,9 @@ void Door::save_own(std::string pin, StaffRole role) {
 
 void Door::show(ui::AccessView& view) const {
   const auto wait = std::chrono::ceil<std::chrono::seconds>(wait_until_ - clock_.now());
-  clock_text_ = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now() + clock_moved_));
+  const auto minute = std::chrono::floor<std::chrono::minutes>(clock_.wall_now() + clock_moved_);
+  if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
+  clock_text_at_ = minute;
   view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count()))};
 }
 

@@ -70,6 +70,7 @@ class Door {
   std::string first_, technician_;   // typed once; the technician's, until the operator's is there
   ui::StaffRole entered_ = ui::StaffRole::None;
   mutable std::string clock_text_;
+  mutable std::chrono::sys_time<std::chrono::minutes> clock_text_at_{};  // made once a minute, not once a frame
 };
 
 }  // namespace relievo::firmware

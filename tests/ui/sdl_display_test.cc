@@ -59,6 +59,19 @@ TEST_F(SdlDisplayTest, AFingerIsToldInPixels) {
   }
 }
 
+TEST_F(SdlDisplayTest, ASyntheticFingerComesBackAsItWas) {
+  for (const Input::Kind kind : {Input::Kind::Down, Input::Kind::Move, Input::Kind::Up}) {
+    display->push({kind, 5, 96, 240});
+    auto input = display->poll();
+    if (!input) input = display->poll();  // SDL ends one round of polling before what came after it began
+    ASSERT_TRUE(input.has_value());
+    EXPECT_EQ(input->kind, kind);
+    EXPECT_EQ(input->finger, 5);
+    EXPECT_FLOAT_EQ(input->x, 96);
+    EXPECT_FLOAT_EQ(input->y, 240);
+  }
+}
+
 TEST_F(SdlDisplayTest, AKeypadIsEnough) {
   push_key(SDLK_TAB);
   push_key(SDLK_TAB, KMOD_LSHIFT);

@@ -44,6 +44,16 @@ class SdlDisplay final : public Display {
   int height_px() const override { return size().second; }
   void show() override { SDL_GL_SwapWindow(window_); }
 
+  void push(const Input& finger) override {
+    const auto [w, h] = size();
+    SDL_Event event{};
+    event.type = finger.kind == Input::Kind::Down ? SDL_FINGERDOWN : finger.kind == Input::Kind::Up ? SDL_FINGERUP : SDL_FINGERMOTION;
+    event.tfinger.fingerId = finger.finger;
+    event.tfinger.x = finger.x / static_cast<float>(w);
+    event.tfinger.y = finger.y / static_cast<float>(h);
+    SDL_PushEvent(&event);
+  }
+
   std::optional<Input> poll() override {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) {

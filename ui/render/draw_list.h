@@ -50,6 +50,7 @@ inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlo
 struct Picture {
   ImageView pixels;         // Rgb8 or Grey8, rows without padding
   std::uint32_t version = 0;  // 0: there is none
+  bool operator==(const Picture& other) const { return version == other.version && pixels.bytes == other.pixels.bytes; }
 };
 
 // How the model is looked at.
@@ -71,6 +72,7 @@ struct Command {
   Colour fill, fill_end, border;
   float radius = 0, border_px = 0, blur_px = 0, share = 1;
   PictureSlot picture = PictureSlot::None;
+  bool operator==(const Command&) const = default;
 };
 
 struct DrawList {
@@ -82,6 +84,8 @@ struct DrawList {
   FaceLook face_look;
 
   void clear() { commands.clear(); }
+  // Does it look the same? Then nobody need draw it again.
+  bool operator==(const DrawList&) const = default;
 };
 
 }  // namespace relievo::ui

@@ -157,6 +157,7 @@ struct KioskArgs {
   Path store;
   int width_px = 0, height_px = 0;  // of the window; 0: the whole screen
   Path screenshots;               // take pictures of all screens into this folder, and end
+  Path script;                    // synthetic fingers play it, and the program ends; its pictures go to `screenshots`
   std::string only;               // of those, only the sheets whose name has this in it
   bool tells_known = true;        // is a visitor told that their name is in the records already?
   bool write_showpiece = false;   // make the head of the page that invites, instead

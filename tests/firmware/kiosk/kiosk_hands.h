@@ -10,10 +10,12 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string_view>
 #include <thread>
 
 #include "firmware/kiosk/kiosk.h"
+#include "firmware/kiosk/script/script_player.h"
 
 namespace relievo::firmware {
 
@@ -40,6 +42,23 @@ class KioskHands : public testing::Test {
   }
   bool reach(ui::Step step) {
     return until([this, step] { return kiosk->ui().visit().step == step; });
+  }
+  // Lines of a script (firmware/kiosk/script), played to their end.
+  Result<void> play(const char* lines) {
+    std::vector<ScriptAction> script;
+    std::istringstream in(lines);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+      RELIEVO_TRY_ASSIGN(const auto actions, read_script_line(line, "line " + std::to_string(number)));
+      script.insert(script.end(), actions.begin(), actions.end());
+    }
+    ScriptPlayer player(std::move(script), {[this](const ui::Input& finger) { kiosk->feed(finger); }});
+    for (;;) {
+      RELIEVO_TRY_ASSIGN(const bool goes_on, player.turn(*kiosk, std::chrono::steady_clock::now()));
+      if (!goes_on) return {};
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
 
   std::unique_ptr<Kiosk> kiosk;

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it
+// finds what is to be touched by its id, as it lies on the screen now, and puts the finger there.
+//   while (turn(kiosk, now) is true) { the loop's own work }
+// Pixels. Thread: main. Errors of turn(): Timeout (a state was not reached, an id did not come to the
+// screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/kiosk/kiosk.h"
+#include "firmware/kiosk/script/script.h"
+
+namespace relievo::firmware {
+
+class ScriptPlayer {
+ public:
+  struct Hands {
+    std::function<void(const ui::Input&)> touch;
+    std::function<Result<void>(const std::string& folder)> plug{};  // no name: the stick is pulled
+  };
+  ScriptPlayer(std::vector<ScriptAction> script, Hands hands) : script_(std::move(script)), hands_(std::move(hands)) {}
+
+  // False: the script has ended.
+  Result<bool> turn(const Kiosk& kiosk, hal::Instant now);
+  // The frame that is drawn next is to be kept under this name.
+  std::optional<std::string> take_screenshot() { return std::exchange(screenshot_, std::nullopt); }
+
+ private:
+  Result<bool> act(const ScriptAction& action, const Kiosk& kiosk, hal::Instant now);
+  Result<bool> touch(const ScriptAction& action, const Kiosk& kiosk, hal::Instant now);
+  Result<bool> type(const ScriptAction& action, const Kiosk& kiosk, hal::Instant now);
+  void finger(ui::Input::Kind kind) { hands_.touch({kind, 1, x_, y_}); }
+
+  std::vector<ScriptAction> script_;
+  Hands hands_;
+  std::size_t next_ = 0;
+  std::optional<hal::Instant> since_;    // the present action began
+  std::optional<hal::Instant> down_at_;  // the finger lies on the glass since
+  float x_ = 0, y_ = 0;
+  int moved_ = 0;                        // steps of a drag
+  std::size_t typed_ = 0;                // bytes of the text that are done
+  std::size_t turned_ = 0;               // keys tried for one letter that is not on the keyboard
+  std::string key_;                      // under the finger
+  std::optional<std::string> screenshot_;
+};
+
+}  // namespace relievo::firmware
