@@ -202,7 +202,7 @@ bool Appliance::enter_position(const Change& change) {
     attempt_ = 0;
     problem_.reset();
   }
-  if (attempt_ >= budget::kCaptureAttempts) {
+  if (attempt_ >= most_attempts_) {
     handle(Event::Cancel);
     return false;
   }
@@ -219,7 +219,7 @@ bool Appliance::enter_capture(const Change& change) {
     session_.retake();
   }
   if (change.event == Event::Retake) attempt_ = 0;
-  if (++attempt_ > budget::kCaptureAttempts) {
+  if (++attempt_ > most_attempts_) {
     handle(Event::Cancel);
     return false;
   }

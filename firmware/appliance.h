@@ -58,6 +58,8 @@ class Appliance {
   State state() const { return machine_.state(); }
   float progress() const;
   int attempt() const { return attempt_; }
+  // Refused captures, until a person is asked to come again.
+  void set_attempts(int most) { most_attempts_ = most; }
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
@@ -111,7 +113,7 @@ class Appliance {
   KeepJob keep_;
   LookUpJob look_up_;
   std::string next_subject_;
-  int attempt_ = 0;
+  int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
   bool attended_ = false;        // a person is at the screen: advice instead of another try
   std::optional<Error> problem_;
   std::optional<pipeline::DriftJudgement> drift_;

@@ -3,6 +3,7 @@
 #include "firmware/settings.h"
 
 #include <cstdlib>
+#include <sstream>
 
 namespace relievo::firmware {
 
@@ -12,6 +13,34 @@ std::filesystem::path default_store_folder() {
   const char* home = std::getenv("HOME");
   if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".local/share/relievo";
   return "relievo-store";
+}
+
+std::string text_of(const ui::Settings& settings) {
+  std::ostringstream out;
+  for (std::size_t i = 0; i < ui::kSettings; ++i) {
+    const auto setting = static_cast<ui::Setting>(i);
+    out << info_of(setting).key << ' ' << settings.of(setting) << '\n';
+  }
+  return out.str();
+}
+
+ui::Settings settings_of(std::string_view text, std::vector<std::string>& complaints) {
+  ui::Settings settings;
+  std::istringstream in{std::string(text)};
+  std::string line;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    std::string key, rest;
+    std::int32_t value = 0;
+    const bool whole = static_cast<bool>(words >> key >> value) && !(words >> rest);
+    bool taken = false;
+    for (std::size_t i = 0; i < ui::kSettings && whole; ++i) {
+      const auto setting = static_cast<ui::Setting>(i);
+      if (info_of(setting).key == key) taken = settings.set(setting, value);
+    }
+    if (!taken) complaints.push_back("the setting \"" + line + "\" is not one: what is usual holds");
+  }
+  return settings;
 }
 
 }  // namespace relievo::firmware

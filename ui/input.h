@@ -8,6 +8,8 @@
 
 namespace relievo::ui {
 
+inline constexpr std::int64_t kMouse = -1;   // as a finger
+
 struct Input {
   enum class Kind : std::uint8_t {
     Down, Move, Up,                            // a finger

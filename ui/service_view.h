@@ -21,8 +21,8 @@ enum class StaffPage : std::uint8_t {
   Pin, FirstStart, Menu,
   Records, Statistics,                             // operator's
   Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate,  // technician's, on the workbench
-  SelfTest, Trigger, Health, Log,  // technician's
-  Pins,                                            // everybody's
+  SelfTest, Trigger, Touch, Health, Log,  // technician's
+  Settings, Pins,                                  // everybody's
   Count
 };
 
@@ -73,6 +73,8 @@ struct ServiceView {
   const struct TriggerView* trigger = nullptr;
   const struct HealthView* health = nullptr;
   const struct LogView* log = nullptr;
+  const struct SettingsView* settings = nullptr;
+  const struct TouchView* touch = nullptr;
   const struct BenchView* bench = nullptr;   // of all pages on the workbench
 };
 

@@ -29,6 +29,8 @@ class Ui {
   explicit Ui(std::unique_ptr<TextEngine> text) : text_(std::move(text)) {}
 
   void resize(int width_px, int height_px) { width_px_ = width_px, height_px_ = height_px; }
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
   void feed(const Input& input, const ViewState& view);
   void frame(const ViewState& view);
   // The frame of another visit, or of the staff's side: for screenshots and tests.

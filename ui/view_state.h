@@ -16,6 +16,7 @@
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/stereo_frame.h"
 #include "ui/consent_text.h"
+#include "ui/device/settings.h"
 #include "ui/language/language.h"
 #include "ui/service_view.h"
 
@@ -88,6 +89,7 @@ struct ViewState {
   const pipeline::FaceModel* showpiece = nullptr;  // a simulated head for the page that invites
   std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
   Language home = Language::English;   // the one a visit begins in; one of them
+  Settings settings;                   // the staff's
   const ServiceView* service = nullptr;            // for the staff's pages; none: there are none
   const ConsentTexts* consent = nullptr;   // the operator's own; none: the sample
   Known known = Known::NotAsked;

@@ -17,13 +17,13 @@ bool is_stage(Screen screen) {
 }  // namespace
 
 int Visit::seconds_left(hal::Instant now) const {
-  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + kPatience + kLastCall - now).count();
+  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + patience() + kLastCall - now).count();
   return static_cast<int>(std::clamp<long>(left, 0, kLastCall.count()));
 }
 
 std::optional<float> Visit::countdown(const LiveView& live) const {
-  if (overlay != Overlay::None || live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor) return std::nullopt;
-  return std::max(0.0F, kSteadyFor + kCountdown - live.steady_s);
+  if (!settings_.is_on(Setting::Automatic) || overlay != Overlay::None || live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor) return std::nullopt;
+  return std::max(0.0F, kSteadyFor + countdown_s() - live.steady_s);
 }
 
 void Visit::touched(hal::Instant now) {
@@ -43,9 +43,7 @@ void Visit::forget() {
   overlay = Overlay::None;
   capitals = true;
   accents = false;
-  language = home_;
-  text_size = 0;
-  high_contrast = false;
+  look_as_set();
 }
 
 void Visit::wipe_name() {
@@ -238,6 +236,7 @@ bool Visit::person_expected() const {
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
   follow_language(view);
+  follow_settings(view);
   const bool new_screen = view.screen != last_screen_;
   const Screen before = last_screen_;
   last_screen_ = view.screen;
@@ -260,13 +259,12 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     go(Step::Attract, view.now);
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
-    if (silent > kPatience + kLastCall) {
+    if (silent > patience() + kLastCall) {
       go(Step::Attract, view.now);
       return Intent::Cancel;
     }
-    if (silent > kPatience) overlay = Overlay::StillThere;
-  } else if (step == Step::Attract && (overlay != Overlay::None || text_size != 0 || language != home_ || high_contrast) &&
-             view.now - last_touch_ > kPatience) {
+    if (silent > patience()) overlay = Overlay::StillThere;
+  } else if (step == Step::Attract && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
     forget();
   }
   if (const auto intent = follow_look_up(view)) return intent;

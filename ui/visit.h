@@ -29,8 +29,8 @@ inline constexpr std::array<std::string_view, 10> kStepNames{"Attract", "Consent
 constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
 
-inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15}, kThanks{30};
-inline constexpr float kSteadyFor = 0.6F, kCountdown = 1.5F;  // seconds, before the picture is taken by itself
+inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15}, kThanks{30};  // the first where nobody has set another
+inline constexpr float kSteadyFor = 0.6F, kCountdown = 1.5F;  // seconds, before the picture is taken by itself; the second as above
 inline constexpr std::size_t kMostNameBytes = 128;
 inline constexpr const char* kConsentWording = "sample-1";  // where the operator has no text of their own
 inline constexpr int kMostLookUps = 5;   // a visit; then nobody is told anything any more
@@ -58,6 +58,7 @@ class Visit {
   int seconds_left(hal::Instant now) const;
   // Seconds until the picture is taken by itself; nothing while something is to be mended first.
   std::optional<float> countdown(const LiveView& live) const;
+  float countdown_s() const { return static_cast<float>(settings_.of(Setting::CountdownMs)) / 1000; }
 
   // A finger or key somewhere: the person is there.
   void touched(hal::Instant now);
@@ -78,6 +79,10 @@ class Visit {
   std::optional<Intent> follow_look_up(const ViewState& view);
   std::optional<Intent> act_on_record(ActionKind kind);
   void follow_language(const ViewState& view);
+  void follow_settings(const ViewState& view);
+  void look_as_set();
+  bool looks_as_set() const;
+  std::chrono::seconds patience() const { return std::chrono::seconds(settings_.of(Setting::PatienceS)); }
   void wipe_name();
 
   std::array<char, kMostNameBytes> name_{};
@@ -87,6 +92,7 @@ class Visit {
   hal::Instant entered_{};
   Screen last_screen_ = Screen::SelfTest;
   Language home_ = Language::English;
+  Settings settings_;              // as the last view had them
   Errand errand_ = Errand::New;
   bool quotes_code_ = false;
   bool looking_up_ = false;

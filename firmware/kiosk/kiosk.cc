@@ -9,6 +9,7 @@
 #include "firmware/command/reconstruct/report.h"
 #include "firmware/kiosk/consent_files.h"
 #include "firmware/kiosk/receipt.h"
+#include "firmware/service/device/disk_room.h"
 #include "firmware/view/view_of.h"
 #include "firmware/work/pool_size.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -61,7 +62,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
   RELIEVO_TRY_ASSIGN(consent_, read_consent(store_folder(args.store) / "consent"));
   for (std::size_t i = 0; i < ui::kLanguages; ++i) languages_[i] = !consent_ || consent_->in[i].has_value();
-  tells_known_ = args.tells_known;
+  may_tell_known_ = args.tells_known;
+  folder_ = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
   restarted_ = run_mark_->ended_early();
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
@@ -107,6 +109,7 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
 
 // On the keeper, while the main thread only draws.
 Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& model) {
+  RELIEVO_TRY(disk_has_room(folder_, consented_.least_room_mib));
   Report report{"store revision " + std::to_string(revision_), stages_->pipeline().algorithms().to_text(), appliance_->records(), {}, peak_rss_bytes(),
                 model.quality, appliance_->drift(), {}, model.landmarks, model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
@@ -156,7 +159,10 @@ void Kiosk::look() {
   view_.wall_now = board_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
   view_.languages = languages_;
-  while (!languages_[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>(static_cast<int>(view_.home) + 1);
+  view_.settings = desk_->settings();
+  appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
+  view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
+  while (!languages_[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.consent = consent_ ? &*consent_ : nullptr;
   view_.known = found_.load(std::memory_order_acquire);
   view_.out_of_order = out_of_order();
@@ -165,20 +171,29 @@ void Kiosk::look() {
 }
 
 void Kiosk::feed(const ui::Input& input) {
-  ui_->feed(input, view_);
+  const float w = static_cast<float>(ui_->width_px()), h = static_cast<float>(ui_->height_px());
+  const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move || input.kind == ui::Input::Kind::Up) && input.finger != ui::kMouse;
+  if (finger && desk_->touch().takes_fingers()) {
+    const ui::Node* cross = ui_->tree().find("cross");
+    if (input.kind != ui::Input::Kind::Down || cross == nullptr) return;
+    desk_->touched();
+    return desk_->touch().touched({input.x / w, input.y / h}, {(cross->rect.x + cross->rect.w / 2) / w, (cross->rect.y + cross->rect.h / 2) / h});
+  }
+  ui_->feed(finger ? desk_->touch().placed(input, ui_->width_px(), ui_->height_px()) : input, view_);
   if (ui_->service().open) desk_->touched();
 }
 
 void Kiosk::ask(ui::Intent intent) {
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
-    consented_ = {consent_ ? consent_->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand};
+    consented_ = {consent_ ? consent_->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand, view_.settings.of(ui::Setting::LeastRoomMib)};
     appliance_->set_subject(wish.errand == ui::Errand::New ? wish.name : std::string_view(claimed_));
   }
   if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
     const ui::Wish wish = ui_->wish();
     (wish.quotes_code ? quoted_ : claimed_) = wish.name;
     if (!wish.quotes_code) wipe(quoted_);
+    tells_known_ = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
     found_.store(ui::Known::Asking);
   }
   appliance_->ask(intent);

@@ -51,6 +51,7 @@ class Kiosk {
     std::string wording, language;
     std::chrono::system_clock::time_point at;
     ui::Errand errand = ui::Errand::New;
+    std::int32_t least_room_mib = 0;
   };
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
@@ -81,7 +82,8 @@ class Kiosk {
   std::string claimed_, quoted_;
   storage::SubjectId record_{};
   std::atomic<ui::Known> found_{ui::Known::NotAsked};
-  bool tells_known_ = true, forgets_asked_ = false;
+  bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;
+  Path folder_;                 // of the store
   std::unique_ptr<RunMark> run_mark_;
   bool restarted_ = false, told_ = false;
   storage::WallTime newest_record_{};

@@ -5,6 +5,8 @@
 #include <array>
 #include <deque>
 
+#include "ui/device/settings.h"
+#include "ui/device/touch_view.h"
 #include "ui/records_view.h"
 #include "ui/staff_views.h"
 
@@ -47,6 +49,12 @@ constexpr std::array<std::string_view, 4> kLines{"2026-03-14 10:21:09  fault: th
                                                  "2026-03-14 10:20:20  a wrong PIN was typed", "2026-03-14 07:58:02  started"};
 constexpr ui::LogView kLog{kLines};
 
+ui::Settings kept_for_a_year() {
+  ui::Settings settings;
+  settings.set(ui::Setting::KeepDays, 365);
+  return settings;
+}
+
 ServiceView at(StaffRole role) {
   ServiceView view;
   view.role = role;
@@ -60,6 +68,16 @@ struct Shown {
   int mode;
   ServiceView view;
 };
+
+void add_touch(std::deque<Shown>& all) {
+  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false}, kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
+      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false}, kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true, false, 0, 0, false};
+  ServiceView touch = at(StaffRole::Technician);
+  for (const auto& [name, view] : {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest}, std::pair{"staff_touch_kept", &kKept}, std::pair{"staff_touch_misfit", &kMisfit}}) {
+    touch.touch = view;
+    all.push_back({name, StaffPage::Touch, 0, touch});
+  }
+}
 
 std::deque<Shown> make_shown() {
   std::deque<Shown> all;
@@ -111,6 +129,15 @@ std::deque<Shown> make_shown() {
   tests.trigger = &kMissed;
   all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
   all.push_back({"staff_log", StaffPage::Log, 0, tests});
+  ServiceView settings = at(StaffRole::Technician);
+  static const ui::SettingsView kUsual{}, kJumped{kept_for_a_year(), true};
+  settings.settings = &kUsual;
+  all.push_back({"staff_settings", StaffPage::Settings, 0, settings});
+  settings.role = StaffRole::Operator;
+  settings.settings = &kJumped;
+  settings.work.outcome = ui::Outcome::Done;
+  all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
+  add_touch(all);
   ServiceView pins = at(StaffRole::Operator);
   pins.access.step = ui::PinStep::Own;
   all.push_back({"staff_new_pin", StaffPage::Pins, 0, pins});

@@ -49,7 +49,9 @@ ui::Outcome outcome_of(const Error& error) {
 
 Desk::Desk(Parts parts)
     : parts_(std::move(parts)), log_(parts_.board.clock(), parts_.folder / kLogFile), errands_(parts_.appliance),
-      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, parts_.folder},
+      settings_(parts_.store, errands_, log_, parts_.board.clock()), retention_(parts_.store, errands_, log_, parts_.board.clock()),
+      touch_(parts_.store, errands_, log_, parts_.board.clock()),
+      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, parts_.folder},
       door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, parts_.board.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });
@@ -58,11 +60,14 @@ Desk::Desk(Parts parts)
 Desk::~Desk() {
   parts_.appliance.on_change({});
   close_page();
+  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper}) parts_.appliance.end_side_job(place);  // it uses what is below
 }
 
 Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
   std::unique_ptr<Desk> desk(new Desk(std::move(parts)));
   RELIEVO_TRY(desk->door_.look());
+  RELIEVO_TRY(desk->settings_.look());
+  RELIEVO_TRY(desk->touch_.look());
   const Result<std::string> kept = desk->parts_.store.setting(kStatisticsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !desk->statistics_.read(*kept))
@@ -116,7 +121,7 @@ void Desk::let_in() {
   if (waiting_ == StaffRole::None) return;
   parts_.appliance.ask(ui::Intent::OpenTechnician);
   if (parts_.appliance.state() != State::Technician) return;
-  role_ = std::exchange(waiting_, StaffRole::None);
+  role_ = tools_.role = std::exchange(waiting_, StaffRole::None);
   touched();
 }
 
@@ -129,12 +134,13 @@ void Desk::leave() {
 }
 
 int Desk::seconds_left() const {
-  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + tools_.staff_patience - parts_.board.clock().now());
+  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) - parts_.board.clock().now());
   return static_cast<int>(std::max<std::int64_t>(0, left.count()));
 }
 
 void Desk::turn() {
   errands_.turn();
+  touch_.turn();
   let_in();
   const State state = parts_.appliance.state();
   // A long export or calibration is somebody's, even if nobody touches the screen.
@@ -144,11 +150,12 @@ void Desk::turn() {
     close_page();
     errands_.cancel();
     door_.forget();
-    role_ = StaffRole::None;
+    role_ = tools_.role = StaffRole::None;
     log_.say("signed out");
   }
   if (bench_ != nullptr) bench_->turn();
   if (state == State::Idle || state == State::Technician) save_what_changed();
+  if (state == State::Idle) retention_.turn(settings());
 }
 
 void Desk::save_what_changed() {
@@ -162,7 +169,7 @@ void Desk::save_what_changed() {
         RELIEVO_TRY(log_.save());
         return text.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, text);
       },
-      [](const std::optional<Error>&) {});  // a full disk must not fill the log with its own complaint
+      [](const std::optional<Error>&) {}, Errands::Whose::Device);  // a full disk must not fill the log with its own complaint
 }
 
 const ui::ServiceView& Desk::view() {

@@ -16,6 +16,9 @@
 
 #include "firmware/bench/bench.h"
 #include "firmware/service/desk_page.h"
+#include "firmware/service/device/device_settings.h"
+#include "firmware/service/device/retention.h"
+#include "firmware/service/device/touch_trial.h"
 #include "firmware/service/door.h"
 #include "firmware/service/statistics.h"
 
@@ -48,7 +51,10 @@ class Desk {
   const ui::ServiceView& view();
 
   EventLog& log() { return log_; }
+  const EventLog& log() const { return log_; }
   const Statistics& statistics() const { return statistics_; }
+  const ui::Settings& settings() const { return settings_.now(); }
+  TouchTrial& touch() { return touch_; }
 
  private:
   explicit Desk(Parts parts);
@@ -64,6 +70,9 @@ class Desk {
   EventLog log_;
   Errands errands_;
   Statistics statistics_;
+  DeviceSettings settings_;
+  RetentionWatch retention_;
+  TouchTrial touch_;
   DeskTools tools_;
   Door door_;
   std::uint64_t saved_statistics_ = 0;

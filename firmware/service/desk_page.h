@@ -14,6 +14,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "firmware/service/device/device_settings.h"
+#include "firmware/service/device/retention.h"
+#include "firmware/service/device/touch_trial.h"
 #include "firmware/service/errands.h"
 #include "firmware/service/event_log.h"
 #include "firmware/service/statistics.h"
@@ -32,8 +35,11 @@ struct DeskTools {
   Errands& errands;
   EventLog& log;
   Statistics& statistics;
+  DeviceSettings& settings;
+  RetentionWatch& retention;
+  TouchTrial& touch;
   std::filesystem::path folder;   // of the store
-  std::chrono::seconds staff_patience{120};  // without a touch, until somebody is signed out
+  ui::StaffRole role = ui::StaffRole::None;   // of who is signed in
 };
 
 class DeskPage {

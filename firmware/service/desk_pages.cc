@@ -4,8 +4,10 @@
 
 #include "firmware/service/page/health_desk.h"
 #include "firmware/service/page/records_desk.h"
+#include "firmware/service/page/settings_desk.h"
 #include "firmware/service/page/statistics_desk.h"
 #include "firmware/service/page/test_desks.h"
+#include "firmware/service/page/touch_desk.h"
 #include "ui/screens/service/staff_screens.h"
 
 namespace relievo::firmware {
@@ -18,6 +20,8 @@ void fill_desk_pages(DeskTools& tools, std::span<std::unique_ptr<DeskPage>> page
   at(ui::StaffPage::Trigger) = std::make_unique<TriggerDesk>(tools);
   at(ui::StaffPage::Log) = std::make_unique<LogDesk>(tools);
   at(ui::StaffPage::Health) = std::make_unique<HealthDesk>(tools);
+  at(ui::StaffPage::Touch) = std::make_unique<TouchDesk>(tools);
+  at(ui::StaffPage::Settings) = std::make_unique<SettingsDesk>(tools);
 }
 
 // One table says who may open what: the menu's.

@@ -88,7 +88,8 @@ void Door::check(std::string_view pin) {
         entered_ = error ? StaffRole::None : tried->attempt.role;
         if (tried->attempt.wrong) log_.say("a wrong PIN was typed");
         if (entered_ != StaffRole::None) log_.say(std::string(word_of(entered_)) + " signed in");
-      });
+      },
+      Errands::Whose::Device);
 }
 
 // The first time a PIN is judged, the second time it is compared.
@@ -136,7 +137,8 @@ void Door::judge(std::string pin, StaffRole role, PinStep next) {
         }
         first_ = std::move(*kept);
         step_ = next;
-      });
+      },
+      Errands::Whose::Device);
 }
 
 void Door::refuse(const Error& error, PinStep again) {
@@ -162,7 +164,8 @@ void Door::save_first(std::string technician, std::string clerk) {
         set_up_ = true;
         step_ = PinStep::Done;
         log_.say("both PINs were chosen");
-      });
+      },
+      Errands::Whose::Device);
 }
 
 void Door::save_own(std::string pin, StaffRole role) {
@@ -180,7 +183,8 @@ void Door::save_own(std::string pin, StaffRole role) {
         if (error) return refuse(*error, PinStep::Own);
         step_ = PinStep::Done;
         log_.say(std::string(word_of(role)) + " changed their PIN");
-      });
+      },
+      Errands::Whose::Device);
 }
 
 void Door::show(ui::AccessView& view) const {

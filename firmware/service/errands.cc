@@ -15,10 +15,11 @@ Errands::~Errands() {
   appliance_.on_side_report({});
 }
 
-void Errands::send(JobPlace place, Work work, Done done) {
+void Errands::send(JobPlace place, Work work, Done done, Whose whose) {
   auto errand = std::make_unique<Errand>();
   errand->work = std::move(work);
   errand->done = std::move(done);
+  errand->whose = whose;
   lanes_[static_cast<std::size_t>(place)].waiting.push_back(std::move(errand));
   turn();
 }
@@ -35,8 +36,8 @@ void Errands::turn() {
 
 void Errands::cancel() {
   for (std::size_t i = 0; i < kJobPlaces; ++i) {
-    lanes_[i].waiting.clear();
-    if (lanes_[i].running == nullptr) continue;
+    std::erase_if(lanes_[i].waiting, [](const auto& errand) { return errand->whose == Whose::Page; });
+    if (lanes_[i].running == nullptr || lanes_[i].running->whose == Whose::Device) continue;
     lanes_[i].running->forgotten = true;
     appliance_.cancel_side_job(static_cast<JobPlace>(i));
   }

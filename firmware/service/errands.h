@@ -7,8 +7,8 @@
 //   send(thread, work, done) --> work() on that thread --> done(error or nothing) on main
 //
 // Work looks at its JobControl; what it writes to must live as long as it runs: keep it in a
-// shared_ptr that both closures hold. cancel() drops what waits and asks what runs to end: its done()
-// is not called any more.
+// shared_ptr that both closures hold. cancel() drops what waits of a page and asks what runs to end: its
+// done() is not called any more. What belongs to the device (a PIN, a setting) ends, and is heard.
 // Thread: main. Errors: those of the work.
 #pragma once
 
@@ -27,12 +27,14 @@ class Errands {
   using Work = std::function<Result<void>(JobControl&)>;
   using Done = std::function<void(const std::optional<Error>&)>;
 
+  enum class Whose : std::uint8_t { Page, Device };
+
   explicit Errands(Appliance& appliance);
   ~Errands();
   Errands(const Errands&) = delete;
   Errands& operator=(const Errands&) = delete;
 
-  void send(JobPlace place, Work work, Done done);
+  void send(JobPlace place, Work work, Done done, Whose whose = Whose::Page);
   // Starts what waits and can start: once every turn.
   void turn();
   // Asks what runs on that thread to end early; its done() hears Cancelled, or that it was done already.
@@ -45,6 +47,7 @@ class Errands {
   struct Errand final : Job {
     Work work;
     Done done;
+    Whose whose = Whose::Page;
     bool forgotten = false;
     Result<void> run(JobControl& control) override { return work(control); }
   };

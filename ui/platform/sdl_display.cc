@@ -9,8 +9,6 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::int64_t kMouse = -1;
-
 class SdlDisplay final : public Display {
  public:
   ~SdlDisplay() override {

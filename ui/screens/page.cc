@@ -86,9 +86,9 @@ void Page::sign(const char* letter, float size, Colour colour) {
   tree.leaf(node);
 }
 
-void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow) {
+void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow, const ButtonSize& lengths) {
   const bool main = look == ButtonLook::Main;
-  Node node = box(Flow::Row, 14, text_share > 1.3F ? 14 : 26, 12);
+  Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x, lengths.pad_y);
   node.id = id;
   node.name = label;
   node.role = Role::Button;
@@ -96,17 +96,17 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   node.box.along = Along::Centre;
   node.box.across = Across::Centre;
   node.box.grow = grow;
-  node.box.min_height = px(main ? size::kBigTarget : size::kTarget);
-  node.box.min_width = px(size::kTarget);
-  node.box.radius = px(size::kRadius);
+  node.box.min_height = px(lengths.height);
+  node.box.min_width = px(lengths.width);
+  node.box.radius = px(lengths.radius);
   node.box.fill = main ? palette.accent : look == ButtonLook::Quiet ? palette.quiet : kNone;
   node.box.border = main ? kNone : palette.quiet_border;
   node.box.border_px = main ? 0 : std::max(1.5F, px(2));
-  node.box.shadow = main;
+  node.box.shadow = main && lengths.shadow;
   const Colour ink = main ? palette.accent_ink : palette.link;
   tree.open(node);
-  if (letter != nullptr) sign(letter, main ? 34 : 30, ink);
-  if (!label.empty()) tree.leaf(text(label, main ? type::kButton : type::kBody, Weight::Medium, ink, TextAlign::Centre));
+  if (letter != nullptr) sign(letter, lengths.sign, ink);
+  if (!label.empty()) tree.leaf(text(label, lengths.text, Weight::Medium, ink, TextAlign::Centre));
   tree.close();
 }
 

@@ -28,6 +28,18 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
 
 enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
 
+// Lengths of a button, in dp; of the letters, as they are at 100 %.
+struct ButtonSize {
+  float height, width;   // at least
+  float pad_x, pad_y, gap, radius;
+  float sign, text;
+  bool shadow = false;
+};
+namespace size {
+inline constexpr ButtonSize kMainButton{kBigTarget, kTarget, 26, 12, 14, kRadius, 34, type::kButton, true};
+inline constexpr ButtonSize kOtherButton{kTarget, kTarget, 26, 12, 14, kRadius, 30, type::kBody};
+}  // namespace size
+
 class Page {
  public:
   Page(Tree& tree, const ViewState& view, const Visit& visit, const Palette& palette, const Rect& screen);
@@ -58,7 +70,9 @@ class Page {
   const char* onward() const { return mirrored() ? icon::kBack : icon::kNext; }
   const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }
 
-  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0);
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
+    button(id, label, letter, look, action, grow, look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
+  }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value);
@@ -66,6 +80,9 @@ class Page {
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);
   void end() { tree.close(); }
+
+ protected:
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow, const ButtonSize& lengths);
 
  private:
   void bar(bool with_back);

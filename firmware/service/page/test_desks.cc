@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "firmware/command/reconstruct/report.h"
+#include "firmware/service/device/disk_room.h"
 
 namespace relievo::firmware {
 namespace {
@@ -15,16 +16,7 @@ namespace {
 using ui::Check;
 using ui::CheckState;
 
-constexpr std::uintmax_t kLeastRoom = 512U << 20;  // for a few dozen portraits
 constexpr std::chrono::milliseconds kBetweenPulses{100};
-
-Result<void> disk_has_room(const std::filesystem::path& folder) {
-  std::error_code none;
-  const auto room = std::filesystem::space(folder, none);
-  if (none) return Error{Errc::IoFailed, "the disk does not tell how much room it has"};
-  if (room.available < kLeastRoom) return Error{Errc::MediaFull, "less than half a gigabyte is left on the disk: make room"};
-  return {};
-}
 
 // One pair, looked at by nobody and wiped.
 Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
@@ -70,7 +62,7 @@ void SelfTestDesk::ask(const ui::StaffWish& wish) {
     RELIEVO_TRY(t.store.active_calibration());
     return {};
   });
-  begin(Check::Disk, JobPlace::Keeper, [&t](JobControl&) { return disk_has_room(t.folder); });
+  begin(Check::Disk, JobPlace::Keeper, [&t, least = t.settings.now().of(ui::Setting::LeastRoomMib)](JobControl&) { return disk_has_room(t.folder, least); });
   begin(Check::Cameras, JobPlace::Capture, [&t](JobControl& control) -> Result<void> {
     RELIEVO_TRY(one_pair(t, control));
     return {};

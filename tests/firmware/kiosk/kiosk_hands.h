@@ -28,8 +28,8 @@ class KioskHands : public testing::Test {
     const ui::Node* node = find(id);
     ASSERT_NE(node, nullptr) << id << " is not on the screen";
     const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
-    kiosk->feed({ui::Input::Kind::Down, 7, x, y});
-    kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+    kiosk->feed({ui::Input::Kind::Down, finger, x, y});
+    kiosk->feed({ui::Input::Kind::Up, finger, x, y});
     kiosk->turn();
   }
   // Minutes are "never".
@@ -61,6 +61,7 @@ class KioskHands : public testing::Test {
     }
   }
 
+  std::int64_t finger = 7;   // ui::kMouse: a mouse
   std::unique_ptr<Kiosk> kiosk;
 };
 

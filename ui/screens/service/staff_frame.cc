@@ -76,84 +76,6 @@ void StaffFrame::begin(const char* title, const char* letter) {
   }
 }
 
-void StaffFrame::begin_list(std::string_view id) {
-  Node list = grown(box(Flow::Column, 0, space::kM, 8));
-  list.id = id;
-  list.box.scroll = true;
-  list.box.fill = palette.card;
-  list.box.border = palette.card_border;
-  list.box.border_px = px(1.5F);
-  list.box.radius = px(size::kRadius);
-  tree.open(list);
-}
-
-void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
-  Node row = box(Flow::Row, space::kS, 0, 6);
-  row.id = id;
-  row.box.across = Across::Centre;
-  row.box.min_height = px(action.kind == ActionKind::None ? 44 : size::kStaffTarget);
-  if (action.kind != ActionKind::None) {
-    row.role = Role::Button;
-    row.name = label;
-    row.action = action;
-  }
-  tree.open(row);
-  tree.open(grown(box(Flow::Column), value.empty() ? 1 : 1.2F));
-  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
-  tree.close();
-  if (!value.empty()) {
-    Node end = grown(box(Flow::Row, space::kXs));
-    end.box.along = Along::End;
-    end.box.across = Across::Centre;
-    tree.open(end);
-    if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
-    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
-    tree.close();
-  }
-  if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
-  tree.close();
-  Node rule = box(Flow::Column);
-  rule.box.height = std::max(1.0F, px(1));
-  rule.box.fill = palette.card_border;
-  tree.leaf(rule);
-}
-
-void StaffFrame::section(std::string_view words) {
-  tree.leaf(sized(box(Flow::Column), 1, 14));
-  Node name = text(words, type::kSmall, Weight::Bold, palette.link);
-  name.role = Role::Heading;
-  tree.leaf(name);
-}
-
-void StaffFrame::line(std::string_view words, Mood mood) {
-  Node said = text(words, 18, Weight::Regular, ink_of(mood));
-  said.box.pad_y = px(4);
-  tree.leaf(said);
-}
-
-void StaffFrame::small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow) {
-  const bool main = look == ButtonLook::Main;
-  Node node = box(Flow::Row, 10, text_share > 1.3F ? 12 : 20, 8);
-  node.id = id;
-  node.name = label;
-  node.role = Role::Button;
-  node.action = action;
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
-  node.box.grow = grow;
-  node.box.min_height = px(size::kStaffTarget);
-  node.box.min_width = px(size::kStaffTarget);
-  node.box.radius = px(18);
-  node.box.fill = main ? palette.accent : palette.quiet;
-  node.box.border = main ? kNone : palette.quiet_border;
-  node.box.border_px = main ? 0 : std::max(1.5F, px(2));
-  const Colour ink = main ? palette.accent_ink : palette.link;
-  tree.open(node);
-  if (letter != nullptr) sign(letter, 26 / (text_share > 1.3F ? 1.2F : 1.0F), ink);
-  if (!label.empty()) tree.leaf(text(label, type::kSmall, Weight::Medium, ink, TextAlign::Centre));
-  tree.close();
-}
-
 void StaffFrame::progress(std::string_view id, float share) {
   const float done = std::clamp(share, 0.0F, 1.0F);
   Node track = box(Flow::Row);
@@ -188,13 +110,17 @@ void StaffFrame::outcome() {
     case Outcome::Refused: words = tr("This cannot be accepted."); break;
     case Outcome::Failed: words = tr("It could not be done. The log says why."); break;
   }
+  status("outcome", words, mood);
+}
+
+void StaffFrame::status(std::string_view id, const char* words, Mood mood) {
   Node row = box(Flow::Row, space::kS, 0, 4);
-  row.id = "outcome";
+  row.id = id;
   row.role = Role::Status;
   row.name = words;
   row.box.across = Across::Centre;
   tree.open(row);
-  sign(sign_of(mood), 28, ink_of(mood));
+  if (const char* letter = sign_of(mood)) sign(letter, 28, ink_of(mood));
   tree.open(grown(box(Flow::Column)));
   tree.leaf(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
   tree.close();

@@ -15,6 +15,7 @@ namespace relievo::ui {
 
 namespace size {
 inline constexpr float kStaffTarget = 60;
+inline constexpr ButtonSize kStaffButton{kStaffTarget, kStaffTarget, 20, 8, 10, 18, 26, type::kSmall};
 }  // namespace size
 
 class StaffFrame : public Page {
@@ -33,12 +34,19 @@ class StaffFrame : public Page {
   void begin_list(std::string_view id);
   // Label at the start, value at the end; with an action it can be touched.
   void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain, Action action = {});
+  // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
+  void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more);
   // A heading between rows.
   void section(std::string_view words);
   // A line over the whole width, as a log has them: left to right in every language.
   void line(std::string_view words, Mood mood = Mood::Plain);
-  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0);
+  // As high as a member of staff needs it.
+  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
+    button(id, label, letter, look, action, grow, size::kStaffButton);
+  }
   void progress(std::string_view id, float share);
+  // One sentence with the sign of its mood.
+  void status(std::string_view id, const char* words, Mood mood);
   // How the page's work ended, with a sign; nothing where nothing has.
   void outcome();
   // A big question in place of the page: two answers.
@@ -52,6 +60,8 @@ class StaffFrame : public Page {
 
  private:
   void digit(const char* letter);
+  void rule();
+  void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action);
 };
 
 }  // namespace relievo::ui

@@ -39,6 +39,8 @@ void self_test_page(StaffFrame& page);
 void trigger_page(StaffFrame& page);
 void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
+void settings_page(StaffFrame& page);
+void touch_page(StaffFrame& page);
 void pins_page(StaffFrame& page);
 
 }  // namespace relievo::ui

@@ -96,7 +96,7 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
   ring.box.fill = good ? page.palette.good : Colour{255, 255, 255, 255};
   ring.box.along = Along::Centre;
   ring.box.across = Across::Centre;
-  ring.share = countdown ? 1 - *countdown / kCountdown : 1.0F;
+  ring.share = countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F;
   page.tree.leaf(ring);
   page.tree.close();
 }
@@ -123,7 +123,7 @@ void advice(Page& page, const Said& what, std::optional<float> countdown) {
   Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
   page.tree.leaf(text);
   if (countdown) {
-    const char digit[] = {static_cast<char>('1' + std::clamp(static_cast<int>(*countdown / kCountdown * 3), 0, 2)), 0};
+    const char digit[] = {static_cast<char>('1' + std::clamp(static_cast<int>(*countdown / page.visit.countdown_s() * 3), 0, 2)), 0};
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good, TextAlign::Centre);
     number.id = "countdown";
     page.tree.leaf(number);

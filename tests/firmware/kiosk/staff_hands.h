@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// StaffHands: a kiosk whose staff's side a test walks through by synthetic fingers. Its cameras give two grey pictures, its
+// stick is a folder, its store a real one.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "firmware/kiosk/receipt.h"
+#include "hal/monotonic_clock.h"
+#include "hal/picture_file.h"
+#include "hal/sim/board.h"
+#include "hal/sim/replay/manual_clock.h"
+#include "hal/sim/replay/replay_board.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+
+using ui::StaffPage;
+using ui::StaffRole;
+
+inline hal::sim::RigOptions tiny_rig() {
+  hal::sim::RigOptions rig;
+  rig.width_px /= 8;
+  rig.height_px /= 8;
+  return rig;
+}
+
+// Another board with what a test changes: people stand before its cameras, its time moves by hand, its stick has faults.
+class ChangedBoard final : public hal::Board {
+ public:
+  struct Changes {
+    bool live = false;
+    hal::Clock* clock = nullptr;            // none: the board's own
+    hal::RemovableMedia* media = nullptr;
+  };
+  ChangedBoard(std::unique_ptr<hal::Board> board, const Changes& changes) : board_(std::move(board)), changes_(changes) {}
+  std::string_view name() const override { return board_->name(); }
+  hal::CaptureMode preferred_mode() const override { return board_->preferred_mode(); }
+  hal::Camera& left() override { return board_->left(); }
+  hal::Camera& right() override { return board_->right(); }
+  hal::TriggerLine& trigger() override { return board_->trigger(); }
+  hal::RemovableMedia& media() override { return changes_.media != nullptr ? *changes_.media : board_->media(); }
+  hal::Clock& clock() override { return changes_.clock != nullptr ? *changes_.clock : board_->clock(); }
+  hal::Watchdog& watchdog() override { return board_->watchdog(); }
+  bool is_live() const override { return changes_.live; }
+  bool exposes_together() const override { return board_->exposes_together(); }
+
+ private:
+  std::unique_ptr<hal::Board> board_;
+  Changes changes_;
+};
+
+class StaffHands : public KioskHands {
+ protected:
+  StaffHands() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    std::filesystem::create_directories(stick());
+    args.store = folder.path() / "store";
+    args.board = "sim";  // its calibration
+    // Two empty pictures and a folder that is the stick: nobody is photographed here.
+    hal::Picture grey;
+    grey.width_px = tiny_rig().width_px;
+    grey.height_px = tiny_rig().height_px;
+    grey.bytes.assign(std::size_t{3} * static_cast<std::size_t>(grey.width_px) * static_cast<std::size_t>(grey.height_px), std::byte{90});
+    std::filesystem::create_directories(folder.path() / "pairs");
+    for (const char* name : {"left_000000.png", "right_000000.png"}) EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
+    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
+      RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
+      media = &dynamic_cast<hal::ReplayBoard&>(*board).folder_media();
+      media->plug(stick());
+      return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+    };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, wall(), {}); };
+    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
+      const Path file = folder.path() / "rig.yml";
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(tiny_rig())));
+      return pipeline::read_calibration(file);
+    };
+  }
+  Path stick() const { return folder.path() / "stick"; }
+  void start() {
+    auto opened = Kiosk::open(args, services);
+    ASSERT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+    ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Attract; }));
+  }
+
+  void enrol(const char* name) {
+    auto store = storage::open_sqlite_store(args.store, wall(), {});
+    ASSERT_TRUE(store.has_value());
+    const pipeline::FaceModel model = storage::test::sample_model();
+    ASSERT_TRUE((*store)->add_enrolment(storage::NewSubject{name}, {model, {"sample-1", "en", {}}, 0, "", ""}).has_value());
+  }
+  const hal::Clock& wall() const {
+    if (changes.clock != nullptr) return *changes.clock;
+    return clock;
+  }
+  static std::string code_of(std::int64_t number) { return receipt_of(storage::SubjectId{number}); }
+  static std::string text_of_file(const Path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  // By the keypad, which needs not hold: on until the door has the focus.
+  void knock() {
+    ASSERT_NE(find("staff"), nullptr);
+    std::string_view at;
+    do {
+      kiosk->feed({ui::Input::Kind::Next});
+      at = kiosk->ui().tree().after(at, 1)->id;
+    } while (at != "staff");
+    kiosk->feed({ui::Input::Kind::Activate});
+    kiosk->turn();
+    ASSERT_TRUE(kiosk->ui().service().open);
+  }
+  void type_pin(std::string_view pin) {
+    for (const char digit : pin) tap("digit " + std::string(1, digit));
+    tap("pin done");
+    ASSERT_TRUE(until([this] { return !kiosk->view().service->access.checking; }));
+  }
+  void first_start() {
+    knock();
+    ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
+    tap("go on");
+    tap("clock right");
+    for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
+    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+  }
+  void sign_in(const char* pin, StaffRole role) {
+    if (!kiosk->ui().service().open) knock();
+    type_pin(pin);
+    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Menu; }));
+    EXPECT_EQ(kiosk->view().service->role, role);
+    EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  }
+  // Rests on it until it is done. Time must move by hand (changes.clock).
+  void hold(std::string_view id, hal::ManualClock& time) {
+    const ui::Node* node = find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    kiosk->feed({ui::Input::Kind::Down, 7, node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2});
+    kiosk->turn();
+    time.advance(ui::kHold + std::chrono::milliseconds(1));
+    kiosk->turn();
+  }
+  void sign_out() {
+    tap("sign out");
+    ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
+    EXPECT_FALSE(kiosk->ui().service().open);
+    EXPECT_EQ(kiosk->view().service->role, StaffRole::None);
+    EXPECT_TRUE(kiosk->take_forgotten());
+  }
+
+  ChangedBoard::Changes changes;   // before start()
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  KioskArgs args;
+  hal::FolderMedia* media = nullptr;
+};
+
+}  // namespace relievo::firmware

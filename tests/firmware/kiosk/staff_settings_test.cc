@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The staff's settings through their page: in force at once, kept over a restart, checked, each by who may.
+#include "firmware/service/device/device_settings.h"
+#include "firmware/service/device/retention.h"
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "ui/staff_views.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::Setting;
+
+class StaffSettingsTest : public StaffHands {
+ protected:
+  StaffSettingsTest() { changes.clock = &time; }
+  void choose(const std::string& button, Setting setting, std::int32_t value) {
+    tap(button);
+    ASSERT_TRUE(until([&] { return kiosk->desk().settings().of(setting) == value; })) << button;
+    EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::Done);
+  }
+  void store_setting(const char* key, const std::string& value) {
+    auto store = storage::open_sqlite_store(args.store, time, {});
+    ASSERT_TRUE(store.has_value());
+    ASSERT_TRUE((*store)->set_setting(key, value).has_value());
+  }
+  bool logged(std::string_view words) const {
+    for (const std::string& line : kiosk->desk().log().lines()) {
+      if (line.find(words) != std::string::npos) return true;
+    }
+    return false;
+  }
+  std::size_t records() {
+    auto store = storage::open_sqlite_store(args.store, time, {});
+    return store ? (*store)->subjects({})->size() : 0;
+  }
+  hal::ManualClock time;
+};
+
+TEST_F(StaffSettingsTest, WhatIsChosenHoldsAtOnceAndOverARestart) {
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open settings");
+  EXPECT_EQ(find("keep_days more"), nullptr) << "the operator's";
+  choose("language more", Setting::Language, static_cast<int>(ui::Language::German));
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German) << "nobody's visit has begun";
+  choose("text_percent more", Setting::TextPercent, 125);
+  choose("patience_s less", Setting::PatienceS, 30);
+  choose("staff_patience_s less", Setting::StaffPatienceS, 60);
+  choose("automatic_shot less", Setting::Automatic, 0);
+  EXPECT_EQ(find("automatic_shot less")->action.kind, ui::ActionKind::None) << "there is nothing before off";
+  // Signed out after the time that was chosen, not the usual one.
+  time.advance(std::chrono::seconds(61));
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+  kiosk.reset();
+
+  start();
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German);
+  EXPECT_EQ(kiosk->ui().visit().text_percent(), 125);
+  ui::LiveView good;
+  good.advice = pipeline::Advice::None;
+  good.steady_s = 9;
+  EXPECT_FALSE(kiosk->ui().visit().countdown(good).has_value()) << "no picture is taken by itself";
+  // A visitor who is gone is asked after 30 s.
+  tap("start");
+  time.advance(std::chrono::seconds(31));
+  kiosk->turn();
+  EXPECT_EQ(kiosk->ui().visit().overlay, ui::Overlay::StillThere);
+}
+
+TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
+  store_setting(kDeviceSetting, "patience_s 1\nattempts 2\nnonsense\n");
+  start();
+  EXPECT_EQ(kiosk->desk().settings().of(Setting::PatienceS), 45);
+  EXPECT_EQ(kiosk->desk().settings().of(Setting::Attempts), 2);
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open log");
+  int told = 0;
+  for (const std::string_view line : kiosk->view().service->log->lines) told += line.find("what is usual holds") != std::string_view::npos ? 1 : 0;
+  EXPECT_EQ(told, 2);
+}
+
+// Erased by age: not while somebody is inside, not after the clock has jumped.
+TEST_F(StaffSettingsTest, RecordsAreErasedWhenTheirTimeIsOver) {
+  enrol("Ada Lovelace");   // her consent bears the date 1970
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open settings");
+  EXPECT_EQ(find("attempts more"), nullptr) << "the technician's";
+  choose("keep_days more", Setting::KeepDays, 1825);
+  time.advance(std::chrono::hours(24) * 90);
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+  until([this] { return logged("far ahead"); });
+  kiosk.reset();
+  EXPECT_EQ(records(), 1U) << "ninety days at once are no clock to erase by";
+
+  start();
+  until([this] { return logged("far ahead"); });
+  sign_in("80526", StaffRole::Operator);
+  tap("open settings");
+  EXPECT_TRUE(kiosk->view().service->settings->clock_jumped);
+  choose("keep_days more", Setting::KeepDays, 1095);
+  EXPECT_FALSE(logged("for its age"));
+  sign_out();
+  ASSERT_TRUE(until([this] { return logged("for its age"); }));
+  kiosk.reset();
+  EXPECT_EQ(records(), 0U);
+}
+
+}  // namespace
+}  // namespace relievo::firmware

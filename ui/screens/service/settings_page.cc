@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the staff may choose about the device, a row each: less, the value, more.
+#include "ui/device/settings.h"
+
+#include <cstdio>
+
+#include "ui/screens/service/staff_screens.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr const char *kLess = "\uf374", *kMore = "\uf415";
+
+const char* name_of(const Words& tr, Setting setting) {
+  switch (setting) {
+    case Setting::Language: return tr("Language in which a visit begins");
+    case Setting::TextPercent: return tr("Size of the text");
+    case Setting::Contrast: return tr("High contrast");
+    case Setting::PatienceS: return tr("Visitors are asked whether they are there after");
+    case Setting::Automatic: return tr("The picture is taken by itself");
+    case Setting::CountdownMs: return tr("Countdown before it");
+    case Setting::Attempts: return tr("Tries, if a picture is refused");
+    case Setting::StaffPatienceS: return tr("Staff are signed out after");
+    case Setting::TellsKnown: return tr("Visitors are told that their name is in the records already");
+    case Setting::KeepDays: return tr("Records are erased by themselves after");
+    case Setting::LeastRoomMib: return tr("Room on the disk that stays free");
+    case Setting::Count: break;
+  }
+  return "";
+}
+
+std::string_view days(StaffFrame& page, std::int32_t value) {
+  if (value == 0) return page.tr("never");
+  char text[16];
+  std::snprintf(text, sizeof text, "%d", value);
+  return page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(value)), text);
+}
+
+std::string_view value_of(StaffFrame& page, const Settings& settings, Setting setting) {
+  const std::int32_t value = settings.of(setting);
+  switch (setting) {
+    case Setting::Language: return info_of(static_cast<Language>(value)).own_name;
+    case Setting::Contrast:
+    case Setting::Automatic:
+    case Setting::TellsKnown: return value != 0 ? page.tr("on") : page.tr("off");
+    case Setting::TextPercent: return page.number(value, 0, "%");
+    case Setting::PatienceS:
+    case Setting::StaffPatienceS: return page.number(value, 0, "s");
+    case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
+    case Setting::KeepDays: return days(page, value);
+    case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
+    case Setting::Attempts:
+    case Setting::Count: break;
+  }
+  return page.number(value);
+}
+
+void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
+  const SettingInfo& info = info_of(setting);
+  const auto ask = [&](std::uint8_t verb) {
+    const bool end = settings.beside(setting, verb == kSettingMore ? 1 : -1) == settings.of(setting);
+    return end ? Action{} : Action{ActionKind::StaffDo, verb, static_cast<std::int32_t>(setting)};
+  };
+  page.stepper(info.key, name_of(page.tr, setting), value_of(page, settings, setting), kLess, ask(kSettingLess), kMore, ask(kSettingMore));
+}
+
+void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {
+  const bool technician = page.staff.role == StaffRole::Technician;
+  bool titled = false;
+  for (const Setting setting : settings) {
+    const SettingInfo& info = info_of(setting);
+    if (!(technician ? info.technician : info.clerk)) continue;
+    if (!titled) page.section(title);
+    titled = true;
+    chooser(page, page.staff.settings->settings, setting);
+  }
+}
+
+void said(StaffFrame& page) {
+  if (page.staff.work.outcome != Outcome::Done) return page.outcome();
+  Node line = page.text(page.tr("Saved. It holds from now on."), type::kSmall, Weight::Medium, page.palette.good);
+  line.id = "outcome";
+  line.role = Role::Status;
+  page.tree.leaf(line);
+}
+
+}  // namespace
+
+void settings_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  if (page.staff.settings == nullptr) return page.body("wait", tr("One moment, please"));
+  said(page);
+  page.begin_list("settings");
+  group(page, tr("How a visit begins"), std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
+  group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
+  group(page, tr("Pictures"), std::array{Setting::Automatic, Setting::CountdownMs, Setting::Attempts});
+  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
+  if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
+    page.line(tr("Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
+  if (page.staff.settings->clock_jumped) page.line(tr("The clock has jumped ahead: nothing is erased. Look at the clock, then choose the time again."), Mood::Warn);
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// StaffFrame's lists: rows of figures, of choices, and the lines between them.
+#include <algorithm>
+
+#include "ui/screens/service/staff_frame.h"
+
+namespace relievo::ui {
+
+void StaffFrame::begin_list(std::string_view id) {
+  Node list = grown(box(Flow::Column, 0, space::kM, 8));
+  list.id = id;
+  list.box.scroll = true;
+  list.box.fill = palette.card;
+  list.box.border = palette.card_border;
+  list.box.border_px = px(1.5F);
+  list.box.radius = px(size::kRadius);
+  tree.open(list);
+}
+
+void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
+  Node row = box(Flow::Row, space::kS, 0, 6);
+  row.id = id;
+  row.box.across = Across::Centre;
+  row.box.min_height = px(action.kind == ActionKind::None ? 44 : size::kStaffTarget);
+  if (action.kind != ActionKind::None) {
+    row.role = Role::Button;
+    row.name = label;
+    row.action = action;
+  }
+  tree.open(row);
+  tree.open(grown(box(Flow::Column), value.empty() ? 1 : 1.2F));
+  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
+  tree.close();
+  if (!value.empty()) {
+    Node end = grown(box(Flow::Row, space::kXs));
+    end.box.along = Along::End;
+    end.box.across = Across::Centre;
+    tree.open(end);
+    if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
+    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
+    tree.close();
+  }
+  if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
+  tree.close();
+  rule();
+}
+
+void StaffFrame::rule() {
+  Node line = box(Flow::Column);
+  line.box.height = std::max(1.0F, px(1));
+  line.box.fill = palette.card_border;
+  tree.leaf(line);
+}
+
+void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action) {
+  const auto joined = [&](std::string_view a, std::string_view between, std::string_view b) {
+    const std::string_view first = tree.keep(a);
+    return std::string_view{first.data(), first.size() + tree.keep(between).size() + tree.keep(b).size()};
+  };
+  const bool dead = action.kind == ActionKind::None;
+  Node node = sized(box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
+  node.id = joined(id, " ", end);
+  node.name = joined(label, ": ", spoken);
+  node.role = dead ? Role::Group : Role::Button;
+  node.action = action;
+  node.box.along = Along::Centre;
+  node.box.across = Across::Centre;
+  node.box.radius = px(18);
+  node.box.fill = dead ? Colour{} : palette.quiet;
+  node.box.border = dead ? Colour{} : palette.quiet_border;
+  node.box.border_px = dead ? 0 : std::max(1.5F, px(2));
+  tree.open(node);
+  if (!dead) sign(letter, 30 / text_share, palette.link);
+  tree.close();
+}
+
+void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more) {
+  const bool upright = portrait && text_share > 1.2F;
+  Node row = box(upright ? Flow::Column : Flow::Row, space::kS, 0, 6);
+  if (!upright) row.box.across = Across::Centre;
+  tree.open(row);
+  if (!upright) tree.open(grown(box(Flow::Column)));
+  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
+  if (!upright) tree.close();
+  Node end = box(Flow::Row, space::kS);
+  end.box.across = Across::Centre;
+  end.box.along = Along::End;
+  tree.open(end);
+  step_button(id, "less", tr("Less"), label, less_letter, less);
+  Node middle = box(Flow::Column);
+  middle.box.width = px(150 * std::min(1.3F, text_share));
+  tree.open(middle);
+  tree.leaf(text(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre));
+  tree.close();
+  step_button(id, "more", tr("More"), label, more_letter, more);
+  tree.close();
+  tree.close();
+  rule();
+}
+
+void StaffFrame::section(std::string_view words) {
+  tree.leaf(sized(box(Flow::Column), 1, 14));
+  Node name = text(words, type::kSmall, Weight::Bold, palette.link);
+  name.role = Role::Heading;
+  tree.leaf(name);
+}
+
+void StaffFrame::line(std::string_view words, Mood mood) {
+  Node said = text(words, 18, Weight::Regular, ink_of(mood));
+  said.box.pad_y = px(4);
+  tree.leaf(said);
+}
+
+}  // namespace relievo::ui
