@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/gate/head/face_cover.h"
+#include "pipeline/gate/light/edge_blur.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -30,15 +33,20 @@ int count_faces(const Relief& relief, const FaceHits& hits) {
   return faces;
 }
 
-void measure_picture(const Relief& relief, GateMeasures& m) {
-  std::size_t dark = 0, bright = 0;
-  for (const std::uint8_t v : relief.grey) {
-    dark += v <= 25 ? 1U : 0U;
-    bright += v >= 247 ? 1U : 0U;
-  }
-  const auto all = static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
-  m.picture_dark_share = static_cast<double>(dark) / all;
-  m.picture_bright_share = static_cast<double>(bright) / all;
+void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
+  std::size_t dark = 0, bright = 0, near = 0;
+  for (const std::uint8_t v : relief.grey) dark += v <= 25 ? 1U : 0U;
+  const int x0 = relief.width_px / 3, x1 = 2 * relief.width_px / 3, y0 = relief.height_px / 5, y1 = 4 * relief.height_px / 5;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const std::size_t i = relief.index(x, y);
+      bright += relief.grey[i] >= 247 ? 1U : 0U;
+      near += relief.known(x, y) && static_cast<double>(relief.depth_mm[i]) < nearest_mm ? 1U : 0U;
+    }
+  const auto middle = static_cast<double>(std::max(1, (x1 - x0) * (y1 - y0)));
+  m.picture_dark_share = static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
+  m.middle_bright_share = static_cast<double>(bright) / middle;
+  m.middle_near_share = static_cast<double>(near) / middle;
 }
 
 // Where the head was a moment ago, as a face to look for.
@@ -48,12 +56,21 @@ HeadHint expected(const Relief& relief, const GateHistory& history) {
   return {{at.x, at.y - 0.08 * width}, width};
 }
 
-void measure_motion(GateTime now, const GateHistory& history, GateMeasures& m) {
+double apart(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+// The tip of a nose that is hardly seen wanders over the face, and so does the cascade's box, but not together: across the picture the
+// lesser of both counts, in depth the tip.
+double moved_mm(const Relief& relief, const GateHistory& history, const GateMeasures& m) {
+  const Vec3d &a = history.tip_mm, &b = m.head.tip_mm;
+  double across = apart({a.x, a.y}, {b.x, b.y});
+  if (!m.tracked && history.last_by_cascade == history.last) across = std::min(across, apart(history.face.centre_px, m.face.centre_px) * b.z / relief.focal_px);
+  return std::hypot(across, b.z - a.z);
+}
+
+void measure_motion(const Relief& relief, GateTime now, const GateHistory& history, GateMeasures& m) {
   if (!history.seen || now <= history.last) return;
   const double seconds = std::chrono::duration<double>(now - history.last).count();
-  const Vec3d& a = history.tip_mm;
-  const Vec3d& b = m.head.tip_mm;
-  const double speed = std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z)) / seconds;
+  const double speed = moved_mm(relief, history, m) / seconds;
   // The tip of a nose at rest wanders by a millimetre from picture to picture: two pictures speak together.
   m.speed_mm_s = kTurnSmoothing * speed + (1 - kTurnSmoothing) * std::min(history.speed_mm_s, 2 * speed);
   const double turn = std::abs(m.head.yaw_deg - history.yaw_deg) / seconds;
@@ -98,7 +115,7 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
   RELIEVO_TRY_ASSIGN(const FaceHits hits, watch_.look(relief));
   GateAnswer answer;
   GateMeasures& m = answer.measures;
-  measure_picture(relief, m);
+  measure_picture(relief, options_.limits.nearest_mm, m);
   m.faces = count_faces(relief, hits);
   if (hits.count > 0) {
     m.face = {hits.hit[0].centre_px, hits.hit[0].width_px};
@@ -111,13 +128,14 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.tracked = m.head.known;
     m.faces = std::max(m.faces, m.tracked ? 1 : 0);
   }
+  if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
   if (m.head.known) {
     m.off_right_mm = m.head.tip_mm.x - relief.baseline_mm / 2;
     m.off_down_mm = m.head.tip_mm.y;
     m.light = measure_light(relief, m.head);
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
-    if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(now, history, m);
-    m.sharpness = measure_sharpness(frame, calibration, relief, m.head);
+    if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(relief, now, history, m);
+    m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
   }
   answer.reason = judge(m, options_.limits, history.said);
   remember(now, m, history);

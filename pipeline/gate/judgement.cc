@@ -8,6 +8,8 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr double kFillsMiddle = 0.4;  // somebody too near for a whole face, or a face of which light leaves nothing
+
 struct Judge {
   const GateMeasures& m;
   const GateLimits& l;
@@ -20,22 +22,34 @@ struct Judge {
   // The relief knows no head: what can be said of the picture alone.
   Advice without_head() const {
     if (m.picture_dark_share > 0.97) return Advice::TooDark;
-    if (m.picture_bright_share > 0.5) return Advice::TooBright;
+    if (m.middle_near_share > kFillsMiddle) return Advice::TooClose;
+    if (m.middle_bright_share > kFillsMiddle) return Advice::TooBright;
     if (m.faces == 0) return Advice::NoFace;
     if (m.guessed_mm < l.nearest_mm) return Advice::TooClose;
     if (m.guessed_mm > l.farthest_mm) return Advice::TooFar;
     return Advice::NoFace;
   }
-  Advice place() const {
+  Advice distance() const {
     const double z = m.head.tip_mm.z, slack = 12;
     if (z < l.nearest_mm + (said == Advice::TooClose ? slack : 0)) return Advice::TooClose;
     if (z > l.farthest_mm - (said == Advice::TooFar ? slack : 0)) return Advice::TooFar;
+    return Advice::None;
+  }
+  // Pictures of which neither place nor pose can be told. A face that moves fast is blurred because it moves.
+  Advice lost() const {
+    if (m.light.known && m.light.luminance_mean < l.lost_dark_mean) return Advice::TooDark;
+    if (m.light.known && m.light.bright_share > l.lost_bright_share) return Advice::TooBright;
+    if (m.blur_mm > l.lost_blur_mm && m.speed_mm_s < l.lost_below_mm_s) return Advice::Blurred;
+    return Advice::None;
+  }
+  // Of a face that something covers neither tip nor pose can be told.
+  Advice covered() const { return above(m.covered_share, l.covered_share, Advice::FaceHidden) ? Advice::FaceHidden : Advice::None; }
+  Advice middle() const {
     if (above(std::abs(m.off_right_mm), l.off_right_mm, Advice::OffCentre) || above(std::abs(m.off_down_mm), l.off_down_mm, Advice::OffCentre)) return Advice::OffCentre;
     return Advice::None;
   }
   Advice pose() const {
-    // Of a face that something covers no pose can be told.
-    if (m.head.relief_mm < l.relief_mm) return Advice::FaceHidden;
+    if (m.head.relief_mm < l.relief_mm) return Advice::FaceHidden;  // something flat is before it
     if (above(std::abs(m.head.yaw_deg), l.yaw_deg, Advice::TurnedAside)) return Advice::TurnedAside;
     if (above(std::abs(m.head.pitch_deg), l.pitch_deg, Advice::LooksUpOrDown)) return Advice::LooksUpOrDown;
     if (above(std::abs(m.head.roll_deg), l.roll_deg, Advice::Tilted)) return Advice::Tilted;
@@ -49,7 +63,7 @@ struct Judge {
     if (above(f.luminance_mean, l.brightest_mean, Advice::TooBright) || above(f.bright_share, l.bright_share, Advice::TooBright)) return Advice::TooBright;
     if (f.side_ratio < (said == Advice::UnevenLight ? l.side_ratio / l.leave_sides : l.side_ratio)) return Advice::UnevenLight;
     if (above(f.glossy_share, l.glossy_share, Advice::Highlights)) return Advice::Highlights;
-    if (below(m.sharpness, l.sharpness, Advice::Blurred)) return Advice::Blurred;
+    if (above(m.blur_mm, l.blur_mm, Advice::Blurred)) return Advice::Blurred;
     return Advice::None;
   }
   Advice cover() const {
@@ -67,7 +81,7 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
   for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
-                         side_ratio, glossy_share, sharpness, in_front_share, unknown_share, asymmetry_mm, relief_mm, leave, leave_sides})
+                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, leave, leave_sides})
     if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
   if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
   return {};
@@ -77,7 +91,7 @@ Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said
   const Judge judge{measures, limits, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
-  for (const Advice advice : {judge.place(), judge.pose(), judge.light(), judge.cover()})
+  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover()})
     if (advice != Advice::None) return advice;
   return measures.tracked ? Advice::NoFace : Advice::None;
 }

@@ -17,13 +17,15 @@ struct GateMeasures {
   bool tracked = false;             // no cascade sees the face; the relief still does, where it was a moment ago
   double guessed_mm = 0;            // distance by the width of the face, for one too near or too far for the relief; 0: none seen
   double picture_dark_share = 0;    // of the whole picture, luminance 0 .. 25
-  double picture_bright_share = 0;  // 247 .. 255
+  double middle_bright_share = 0;   // of the middle of the picture, where a face should be: 247 .. 255
+  double middle_near_share = 0;     // of the same: known by the relief to be nearer than the capture volume begins
   HeadHint face;                    // where on the small picture
+  double covered_share = 0;         // of the face, by something that stands before it: face_cover.h
   HeadSight head;
   double off_right_mm = 0, off_down_mm = 0;  // the tip of the nose from the middle of the capture volume
   double speed_mm_s = 0, turn_deg_s = 0;
   FaceLight light;
-  double sharpness = 0;
+  double blur_mm = 0;               // on the face: edge_blur.h
 };
 
 // A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
@@ -36,16 +38,19 @@ struct GateLimits {
   double dark_share = 0.45, bright_share = 0.12;
   double side_ratio = 0.48;                        // least
   double glossy_share = 0.10;
-  double sharpness = 0.016;                        // least
-  double in_front_share = 0.05, unknown_share = 0.45;
+  double blur_mm = 1.3;                            // sharp faces of real cameras measure 0.7 to 1.1
+  double covered_share = 0.06, in_front_share = 0.05, unknown_share = 0.45;
   double asymmetry_mm = 5.5;
   double relief_mm = 8;                            // a nose stands out further: else something flat is before it
+  // Beyond these the relief itself is not to be trusted, and what it says of pose and motion: light and sharpness are asked first.
+  double lost_dark_mean = 0.10, lost_bright_share = 0.30, lost_blur_mm = 1.4, lost_below_mm_s = 190;
   double leave = 0.85;                             // share of a limit
   double leave_sides = 0.96;                       // of side_ratio: faces are lit unlike each other in good light, but steadily
   Result<void> check() const;
 };
 
-// The first that holds, in the order of Advice; `said` is what was said of the picture before.
+// The first that holds, in the order of Advice, but for what spoils the measures themselves: hopeless light and blur, and something before the face,
+// are asked right after the distance. `said` is what was said of the picture before.
 Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said);
 
 }  // namespace relievo::pipeline

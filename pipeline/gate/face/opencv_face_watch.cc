@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ constexpr std::string_view kFrontal = "haarcascade_frontalface_alt2.xml";
 constexpr std::string_view kFrontalSha = "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4";
 constexpr std::string_view kProfile = "haarcascade_profileface.xml";
 constexpr std::string_view kProfileSha = "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d";
+
+constexpr double kLeanDeg = 22;            // the cascades stand 15 themselves
+constexpr double kDegree = std::numbers::pi / 180;
 
 Result<void> read_cascade(const std::filesystem::path& path, std::string_view sha, cv::CascadeClassifier& cascade) {
   RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, sha));
@@ -49,6 +53,21 @@ struct FaceWatch::Cascades {
       double x = box.x + (box.width - 1) / 2.0;
       if (mirrored) x = grey.cols - 1 - x;
       add({{(x + 0.5) * scale - 0.5, (box.y + (box.height - 1) / 2.0 + 0.5) * scale - 0.5}, box.width * scale, votes[i], &cascade == &frontal}, hits);
+    }
+  }
+
+  // In the picture turned about its middle.
+  void look_leaning(const cv::Mat& grey, double scale, double lean_deg, FaceHits& hits) {
+    const cv::Point2f middle(static_cast<float>(grey.cols - 1) / 2, static_cast<float>(grey.rows - 1) / 2);
+    cv::Mat upright;
+    cv::warpAffine(grey, upright, cv::getRotationMatrix2D(middle, lean_deg, 1), grey.size());
+    const int before = hits.count;
+    look(frontal, upright, scale, false, hits);
+    const double sine = std::sin(lean_deg * kDegree), cosine = std::cos(lean_deg * kDegree);
+    for (int i = before; i < hits.count; ++i) {
+      Vec2d& at = hits.hit[static_cast<std::size_t>(i)].centre_px;
+      const double x = (at.x + 0.5) / scale - 0.5 - static_cast<double>(middle.x), y = (at.y + 0.5) / scale - 0.5 - static_cast<double>(middle.y);
+      at = {(cosine * x - sine * y + static_cast<double>(middle.x) + 0.5) * scale - 0.5, (sine * x + cosine * y + static_cast<double>(middle.y) + 0.5) * scale - 0.5};
     }
   }
 
@@ -108,6 +127,8 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
       cv::flip(grey, other, 1);
       cascades_->look(cascades_->profile, other, scale, true, hits);
     }
+    for (int i = 0; i < 2 && hits.count == 0; ++i)  // an ear to a shoulder
+      cascades_->look_leaning(grey, scale, i == 0 ? kLeanDeg : -kLeanDeg, hits);
     // The most certain to the front; among equals the wider, which is nearer.
     const auto worth = [](const FaceHit& hit) { return hit.votes * hit.width_px; };
     for (std::size_t i = 1; i < static_cast<std::size_t>(hits.count); ++i)

@@ -174,6 +174,7 @@ bool measure_about(const Relief& relief, StageContext& context, HeadSight& head,
   if (points.size() < kLeastPoints) return false;
   const HeadAxes axes = axes_facing_the_rig(head.tip_mm, relief.baseline_mm);
   HeadSight best;
+  double least = 0;
   for (const MirrorPlane& plane : find_mirror_planes(relief, points, head.tip_mm, axes, kAsymmetryLimitMm)) {
     HeadSight tried = head;
     take_axes(plane, axes, tried);
@@ -183,7 +184,7 @@ bool measure_about(const Relief& relief, StageContext& context, HeadSight& head,
     tried.relief_mm = nose_height(points, tried);
     tried.known = true;
     const bool has_nose = tried.relief_mm > kLeastNoseMm, best_has = best.relief_mm > kLeastNoseMm;
-    if (!best.known || (has_nose != best_has ? has_nose : tried.asymmetry_mm < best.asymmetry_mm)) best = tried;
+    if (!best.known || (has_nose != best_has ? has_nose : plane.price < least)) best = tried, least = plane.price;
   }
   form = fit_form(points, best);
   best.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;

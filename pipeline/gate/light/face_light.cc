@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/rectify/rectified_geometry.h"
-
 namespace relievo::pipeline {
 namespace {
 
@@ -16,9 +14,6 @@ constexpr double kHalfWidthMm = 50, kUpMm = 62, kDownMm = 50;  // about the tip 
 // The two zones whose histograms are compared: squares of 0.3 eye distances outside of the pupils, half way down to the mouth (OFIQ).
 constexpr double kPupilMm = 31.5, kZoneMm = 19;
 constexpr int kGlossStep = 55;     // levels above the median of the face
-constexpr double kWindowMm = 36;   // half the side of what sharpness is measured on
-constexpr double kDetailMm = 0.5;
-constexpr int kTiles = 6;
 
 Histogram zone(const Relief& relief, const HeadSight& head, double side) {
   Histogram counts{};
@@ -50,16 +45,6 @@ int median_of(const Histogram& counts, int all) {
   for (int i = 0; i < 256; ++i)
     if ((seen += counts[static_cast<std::size_t>(i)]) * 2 >= all) return i;
   return 255;
-}
-
-int luminance(const ImageView& image, int x, int y) {
-  const std::uint8_t* row = image.row(y);
-  switch (image.format) {
-    case PixelFormat::Rgb8: return (row[3 * x] + row[3 * x + 1] + row[3 * x + 2]) / 3;
-    case PixelFormat::Grey16: return row[2 * x + 1];
-    case PixelFormat::Grey8: break;
-  }
-  return row[x];
 }
 
 }  // namespace
@@ -99,43 +84,6 @@ FaceLight measure_light(const Relief& relief, const HeadSight& head) {
   const double a = mean_of(left), b = mean_of(right);
   light.side_ratio = std::max(a, b) > 0 ? std::min(a, b) / std::max(a, b) : 0;
   return light;
-}
-
-double measure_sharpness(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief, const HeadSight& head) {
-  if (!head.known || frame.left.empty()) return 0;
-  const ImageView& image = frame.left;
-  // The middle between nose and eyes, in the left camera.
-  const Vec3d p{head.tip_mm.x - 18 * head.down.x, head.tip_mm.y - 18 * head.down.y, head.tip_mm.z - 18 * head.down.z};
-  const Vec2d at = source_pixel(calibration.left, relief.rectified_from_left, 1, {0, 0}, {p.x / p.z, p.y / p.z});
-  const double pixels_a_mm = calibration.left.focal_px.x / p.z;
-  const int near = std::max(1, static_cast<int>(std::lround(kDetailMm * pixels_a_mm))), far = 4 * near;
-  const int half = static_cast<int>(kWindowMm * pixels_a_mm), stride = std::max(1, half / 60);
-  const int x0 = std::max(far, static_cast<int>(at.x) - half), x1 = std::min(image.width_px - far, static_cast<int>(at.x) + half);
-  const int y0 = std::max(far, static_cast<int>(at.y) - half), y1 = std::min(image.height_px - far, static_cast<int>(at.y) + half);
-  // Tiles, so that the flattest can say what noise is.
-  std::array<std::array<double, kTiles * kTiles>, 2> fine{};
-  std::array<double, 2> coarse{};
-  for (int y = y0; y < y1; y += stride)
-    for (int x = x0; x < x1; x += stride) {
-      const auto tile = static_cast<std::size_t>((y - y0) * kTiles / (y1 - y0) * kTiles + (x - x0) * kTiles / (x1 - x0));
-      const int here = 2 * luminance(image, x, y);
-      const int bend[4] = {luminance(image, x - near, y) + luminance(image, x + near, y) - here, luminance(image, x, y - near) + luminance(image, x, y + near) - here,
-                           luminance(image, x - far, y) + luminance(image, x + far, y) - here, luminance(image, x, y - far) + luminance(image, x, y + far) - here};
-      for (std::size_t k = 0; k < 2; ++k) {
-        fine[k][tile] += bend[k] * bend[k];
-        coarse[k] += bend[k + 2] * bend[k + 2];
-      }
-    }
-  const auto ratio = [&](std::size_t k) {
-    std::sort(fine[k].begin(), fine[k].end());
-    double all = 0, flat = 0;
-    for (std::size_t i = 0; i < fine[k].size(); ++i) {
-      all += fine[k][i];
-      if (i < fine[k].size() / 4) flat += 4 * fine[k][i];
-    }
-    return coarse[k] > 0 ? std::max(0.0, all - flat) / coarse[k] : 0;
-  };
-  return std::min(ratio(0), ratio(1));
 }
 
 }  // namespace relievo::pipeline

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How well a face is lit, and how sharp. The measures are those of ISO/IEC 29794-5 as its reference implementation (OFIQ) computes them,
+// How well a face is lit. The measures are those of ISO/IEC 29794-5 as its reference implementation (OFIQ) computes them,
 // where it says so: named by its component. Luminance is the mean of the channels, 0 .. 255, of the small picture; the face is the
 // ellipse about the nose, upright with the head, that the relief knows and nothing stands before.
 // Memory: none of its own. Thread: any. Errors: none.
 #pragma once
 
 #include "pipeline/gate/head/head_sight.h"
-#include "pipeline/model/calibration.h"
-#include "pipeline/model/stereo_frame.h"
 
 namespace relievo::pipeline {
 
@@ -26,9 +24,5 @@ struct FaceLight {
 };
 
 FaceLight measure_light(const Relief& relief, const HeadSight& head);
-
-// Energy of detail of half a millimetre against that of four times the size, in the left picture at full size, the worse of both directions,
-// less what its flattest quarter has too, which is noise; 0: none. Sharpness has no such formula in the standard (a trained forest stands there): this is ours, and names the same fault.
-double measure_sharpness(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief, const HeadSight& head);
 
 }  // namespace relievo::pipeline

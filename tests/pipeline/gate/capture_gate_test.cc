@@ -66,9 +66,11 @@ struct Step {
   Developing how;
   int pictures;
   Advice expected;  // after the last of them
+  test::Extra extra = test::Extra::None;
 };
 
-// A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, and they leave and come back.
+// A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, the lens fogs, a hand hides the face, a
+// friend looks in, and they leave and come back.
 TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
   const hal::sim::HeadPose right = standing(560);
   const Step steps[] = {
@@ -81,7 +83,12 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
       {"the lamps return", right, {}, 4, Advice::None},
       {"too much light", right, {.exposure = 8}, 3, Advice::TooBright},
       {"one lamp fails", right, {.one_sided = 0.02}, 3, Advice::UnevenLight},
+      {"it returns, but the lens is fogged", right, {.defocus_px = 3}, 3, Advice::Blurred},
       {"all is well", right, {}, 4, Advice::None},
+      {"a hand before the mouth", right, {}, 3, Advice::FaceHidden, test::Extra::HandBefore},
+      {"the hand is gone", right, {}, 4, Advice::None},
+      {"a friend looks in", standing(560, -40), {}, 3, Advice::MoreThanOneFace, test::Extra::Twin},
+      {"the friend has gone", right, {}, 4, Advice::None},
       {"steps out", nobody(), {}, 2, Advice::NoFace},
       {"comes back", right, {}, 4, Advice::None},
   };
@@ -92,13 +99,13 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
     for (int i = 0; i < step.pictures; ++i) {
       Developing how = step.how;
       how.noise_seed = noise++;
-      answer = rig.look(album().shoot(kPerson, step.pose), how);
+      answer = rig.look(album().shoot(kPerson, step.pose, step.extra), how);
       if (step.expected != Advice::None) {
         EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
       }
     }
     EXPECT_EQ(answer.advice, step.expected) << step.event << ": yaw " << answer.measures.head.yaw_deg << " pitch " << answer.measures.head.pitch_deg << " light "
-                                            << answer.measures.light.luminance_mean << " sides " << answer.measures.light.side_ratio << " sharp " << answer.measures.sharpness
+                                            << answer.measures.light.luminance_mean << " sides " << answer.measures.light.side_ratio << " blur " << answer.measures.blur_mm
                                             << " speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
     EXPECT_EQ(answer.steady > GateTime{0}, step.expected == Advice::None) << step.event;
   }
@@ -131,7 +138,7 @@ TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
     const GateAnswer one = a.look(shot, {}), two = b.look(shot, {});
     EXPECT_EQ(one.advice, two.advice);
     EXPECT_EQ(one.measures.head.yaw_deg, two.measures.head.yaw_deg);
-    EXPECT_EQ(one.measures.sharpness, two.measures.sharpness);
+    EXPECT_EQ(one.measures.blur_mm, two.measures.blur_mm);
   }
 }
 

@@ -19,7 +19,7 @@ GateMeasures good() {
   m.head.relief_mm = 28;
   m.light.known = true;
   m.light.luminance_mean = 0.5;
-  m.sharpness = 0.08;
+  m.blur_mm = 0.5;
   return m;
 }
 
@@ -36,6 +36,10 @@ const std::vector<Row>& rows() {
       {"a friend looks in", Advice::MoreThanOneFace, [](GateMeasures& m) { m.faces = 2; }},
       {"too near", Advice::TooClose, [](GateMeasures& m) { m.head.tip_mm.z = l.nearest_mm - 1; }},
       {"too far", Advice::TooFar, [](GateMeasures& m) { m.head.tip_mm.z = l.farthest_mm + 1; }},
+      {"no light at all", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.9 * l.lost_dark_mean; }},
+      {"nothing but light", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.lost_bright_share + 0.01; }},
+      {"fog on the lens", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.lost_blur_mm + 0.1; }},
+      {"a hand before the face", Advice::FaceHidden, [](GateMeasures& m) { m.covered_share = l.covered_share + 0.01; }},
       {"to the left", Advice::OffCentre, [](GateMeasures& m) { m.off_right_mm = -l.off_right_mm - 1; }},
       {"too low", Advice::OffCentre, [](GateMeasures& m) { m.off_down_mm = l.off_down_mm + 1; }},
       {"something flat before it", Advice::FaceHidden, [](GateMeasures& m) { m.head.relief_mm = 2; }},
@@ -44,13 +48,13 @@ const std::vector<Row>& rows() {
       {"tilted", Advice::Tilted, [](GateMeasures& m) { m.head.roll_deg = l.roll_deg + 1; }},
       {"moving", Advice::Moved, [](GateMeasures& m) { m.speed_mm_s = l.speed_mm_s + 1; }},
       {"turning", Advice::Moved, [](GateMeasures& m) { m.turn_deg_s = l.turn_deg_s + 1; }},
-      {"dark", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.5 * l.darkest_mean; }},
+      {"dark", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.9 * l.darkest_mean; }},
       {"half of it black", Advice::TooDark, [](GateMeasures& m) { m.light.dark_share = l.dark_share + 0.01; }},
       {"bright", Advice::TooBright, [](GateMeasures& m) { m.light.luminance_mean = l.brightest_mean + 0.01; }},
       {"burnt out", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.bright_share + 0.01; }},
       {"one lamp", Advice::UnevenLight, [](GateMeasures& m) { m.light.side_ratio = l.side_ratio - 0.01; }},
       {"oily", Advice::Highlights, [](GateMeasures& m) { m.light.glossy_share = l.glossy_share + 0.01; }},
-      {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.sharpness = 0.5 * l.sharpness; }},
+      {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.blur_mm + 0.1; }},
       {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
       {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
       {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
@@ -97,7 +101,7 @@ TEST(Judgement, WithoutAHeadThePictureSpeaks) {
   m.picture_dark_share = 1;
   EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooDark);
   m = {};
-  m.picture_bright_share = 0.9;
+  m.middle_bright_share = 0.9;
   EXPECT_EQ(judge(m, {}, Advice::None), Advice::TooBright);
   m = {};
   m.faces = 1;
