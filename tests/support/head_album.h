@@ -23,7 +23,8 @@
 namespace relievo::test {
 
 // Something before or beside the person.
-enum class Extra : std::uint8_t { None, HandBefore, Friend };
+// A friend looks in from the side where there is more room; a twin does the same and needs no second head to be built.
+enum class Extra : std::uint8_t { None, HandBefore, Friend, HandOnCheek, Twin };
 
 // What the person does with the face, and wears on it.
 struct Guise {
