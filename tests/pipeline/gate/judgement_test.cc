@@ -54,7 +54,7 @@ const std::vector<Row>& rows() {
       {"burnt out", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.bright_share + 0.01; }},
       {"one lamp", Advice::UnevenLight, [](GateMeasures& m) { m.light.side_ratio = l.side_ratio - 0.01; }},
       {"oily", Advice::Highlights, [](GateMeasures& m) { m.light.glossy_share = l.glossy_share + 0.01; }},
-      {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.blur_mm + 0.1; }},
+      {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.blur_mm + 0.05; }},
       {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
       {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
       {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
