@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/linux/board.h"
 
+#include "hal/linux/mounted_stick.h"
 #include "hal/linux/side_by_side.h"
 #include "hal/monotonic_clock.h"
 
@@ -42,6 +43,11 @@ class LinuxBoard final : public Board {
     // One device exposes both views at once, with a wire or without.
     together_ = options.trigger.has_value() || !options.right;
     if (options.trigger && options.trigger->lamp) light_ = Light::Flash;
+    if (!options.stick_folder.empty()) stick_ = std::make_unique<MountedStick>(options.stick_folder);
+  }
+  Result<void> arm(const WatchdogOptions& options, Kernel& kernel) {
+    RELIEVO_TRY_ASSIGN(armed_, HardwareWatchdog::open(options, kernel, clock_));
+    return {};
   }
 
   std::string_view name() const override { return "linux"; }
@@ -51,9 +57,9 @@ class LinuxBoard final : public Board {
   TriggerLine& trigger() override { return *trigger_; }
   bool exposes_together() const override { return together_; }
   Light shot_light() const override { return light_; }
-  RemovableMedia& media() override { return media_; }
+  RemovableMedia& media() override { return stick_ ? *stick_ : static_cast<RemovableMedia&>(no_stick_); }
   Clock& clock() override { return clock_; }
-  Watchdog& watchdog() override { return watchdog_; }
+  Watchdog& watchdog() override { return armed_ ? *armed_ : static_cast<Watchdog&>(no_watchdog_); }
 
  private:
   MonotonicClock clock_;
@@ -64,8 +70,10 @@ class LinuxBoard final : public Board {
   std::unique_ptr<TriggerLine> trigger_;
   bool together_ = true;
   Light light_ = Light::Off;
-  NoStick media_;
-  NoWatchdog watchdog_;
+  NoStick no_stick_;
+  std::unique_ptr<MountedStick> stick_;
+  NoWatchdog no_watchdog_;
+  std::unique_ptr<HardwareWatchdog> armed_;
 };
 
 }  // namespace
@@ -76,7 +84,9 @@ Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options
   if (options.trigger) {
     RELIEVO_TRY_ASSIGN(lines, request_gpiod_lines(*options.trigger));
   }
-  return std::unique_ptr<Board>(std::make_unique<LinuxBoard>(options, std::move(lines), kernel));
+  auto board = std::make_unique<LinuxBoard>(options, std::move(lines), kernel);
+  if (options.watchdog) RELIEVO_TRY(board->arm(*options.watchdog, kernel));
+  return std::unique_ptr<Board>(std::move(board));
 }
 
 }  // namespace relievo::hal

@@ -11,6 +11,8 @@
 //   [both]     device = "…"   one device, the left view left
 //   [trigger]  chip = "/dev/gpiochip0"   line = 17   active_low = false   delay_us = 0      may be left out
 //   [lamp]     line = 18   lead_us = 200   time_us = 5000   or   on_trigger_wire = true     may be left out
+//   [stick]    folder = "/media/relievo"   where the system mounts sticks                    may be left out
+//   [watchdog] device = "/dev/watchdog"   timeout_s = 10                                     may be left out
 //
 // Thread: making: main; the devices as their headers say.
 #pragma once
@@ -18,11 +20,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "hal/base/result.h"
 #include "hal/board.h"
-#include "hal/linux/wire/gpio_trigger_line.h"
+#include "hal/linux/hardware_watchdog.h"
 #include "hal/linux/kernel.h"
+#include "hal/linux/wire/gpio_trigger_line.h"
 #include "hal/linux/wire/output_lines.h"
 #include "hal/linux/v4l2_camera.h"
 
@@ -34,13 +38,15 @@ struct LinuxBoardOptions {
   std::optional<V4l2CameraOptions> right;   // none: the left device gives both views
   std::optional<GpioOptions> trigger;   // none: the cameras run on their own
   GpioTiming timing;
+  std::string stick_folder;             // empty: no stick
+  std::optional<WatchdogOptions> watchdog;
 };
 
 // Errors: NotFound (no file), InvalidInput (a word, a number or a table that cannot be used, named by its
 // line), IoFailed.
 Result<LinuxBoardOptions> read_linux_board_file(const std::filesystem::path& file);
 
-// Requests the GPIO lines; the cameras open when the appliance asks. Errors: the lines'.
+// Requests the GPIO lines and arms the watchdog; the cameras open when the appliance asks. Errors: the lines', the watchdog's.
 Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options, Kernel& kernel = real_kernel());
 
 }  // namespace relievo::hal

@@ -108,12 +108,26 @@ void read_wires(Words& words, LinuxBoardOptions& options) {
   options.trigger = gpio;
 }
 
+void read_machine(Words& words, LinuxBoardOptions& options) {
+  if (const toml::table* stick = words.table("stick", {"folder"})) {
+    options.stick_folder = words.get<std::string>(*stick, "folder", {}, true);
+    if (!options.stick_folder.starts_with('/')) words.wrong(stick->get("folder"), "folder: the whole path, from / on");
+  }
+  if (const toml::table* table = words.table("watchdog", {"device", "timeout_s"})) {
+    WatchdogOptions watchdog;
+    watchdog.device = words.get<std::string>(*table, "device", watchdog.device);
+    watchdog.timeout = std::chrono::seconds(words.number(*table, "timeout_s", 2, 300, watchdog.timeout.count()));
+    options.watchdog = watchdog;
+  }
+}
+
 Result<LinuxBoardOptions> options_of(const toml::table& root, const std::string& file) {
   Words words(root, file);
-  words.only_tables({"mode", "left", "right", "both", "trigger", "lamp"});
+  words.only_tables({"mode", "left", "right", "both", "trigger", "lamp", "stick", "watchdog"});
   LinuxBoardOptions options;
   read_mode(words, options.mode);
   read_wires(words, options);
+  read_machine(words, options);
   const toml::table* left = words.table("left", {"device", "serial", "format"});
   const toml::table* right = words.table("right", {"device", "serial", "format"});
   const toml::table* both = words.table("both", {"device", "serial", "format"});

@@ -39,6 +39,16 @@ TEST(LinuxBoardFile, SaysWhatIsWiredWhere) {
   EXPECT_EQ(options->timing.lamp_lead, std::chrono::microseconds(200));
 }
 
+TEST(LinuxBoardFile, StickAndWatchdogMayBeLeftOut) {
+  const auto bare = read(std::string(kMode) + kTwo);
+  ASSERT_TRUE(bare);
+  EXPECT_TRUE(bare->stick_folder.empty() && !bare->watchdog);
+  const auto options = read(std::string(kMode) + kTwo + "[stick]\nfolder = \"/media/relievo\"\n[watchdog]\ntimeout_s = 30\n");
+  ASSERT_TRUE(options) << options.error().where();
+  EXPECT_EQ(options->stick_folder, "/media/relievo");
+  EXPECT_EQ(options->watchdog.value_or(WatchdogOptions{}).timeout, std::chrono::seconds(30));
+}
+
 TEST(LinuxBoardFile, WithoutATriggerTheCamerasRunFree) {
   const auto options = read(std::string(kMode) + kTwo);
   ASSERT_TRUE(options);
@@ -65,6 +75,8 @@ TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
       {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n[right]\ndevice = \"/dev/a\"\n", "same"},
       {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\nformat = \"MONO12\"\n[right]\ndevice = \"/dev/b\"\n", "format"},
       {"mode = 3\n" + std::string(kTwo), "mode"},
+      {good + "[stick]\nfolder = \"media\"\n", "folder"},
+      {good + "[watchdog]\ntimeout_s = 1\n", "timeout_s"},
   };
   for (const auto& [text, word] : cases) {
     const auto options = read(text);

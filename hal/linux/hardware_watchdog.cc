@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/linux/hardware_watchdog.h"
+
+#include <linux/watchdog.h>
+
+#include <cerrno>
+
+namespace relievo::hal {
+namespace {
+
+constexpr std::chrono::seconds kLeast{2}, kMost{300};
+
+Error cannot_open(int negative_errno, const std::string& device) {
+  const int number = -negative_errno;
+  if (number == ENOENT || number == ENODEV || number == ENXIO)
+    return Error{Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out", number}.at(device);
+  if (number == EBUSY) return Error{Errc::IoFailed, "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set", number}.at(device);
+  if (number == EACCES || number == EPERM) return Error{Errc::IoFailed, "this user may not open the watchdog", number}.at(device);
+  return Error{Errc::IoFailed, "the watchdog cannot be opened", number}.at(device);
+}
+
+// The driver rounds, or has a time of its own. Zero where it tells none.
+Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::seconds wanted) {
+  int seconds = static_cast<int>(wanted.count());
+  const int set = call(kernel, file, WDIOC_SETTIMEOUT, &seconds);
+  if (set == -EINVAL) return Error{Errc::InvalidInput, "the watchdog cannot wait so long or so short: choose another timeout_s", EINVAL};
+  if (set < 0 && call(kernel, file, WDIOC_GETTIMEOUT, &seconds) < 0) return Error{Errc::IoFailed, "the watchdog does not tell its time", -set};
+  if (seconds < kLeast.count()) return Error{Errc::InvalidInput, "the watchdog waits for less than two seconds: the loop may rest so long"};
+  return std::chrono::seconds(seconds);
+}
+
+// A driver that never rests ("nowayout") restarts the machine once nobody kicks it: nothing can be done about that.
+void put_to_rest(Kernel& kernel, int file) {
+  int rest = WDIOS_DISABLECARD;
+  (void)call(kernel, file, WDIOC_SETOPTIONS, &rest);
+  kernel.close(file);
+}
+
+}  // namespace
+
+Result<void> WatchdogOptions::check() const {
+  if (device.empty()) return Error{Errc::InvalidInput, "the watchdog's device is missing"}.at("[watchdog]");
+  if (timeout < kLeast || timeout > kMost) return Error{Errc::InvalidInput, "timeout_s must lie in 2 .. 300"}.at("[watchdog]");
+  return {};
+}
+
+Result<std::unique_ptr<HardwareWatchdog>> HardwareWatchdog::open(const WatchdogOptions& options, Kernel& kernel, const Clock& clock) {
+  RELIEVO_TRY(options.check());
+  int file = kernel.open(options.device.c_str());
+  while (file == -EINTR) file = kernel.open(options.device.c_str());
+  if (file < 0) return cannot_open(file, options.device);
+  const auto timeout = set_timeout(kernel, file, options.timeout);
+  if (!timeout) {
+    put_to_rest(kernel, file);
+    return Error(timeout.error()).at(options.device);
+  }
+  return std::unique_ptr<HardwareWatchdog>(new HardwareWatchdog(kernel, clock, file, *timeout));
+}
+
+HardwareWatchdog::~HardwareWatchdog() { put_to_rest(kernel_, file_); }
+
+void HardwareWatchdog::kick() {
+  const Instant now = clock_.now();
+  if (now < next_) return;
+  next_ = now + std::chrono::duration_cast<Instant::duration>(timeout_) / 4;
+  int none = 0;
+  (void)call(kernel_, file_, WDIOC_KEEPALIVE, &none);  // what it refuses, the watchdog itself punishes
+}
+
+}  // namespace relievo::hal

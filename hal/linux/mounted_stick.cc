@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/linux/mounted_stick.h"
+
+#include <fcntl.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <vector>
+
+namespace relievo::hal {
+namespace {
+
+constexpr std::size_t kMostFolders = 16;  // looked at on every tick
+
+class RealMounts final : public Mounts {
+ public:
+  // A folder on another device than its parent is where something is mounted.
+  std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) override {
+    struct stat own {}, above {};
+    if (::lstat(folder.c_str(), &own) != 0 || !S_ISDIR(own.st_mode) || ::stat((folder / "..").c_str(), &above) != 0 || own.st_dev == above.st_dev) return std::nullopt;
+    struct statvfs info {};
+    if (::statvfs(folder.c_str(), &info) != 0) return std::nullopt;
+    return static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
+  }
+  int flush(const std::filesystem::path& folder) override {
+    const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return -errno;
+    const int result = ::syncfs(file) == 0 ? 0 : -errno;
+    ::close(file);
+    return result;
+  }
+  int unmount(const std::filesystem::path& folder) override { return ::umount2(folder.c_str(), UMOUNT_NOFOLLOW) == 0 ? 0 : -errno; }
+};
+
+Error cannot_unmount(int negative_errno) {
+  if (negative_errno == -EBUSY) return {Errc::IoFailed, "something still uses the stick: wait a little and eject it again", EBUSY};
+  if (negative_errno == -EPERM || negative_errno == -EACCES)
+    return {Errc::IoFailed, "everything is written, but this user may not unmount the stick: see hal/linux/README.md", -negative_errno};
+  if (negative_errno == -EINVAL || negative_errno == -ENOENT) return {Errc::MediaMissing, "the stick is gone", -negative_errno};
+  return {Errc::IoFailed, "the stick could not be unmounted; do not trust what was written", -negative_errno};
+}
+
+}  // namespace
+
+Mounts& real_mounts() {
+  static RealMounts mounts;
+  return mounts;
+}
+
+std::optional<Medium> MountedStick::find() const {
+  if (const auto free = mounts_.free_at(folder_)) return Medium{folder_, *free};
+  std::error_code failed;
+  std::vector<std::filesystem::path> below;
+  for (std::filesystem::directory_iterator entry(folder_, failed), end; !failed && entry != end && below.size() < kMostFolders; entry.increment(failed))
+    below.push_back(entry->path());
+  std::sort(below.begin(), below.end());
+  for (const std::filesystem::path& path : below)
+    if (const auto free = mounts_.free_at(path)) return Medium{path, *free};
+  return std::nullopt;
+}
+
+std::optional<Medium> MountedStick::current() {
+  const std::lock_guard lock(mutex_);
+  return find();
+}
+
+Result<void> MountedStick::flush_and_eject() {
+  const std::lock_guard lock(mutex_);
+  const auto medium = find();
+  if (!medium) return Error{Errc::MediaMissing, "there is no stick to eject"};
+  if (const int flushed = mounts_.flush(medium->root); flushed == -ENOENT || flushed == -ENODEV) {
+    return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(medium->root.native());
+  } else if (flushed < 0) {
+    return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}.at(medium->root.native());
+  }
+  if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0) return cannot_unmount(unmounted).at(medium->root.native());
+  return {};
+}
+
+}  // namespace relievo::hal

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Watchdog and stick over a played kernel: armed, kicked, put to rest; flushed before it is unmounted; every refusal in words.
+#include <gtest/gtest.h>
+#include <linux/watchdog.h>
+
+#include <cerrno>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hal/linux/hardware_watchdog.h"
+#include "hal/linux/mounted_stick.h"
+#include "tests/hal/temporary_folder.h"
+
+namespace relievo::hal {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class HandClock final : public Clock {
+ public:
+  Instant at = Instant{} + seconds(9);
+  Instant now() const override { return at; }
+  std::chrono::system_clock::time_point wall_now() const override { return {}; }
+};
+
+// A watchdog device that bites when nobody has kicked it for its time.
+class DogKernel final : public Kernel {
+ public:
+  explicit DogKernel(HandClock& clock) : clock_(clock) {}
+  std::map<unsigned long, int> refuses;    // of the next such call, an errno
+  int open_error = 0, own_seconds = 60, kicks = 0, open_files = 0;
+  bool armed = false;
+  bool bites() const { return armed && clock_.at - heard_ > seconds(own_seconds); }
+
+  int open(const char*) override {
+    if (open_error != 0) return -std::exchange(open_error, 0);
+    armed = true;
+    heard_ = clock_.at;
+    ++open_files;
+    return 3;
+  }
+  int close(int) override { return --open_files, 0; }
+  int ioctl(int, unsigned long request, void* argument) override {
+    if (const auto refused = refuses.find(request); refused != refuses.end()) {
+      const int error = refused->second;
+      if (error == EINTR) refuses.erase(refused);
+      return -error;
+    }
+    int& value = *static_cast<int*>(argument);
+    if (request == WDIOC_SETTIMEOUT) own_seconds = value;
+    if (request == WDIOC_GETTIMEOUT) value = own_seconds;
+    if (request == WDIOC_SETOPTIONS && value == WDIOS_DISABLECARD) armed = false;
+    if (request == WDIOC_KEEPALIVE) heard_ = clock_.at, ++kicks;
+    return 0;
+  }
+  void* map(int, std::size_t, std::uint32_t) override { return nullptr; }
+  void unmap(void*, std::size_t) override {}
+  int poll(int, int) override { return 0; }
+  std::string serial_of(const char*) override { return {}; }
+
+ private:
+  HandClock& clock_;
+  Instant heard_{};
+};
+
+TEST(HardwareWatchdog, BitesWhoStopsKickingAndNobodyElse) {
+  HandClock clock;
+  DogKernel kernel(clock);
+  auto dog = HardwareWatchdog::open({"/dev/watchdog", seconds(10)}, kernel, clock);
+  ASSERT_TRUE(dog);
+  EXPECT_EQ(kernel.own_seconds, 10);
+  for (int i = 0; i < 3000; ++i, clock.at += milliseconds(20)) {
+    (*dog)->kick();
+    ASSERT_FALSE(kernel.bites());
+  }
+  EXPECT_NEAR(kernel.kicks, 60 / 2.5, 2);  // the loop turns 50 times a second, the device hears it four times in its time
+  clock.at += seconds(11);
+  EXPECT_TRUE(kernel.bites());
+  dog->reset();
+  EXPECT_FALSE(kernel.armed);
+  EXPECT_EQ(kernel.open_files, 0);
+}
+
+TEST(HardwareWatchdog, SaysWhyItCannotBeUsedAndLeavesNothingArmed) {
+  HandClock clock;
+  const std::pair<int, Errc> opens[] = {{ENOENT, Errc::NotFound}, {ENODEV, Errc::NotFound}, {EBUSY, Errc::IoFailed}, {EACCES, Errc::IoFailed}, {EIO, Errc::IoFailed}};
+  for (const auto& [number, code] : opens) {
+    DogKernel kernel(clock);
+    kernel.open_error = number;
+    const auto dog = HardwareWatchdog::open({}, kernel, clock);
+    ASSERT_FALSE(dog) << number;
+    EXPECT_EQ(dog.error().code, code) << number;
+    EXPECT_EQ(dog.error().sys_errno, number);
+  }
+  DogKernel strict(clock);
+  strict.refuses[WDIOC_SETTIMEOUT] = EINVAL;
+  const auto refused = HardwareWatchdog::open({}, strict, clock);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  EXPECT_FALSE(strict.armed);
+  EXPECT_EQ(strict.open_files, 0);
+  DogKernel none(clock);
+  EXPECT_FALSE(HardwareWatchdog::open({"", seconds(10)}, none, clock));
+  EXPECT_FALSE(HardwareWatchdog::open({"/dev/watchdog", seconds(1)}, none, clock));
+  EXPECT_FALSE(none.armed);
+}
+
+TEST(HardwareWatchdog, ADriverMayHaveATimeOfItsOwnAndSignalsInterrupt) {
+  HandClock clock;
+  DogKernel kernel(clock);
+  kernel.open_error = EINTR;
+  kernel.refuses[WDIOC_SETTIMEOUT] = EOPNOTSUPP;
+  kernel.refuses[WDIOC_GETTIMEOUT] = EINTR;
+  const auto dog = HardwareWatchdog::open({}, kernel, clock);
+  ASSERT_TRUE(dog);
+  EXPECT_EQ((*dog)->timeout(), seconds(60));
+  DogKernel hasty(clock);
+  hasty.own_seconds = 1;
+  hasty.refuses[WDIOC_SETTIMEOUT] = EOPNOTSUPP;
+  EXPECT_FALSE(HardwareWatchdog::open({}, hasty, clock));
+  EXPECT_FALSE(hasty.armed);
+}
+
+class PlayedMounts final : public Mounts {
+ public:
+  std::map<std::string, std::uint64_t> mounted;
+  std::vector<std::string> calls;
+  int flush_result = 0, unmount_result = 0;
+  std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) override {
+    const auto found = mounted.find(folder.native());
+    return found == mounted.end() ? std::nullopt : std::optional(found->second);
+  }
+  int flush(const std::filesystem::path& folder) override { return calls.push_back("flush " + folder.native()), flush_result; }
+  int unmount(const std::filesystem::path& folder) override {
+    calls.push_back("unmount " + folder.native());
+    if (unmount_result == 0) mounted.erase(folder.native());
+    return unmount_result;
+  }
+};
+
+TEST(MountedStick, IsSeenFlushedThenUnmounted) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "A");
+  std::filesystem::create_directory(folder / "B");
+  PlayedMounts mounts;
+  MountedStick stick(folder.path(), mounts);
+  EXPECT_FALSE(stick.current());
+  EXPECT_EQ(stick.flush_and_eject().error().code, Errc::MediaMissing);
+  const std::string own = (folder / "B").native();
+  mounts.mounted[own] = 123;
+  ASSERT_TRUE(stick.current());
+  EXPECT_EQ(stick.current()->root, own);
+  EXPECT_EQ(stick.current()->free_bytes, 123U);
+  ASSERT_TRUE(stick.flush_and_eject());
+  EXPECT_EQ(mounts.calls, (std::vector<std::string>{"flush " + own, "unmount " + own}));
+  EXPECT_FALSE(stick.current());
+}
+
+TEST(MountedStick, WhatIsNotFlushedIsNotUnmountedAndNothingIsPromised) {
+  const TemporaryFolder folder;
+  const std::string root = folder.path().native();
+  for (const auto& [flushed, unmounted, code] : {std::tuple{-EIO, 0, Errc::IoFailed}, std::tuple{-ENOENT, 0, Errc::MediaMissing}, std::tuple{0, -EBUSY, Errc::IoFailed},
+                                                 std::tuple{0, -EPERM, Errc::IoFailed}, std::tuple{0, -EINVAL, Errc::MediaMissing}}) {
+    PlayedMounts mounts;
+    mounts.mounted[root] = 5;
+    mounts.flush_result = flushed, mounts.unmount_result = unmounted;
+    const auto ejected = MountedStick(root, mounts).flush_and_eject();
+    ASSERT_FALSE(ejected);
+    EXPECT_EQ(ejected.error().code, code) << flushed << " " << unmounted;
+    EXPECT_EQ(mounts.calls.size(), flushed < 0 ? 1U : 2U);
+  }
+}
+
+TEST(MountedStick, TheRealTableTellsAMountFromAFolder) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(real_mounts().free_at(folder.path()));
+  EXPECT_FALSE(real_mounts().free_at("/nowhere"));
+  EXPECT_TRUE(real_mounts().free_at("/proc"));
+  EXPECT_EQ(real_mounts().flush("/nowhere"), -ENOENT);
+  EXPECT_FALSE(MountedStick("/nowhere").current());
+}
+
+}  // namespace
+}  // namespace relievo::hal
