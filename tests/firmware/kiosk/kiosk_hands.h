@@ -52,7 +52,7 @@ class KioskHands : public testing::Test {
       RELIEVO_TRY_ASSIGN(const auto actions, read_script_line(line, "line " + std::to_string(number)));
       script.insert(script.end(), actions.begin(), actions.end());
     }
-    ScriptPlayer player(std::move(script), {[this](const ui::Input& finger) { kiosk->feed(finger); }});
+    ScriptPlayer player(std::move(script), {[this](const ui::Input& input) { kiosk->feed(input); }});
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool goes_on, player.turn(*kiosk, std::chrono::steady_clock::now()));
       if (!goes_on) return {};
