@@ -40,6 +40,7 @@ LIBRARIES = {
     r"png\.h$": "png_",
     r"j(peglib|error)\.h$|turbojpeg\.h$": "jpeg_",
     r"zip\.h$": "zip_",
+    r"ZXing/": "zxing_",
     r"SDL2?/|SDL.*\.h$": "sdl_",
     r"GLES[23]?/|EGL/|KHR/": "gles_",
     r"ft2build\.h$|freetype": "freetype_",

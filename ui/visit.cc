@@ -67,6 +67,13 @@ void Visit::type(std::string_view letter) {
   accents = false;
 }
 
+void Visit::enter(std::string_view text, hal::Instant now) {
+  if (step != Step::Name || overlay != Overlay::None || length_ > 0 || text.size() > name_.size()) return;
+  length_ = text.copy(name_.data(), text.size());
+  capitals = accents = false;
+  touched(now);
+}
+
 void Visit::erase_letter() {
   while (length_ > 0) {
     const char last = name_[--length_];

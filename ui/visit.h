@@ -67,6 +67,8 @@ class Visit {
   // Follows the machine, and the time.
   std::optional<Intent> follow(const ViewState& view);
   void type(std::string_view letter);
+  // A text that was shown to the cameras, as though it had been typed; not over something typed.
+  void enter(std::string_view text, hal::Instant now);
   void forget();
 
  private:

@@ -31,6 +31,7 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 }
 
 Kiosk::~Kiosk() {
+  code_sight_.reset();
   desk_.reset();
   appliance_.reset();
   wipe(receipt_);
@@ -89,6 +90,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   }});
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   desk_->set_bench(make_bench(args, services));
+  code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
   look();
   return {};
 }
@@ -214,6 +216,10 @@ void Kiosk::turn() {
   desk_->turn();
   if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there
   look();
+  if (auto shown = code_sight_->turn(ui_->visit(), view_.now)) {
+    ui_->visit().enter(*shown, view_.now);
+    wipe(*shown);
+  }
   // What fingers asked for comes first: a frame must not take an older answer for the new one's.
   while (const auto intent = ui_->take_intent()) {
     ask(*intent);

@@ -17,6 +17,7 @@
 
 #include "firmware/appliance.h"
 #include "firmware/command/services.h"
+#include "firmware/kiosk/code/code_sight.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/showpiece.h"
 #include "firmware/service/desk.h"
@@ -91,7 +92,8 @@ class Kiosk {
   ui::ViewState view_;
   bool forgotten_ = false;
   std::unique_ptr<Appliance> appliance_;  // its threads use everything above
-  std::unique_ptr<Desk> desk_;            // last: it uses the appliance
+  std::unique_ptr<Desk> desk_;            // these two use the appliance
+  std::unique_ptr<CodeSight> code_sight_;
 };
 
 }  // namespace relievo::firmware

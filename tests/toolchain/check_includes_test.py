@@ -61,7 +61,7 @@ PLANTED = [
 ]
 LIBRARY_HEADERS = [
     "yaml.h", "yaml-cpp/yaml.h",
-    "opencv2/core.hpp", "CGAL/Point_set_3.h", "boost/graph/graph.hpp", "embree3/rtcore.h", "sqlite3.h", "sodium.h",
+    "opencv2/core.hpp", "CGAL/Point_set_3.h", "boost/graph/graph.hpp", "embree3/rtcore.h", "sqlite3.h", "sodium.h", "ZXing/ReadBarcode.h",
     "gpiod.h", "linux/videodev2.h", "libudev.h", "systemd/sd-daemon.h", "png.h", "jpeglib.h", "zip.h", "SDL2/SDL.h",
     "SDL.h", "GLES3/gl3.h", "EGL/egl.h", "ft2build.h", "hb.h", "cairo.h", "cairo-pdf.h", "CLI/CLI.hpp", "toml++/toml.h", "nlohmann/json.hpp",
     "tiny_gltf.h", "mimalloc.h", "assimp/scene.h",

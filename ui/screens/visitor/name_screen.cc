@@ -38,7 +38,7 @@ void name_screen(Page& page) {
   field.box.radius = page.px(size::kRadius);
   page.tree.open(field);
   const std::string_view name = page.visit.name();
-  Node typed = page.text(name.empty() ? std::string_view(tr("Type here")) : name, type::kButton, Weight::Medium,
+  Node typed = page.text(name.empty() ? std::string_view(tr("Type here or show a QR code")) : name, type::kButton, Weight::Medium,
                          name.empty() ? page.palette.ink_soft : page.palette.ink);
   typed.id = "typed";
   if (!name.empty()) page.tree.leaf(typed);

@@ -71,6 +71,7 @@ void help(Page& page) {
   words.box.grow = words.box.scroll ? 1.0F : 0.0F;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
+  if (page.visit.step == Step::Name) page.body("overlay_code", page.tr("You may also hold a QR code with your name or number before the cameras."));
   page.body("overlay_staff", page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
   page.tree.close();
   page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
