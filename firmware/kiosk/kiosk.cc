@@ -7,6 +7,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
+#include "firmware/kiosk/code/code_guard.h"
 #include "firmware/kiosk/consent_files.h"
 #include "firmware/kiosk/receipt.h"
 #include "firmware/service/device/disk_room.h"
@@ -85,7 +86,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
   appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
     Result<void> asked = look_up();
-    if (!asked) found_.store(ui::Known::Nobody);  // whom the records cannot answer for is somebody new
+    // Whom the records cannot answer for is somebody new; a code they cannot answer for is none.
+    if (!asked) found_.store(quoted_.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode);
     return asked;
   }});
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
@@ -131,12 +133,17 @@ Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& mo
 Result<void> Kiosk::look_up() {
   ui::Known said = ui::Known::Nobody;
   if (!quoted_.empty()) {
-    const auto id = subject_of_receipt(quoted_);
+    said = ui::Known::NoSuchCode;
+    CodeGuard guard(*store_, board_->clock());
+    RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
+    const auto id = listens ? subject_of_receipt(quoted_) : std::nullopt;
     const Result<storage::Subject> subject = id ? store_->subject(*id) : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
     if (!subject && subject.error().code != Errc::NotFound) return subject.error();
-    const bool theirs = subject && subject->name == claimed_;
-    said = theirs ? ui::Known::Code : ui::Known::NoSuchCode;
-    if (theirs) record_ = *id;
+    if (subject && subject->name == claimed_) {
+      RELIEVO_TRY(guard.was_right());
+      said = ui::Known::Code;
+      record_ = *id;
+    }
   } else if (tells_known_) {
     const auto same = store_->subjects({.name = claimed_, .whole_name = true, .limit = 1});
     if (!same) return same.error();

@@ -119,6 +119,24 @@ TEST_F(KioskMomentsTest, APulledCameraIsSaidAndNothingOfThePersonStays) {
   EXPECT_TRUE(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
 }
 
+TEST_F(KioskMomentsTest, ThreeRefusedPicturesHaveTheirWordsAndAWayOn) {
+  open();
+  type_name("Grace Hopper");
+  for (int picture = 0; picture < 3; ++picture) {
+    ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Position && find("shoot") != nullptr && kiosk->view().screen == ui::Screen::Position; }));
+    tap("shoot");  // of nobody: grey pictures
+    ASSERT_TRUE(until([this] { return kiosk->view().screen != ui::Screen::Position; }));
+  }
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  EXPECT_EQ(kiosk->view().trouble, ui::Trouble::Refused);
+  EXPECT_TRUE(says("did not work"));
+  EXPECT_FALSE(says("Grace"));
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+  tap("finish");
+  EXPECT_TRUE(reach(ui::Step::Attract));
+  EXPECT_EQ(kiosk->ui().visit().name(), "");
+}
+
 TEST_F(KioskMomentsTest, TheOperatorsOwnTextIsShownInItsLanguagesAlone) {
   const auto write = [this](const char* version, const char* file, const char* words) {
     std::filesystem::create_directories(args.store / "consent" / version);
@@ -176,6 +194,37 @@ TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
   ASSERT_TRUE(reach(ui::Step::Position));
   EXPECT_EQ(kiosk->view().subject, "Ada");
   EXPECT_LE(kiosk->ui().visit().touches, 9);
+}
+
+TEST_F(KioskMomentsTest, AfterTenWrongCodesAnHourTheRightOneIsNoneEither) {
+  const std::string code = receipt_of(put_into_the_store("Ada"));
+  const auto quote = [this](const std::string& tried) {
+    type_name("Ada");
+    ASSERT_TRUE(reach(ui::Step::Known));
+    tap("have_code");
+    kiosk->ui().visit().type(tried);
+    kiosk->turn();
+    tap("done");
+    ASSERT_TRUE(until([this] { return kiosk->view().known == ui::Known::NoSuchCode || kiosk->view().known == ui::Known::Code; }));
+  };
+  for (int start = 0; start < 2; ++start) {  // a start of the program gives no further try
+    open();
+    for (int visit = 0; visit < 5; ++visit) {
+      quote("000999-11");
+      EXPECT_EQ(kiosk->view().known, ui::Known::NoSuchCode);
+      tap("leave");
+      tap("answer_quiet");
+    }
+    kiosk.reset();
+  }
+  open();
+  quote(code);
+  EXPECT_EQ(kiosk->view().known, ui::Known::NoSuchCode) << "not even that it is one";
+  kiosk.reset();
+  world.wall_shift_s = 3700;
+  open();
+  quote(code);
+  EXPECT_EQ(kiosk->view().known, ui::Known::Code);
 }
 
 TEST_F(KioskMomentsTest, WhereTheOperatorWantsItNobodyIsTold) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/full_store.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -40,7 +42,10 @@ class KioskTest : public KioskHands {
       options.simulation.rig = small_rig();
       return hal::make_sim_board(options);
     };
-    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+      RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));
+      return std::unique_ptr<storage::Store>(std::make_unique<test::FullStore>(std::move(real), full));
+    };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       const Path file = folder.path() / "rig.yml";
       RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(small_rig())));
@@ -96,33 +101,60 @@ class KioskTest : public KioskHands {
     kiosk->feed({ui::Input::Kind::Move, 1, face.x + 300, face.y + 200});
     kiosk->feed({ui::Input::Kind::Up, 1, face.x + 300, face.y + 200});
     EXPECT_GT(kiosk->ui().visit().look.yaw_deg, 10);
+    full = true;
     tap("accept");
+    ASSERT_TRUE(until([this] { return kiosk->view().trouble == ui::Trouble::Storage && kiosk->view().screen == ui::Screen::Review; }));
+    EXPECT_EQ(kiosk->view().receipt, "") << "no code for what was not stored";
+    EXPECT_NE(find("trouble"), nullptr) << "its own words";
+    full = false;
+    tap("accept");  // the way on
     ASSERT_TRUE(reach(ui::Step::Thanks));
     kiosk->turn();
-    const std::string code(kiosk->view().receipt);
+    code = kiosk->view().receipt;
     EXPECT_LE(kiosk->ui().visit().touches, 6);
     tap("finish");
     EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract);
     kiosk->turn();
     EXPECT_EQ(kiosk->view().receipt, "");
     EXPECT_TRUE(kiosk->take_forgotten());
-    kiosk.reset();
+  }
 
+  // A name that is in the records; the visitor leaves, then comes back with the code and renews.
+  void stop_then_renew() {
+    const Result<void> stopped = play("tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap leave\ntap answer_quiet\nwait attract\n");
+    ASSERT_TRUE(stopped.has_value()) << stopped.error().where();
+    EXPECT_EQ(kiosk->view().known, ui::Known::NotAsked) << "what was asked is forgotten";
+    const std::string again = "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code +
+                              "\ntap done\nwait known\ntap renew\nwait review 600\ntap accept\nwait thanks 600\n";
+    const Result<void> renewed = play(again.c_str());
+    ASSERT_TRUE(renewed.has_value()) << renewed.error().where();
+    kiosk->turn();
+    EXPECT_EQ(kiosk->view().receipt, code) << "the same record";
+    tap("finish");
+    kiosk.reset();
+  }
+
+  void one_record_with_the_newer_portrait() {
     auto store = storage::open_sqlite_store(args.store, clock, {});
     ASSERT_TRUE(store.has_value());
-    EXPECT_EQ((*store)->subjects({})->size(), 1U) << "who left is not there";
+    EXPECT_EQ((*store)->subjects({})->size(), 1U) << "who left is not there, and nobody is there twice";
     ASSERT_TRUE(subject_of_receipt(code)) << code;
     const auto subject = (*store)->subject(*subject_of_receipt(code));
     ASSERT_TRUE(subject.has_value());
     EXPECT_EQ(subject->name, "Ada");
     const auto enrolments = (*store)->enrolments(subject->id);
     ASSERT_TRUE(enrolments.has_value());
-    ASSERT_EQ(enrolments->size(), 1U);
+    ASSERT_EQ(enrolments->size(), 1U) << "the old portrait is gone";
+    EXPECT_GT(enrolments->front().created_at, subject->created_at) << "the newer one stays";
     EXPECT_EQ(enrolments->front().consent.wording, ui::kConsentWording);
     EXPECT_EQ(enrolments->front().consent.language, "en");
     EXPECT_LT(enrolments->front().consent.given_at, enrolments->front().created_at);
+    EXPECT_GT(enrolments->front().consent.given_at, subject->created_at) << "the second consent";
+    EXPECT_TRUE((*store)->check().has_value());
   }
 
+  std::atomic<bool> full{false};
+  std::string code;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
@@ -130,10 +162,12 @@ class KioskTest : public KioskHands {
   KioskArgs args;
 };
 
-// One test for both, since building the simulated person takes longest.
-TEST_F(KioskTest, WhoLeavesLeavesNothingAndTheNextIsEnrolled) {
+// One test for all, since building the simulated person takes longest.
+TEST_F(KioskTest, WhoLeavesLeavesNothingAndTheNextIsEnrolledAndRenews) {
   leave_before_the_picture();
   enrol_by_touch();
+  stop_then_renew();
+  one_record_with_the_newer_portrait();
 }
 
 }  // namespace
