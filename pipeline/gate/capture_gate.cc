@@ -49,6 +49,11 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   m.middle_near_share = static_cast<double>(near) / middle;
 }
 
+void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {
+  m.eyes = {measure_eye(photo, -1, context), measure_eye(photo, 1, context)};
+  m.mouth = measure_mouth(photo, context);
+}
+
 // Where the head was a moment ago, as a face to look for.
 HeadHint expected(const Relief& relief, const GateHistory& history) {
   const Vec2d at = relief.pixel(history.tip_mm);
@@ -136,6 +141,7 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
     if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(relief, now, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
+    measure_expression({frame, calibration, relief, m.head}, context, m);
   }
   answer.reason = judge(m, options_.limits, history.said);
   remember(now, m, history);

@@ -3,7 +3,7 @@
 //
 // CaptureGate: judges the live pair and answers with one piece of advice, the first that holds in the order of Advice. None means: take it.
 //
-//   pair --> relief, faces by cascade --> the head by stereo --> light, sharpness --> judge() --> steadied by the history
+//   pair --> relief, faces by cascade --> the head by stereo --> light, sharpness, eyes, mouth --> judge() --> steadied by the history
 //
 // look() is a function of the pictures, the time and the history, which is plain data of fixed size: the same of these
 // gives the same answer. What a person is told changes only when a reason was seen twice; `reason` is this picture's own, and

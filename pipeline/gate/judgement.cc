@@ -72,6 +72,22 @@ struct Judge {
                         above(h.asymmetry_mm, l.asymmetry_mm, Advice::FaceHidden);
     return hidden ? Advice::FaceHidden : Advice::None;
   }
+  // Of an eye that something hides nobody can tell whether it is open.
+  Advice eyes() const {
+    for (const EyeSight& eye : m.eyes)
+      if (eye.known && below(eye.brightness, l.eye_brightness, Advice::EyesHidden)) return Advice::EyesHidden;
+    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeSight& eye) { return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare); });
+    for (const EyeSight& eye : m.eyes)
+      if (!glare && eye.known && below(eye.contrast, l.iris_contrast, Advice::EyesClosed)) return Advice::EyesClosed;
+    return glare ? Advice::GlassesGlare : Advice::None;
+  }
+  Advice mouth() const {
+    const MouthSight& mouth = m.mouth;
+    if (!mouth.known) return Advice::None;
+    const bool open = above(mouth.dark_mm2, l.dark_mm2, Advice::MouthOpen) || above(mouth.steps_mm, l.steps_mm, Advice::MouthOpen) || above(mouth.before_mm, l.before_mm, Advice::MouthOpen);
+    if (open) return Advice::MouthOpen;
+    return above(mouth.rise_mm, l.rise_mm, Advice::NotNeutral) ? Advice::NotNeutral : Advice::None;
+  }
 };
 
 }  // namespace
@@ -81,17 +97,24 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
   for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
-                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, leave, leave_sides})
+                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness, iris_contrast,
+                         glare_mm2, dark_mm2, steps_mm, before_mm, rise_mm, leave, leave_sides})
     if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
   if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
   return {};
+}
+
+Advice judge_expression(const GateMeasures& measures, const GateLimits& limits, Advice said) {
+  const Judge judge{measures, limits, said};
+  const Advice eyes = judge.eyes();
+  return eyes != Advice::None ? eyes : judge.mouth();
 }
 
 Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said) {
   const Judge judge{measures, limits, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
-  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover()})
+  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover(), judge.eyes(), judge.mouth()})
     if (advice != Advice::None) return advice;
   return measures.tracked ? Advice::NoFace : Advice::None;
 }

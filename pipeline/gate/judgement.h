@@ -5,7 +5,11 @@
 // pure function. Directions are those of the left camera's picture, not mirrored; frame of points: that of the relief.
 #pragma once
 
+#include <array>
+
 #include "hal/base/result.h"
+#include "pipeline/gate/expression/eye_sight.h"
+#include "pipeline/gate/expression/mouth_sight.h"
 #include "pipeline/gate/head/head_sight.h"
 #include "pipeline/gate/light/face_light.h"
 #include "pipeline/model/advice.h"
@@ -26,6 +30,8 @@ struct GateMeasures {
   double speed_mm_s = 0, turn_deg_s = 0;
   FaceLight light;
   double blur_mm = 0;               // on the face: edge_blur.h
+  std::array<EyeSight, 2> eyes;     // on the picture's left, on its right
+  MouthSight mouth;
 };
 
 // A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
@@ -42,6 +48,11 @@ struct GateLimits {
   double covered_share = 0.06, in_front_share = 0.05, unknown_share = 0.45;
   double asymmetry_mm = 5.5;
   double relief_mm = 8;                            // a nose stands out further: else something flat is before it
+  double eye_brightness = 0.55;                    // least: darker is behind dark glass
+  double iris_contrast = 0.10;                     // least: an eye is open
+  double glare_mm2 = 45;                           // lamps in both corneas are smaller
+  double dark_mm2 = 18, steps_mm = 4.8, before_mm = 4;  // of closed lips
+  double rise_mm = 1.7;                            // of the mouth's corners: a smile
   // Beyond these the relief itself is not to be trusted, and what it says of pose and motion: light and sharpness are asked first.
   double lost_dark_mean = 0.10, lost_bright_share = 0.30, lost_blur_mm = 1.4, lost_below_mm_s = 190;
   double leave = 0.85;                             // share of a limit
@@ -51,6 +62,8 @@ struct GateLimits {
 
 // The first that holds, in the order of Advice, but for what spoils the measures themselves: hopeless light and blur, and something before the face,
 // are asked right after the distance. `said` is what was said of the picture before.
+// judge_expression() looks at eyes and mouth alone.
+Advice judge_expression(const GateMeasures& measures, const GateLimits& limits, Advice said);
 Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said);
 
 }  // namespace relievo::pipeline

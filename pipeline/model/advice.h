@@ -30,7 +30,8 @@ enum class Advice : std::uint8_t {
   EyesHidden,       // EyesVisible
   EyesClosed,       // EyesOpen
   GlassesGlare,     // glasses mirror a lamp
-  MouthOpen,        // MouthClosed
+  MouthOpen,        // MouthClosed; teeth, tongue
+  NotNeutral,       // ExpressionNeutrality: a smile
   Background,       // BackgroundUniformity
 };
 

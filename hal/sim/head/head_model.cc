@@ -110,13 +110,14 @@ void HeadModel::build_mouth(ThreadPool& pool) {
   const double jaw = traits.expression.jaw_mm, out = traits.expression.tongue_mm;
   if (jaw <= 0) return;
   const double sto = stomion_y(traits), front = field.mouth.front();
+  const double shown = 2.2 + std::min(5.5 * traits.expression.smile, std::max(0.0, jaw - 3));  // a smile lifts the lip off the upper ones
   const auto arch = [](double x) { return -0.022 * x * x; };   // 14 mm back at the molars
   const auto row = [&](Vec3 p, double low, double high, double z) {
     return std::max({std::abs(p.x) - 25, std::abs(p.z - z - arch(p.x)) - 2.4, low - p.y, p.y - high});
   };
   const Field teeth = [&](Vec3 p) {
     const Vec3 q = field.swayed(p);
-    return std::min(row(q, sto - 2.2, sto + 8, front - 4.5), row(q, sto - jaw - 9, sto - jaw - 1, front - 6.5));
+    return std::min(row(q, sto - shown, sto + 8, front - 4.5), row(q, sto - jaw - 9, sto - jaw - 1, front - 6.5));
   };
   const Box box{{-30, sto - jaw - 12, front - 30}, {30, sto + 11, front + 4}};
   shells[Teeth].mesh = mesh_of_field(teeth, box, 0.8, pool);

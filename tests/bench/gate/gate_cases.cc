@@ -45,7 +45,7 @@ const test::Shot& GateTrial::shot(Advice fault, std::uint32_t person, int varian
     case Advice::Tilted: return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
     case Advice::FaceHidden: return album_.shoot(person, standing(560), other ? Extra::HandOnCheek : Extra::HandBefore);
     case Advice::None: case Advice::Moved: case Advice::TooDark: case Advice::TooBright: case Advice::UnevenLight: case Advice::Highlights:
-    case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::Background: break;
+    case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::NotNeutral: case Advice::Background: break;
   }
   return other ? album_.shoot(person, standing(600, -12, 8, -4, 3, 3)) : album_.shoot(person, standing(560));
 }

@@ -20,6 +20,8 @@ GateMeasures good() {
   m.light.known = true;
   m.light.luminance_mean = 0.5;
   m.blur_mm = 0.5;
+  for (EyeSight& eye : m.eyes) eye.known = true, eye.contrast = 0.28, eye.aperture_mm = 9;
+  m.mouth.known = true, m.mouth.steps_mm = 2, m.mouth.before_mm = -2;
   return m;
 }
 
@@ -57,6 +59,13 @@ const std::vector<Row>& rows() {
       {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.blur_mm + 0.05; }},
       {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
       {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
+      {"dark glasses", Advice::EyesHidden, [](GateMeasures& m) { m.eyes[0].brightness = l.eye_brightness - 0.01; }},
+      {"a wink", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[1].contrast = l.iris_contrast - 0.01; }},
+      {"a lamp in the glasses", Advice::GlassesGlare, [](GateMeasures& m) { m.eyes[0].glare_mm2 = l.glare_mm2 + 1; }},
+      {"parted lips", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.dark_mm2 = l.dark_mm2 + 1; }},
+      {"teeth", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.steps_mm = l.steps_mm + 0.1; }},
+      {"the tongue", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.before_mm = l.before_mm + 0.1; }},
+      {"a smile", Advice::NotNeutral, [](GateMeasures& m) { m.mouth.rise_mm = l.rise_mm + 0.1; }},
       {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
   };
   return table;
@@ -81,6 +90,7 @@ TEST(Judgement, OfTwoFaultsTheEarlierOneIsSaid) {
       rows()[j].spoil(m);
       if (rows()[i].expected == Advice::TooClose && rows()[j].expected == Advice::TooFar) continue;
       if (rows()[i].expected == Advice::TooDark && rows()[j].expected == Advice::TooBright) continue;
+      if (rows()[i].expected == Advice::EyesClosed && rows()[j].expected == Advice::GlassesGlare) continue;  // what shines hides the lids
       EXPECT_EQ(judge(m, {}, Advice::None), rows()[i].expected) << rows()[i].what << " and " << rows()[j].what;
     }
 }
@@ -93,6 +103,17 @@ TEST(Judgement, WhatWasSaidIsNotTakenBackByNoise) {
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::TurnedAside);
   m.head.yaw_deg = l.leave * l.yaw_deg - 0.1;
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::None);
+}
+
+TEST(Judgement, OfEyesThatCannotBeSeenNobodySaysTheyAreClosed) {
+  const GateLimits l;
+  GateMeasures m = good();
+  m.eyes[0].contrast = m.eyes[1].contrast = 0;
+  EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::EyesClosed);
+  m.eyes[0].glare_mm2 = l.glare_mm2 + 1;
+  EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::GlassesGlare);
+  m.eyes[0].known = m.eyes[1].known = false;
+  EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::None);
 }
 
 TEST(Judgement, WithoutAHeadThePictureSpeaks) {

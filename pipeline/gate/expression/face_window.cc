@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/expression/face_window.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/match/rectify/rectified_geometry.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kCell = 8;               // samples between places that go through the lens one by one
+constexpr double kStrangeMm = 8;       // off the plane: hair, a hand, a frame of glasses
+constexpr int kLeastPoints = 12;
+
+double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// How far the part of the face lies behind the tip of the nose: level + across * right + slope * down.
+struct Plane { double level = 0, across = 0, slope = 0; bool known = false; };
+
+bool solve(std::array<std::array<double, 4>, 3>& m) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t pivot = i;
+    for (std::size_t r = i + 1; r < 3; ++r)
+      if (std::abs(m[r][i]) > std::abs(m[pivot][i])) pivot = r;
+    std::swap(m[i], m[pivot]);
+    if (std::abs(m[i][i]) < 1e-9) return false;
+    for (std::size_t r = 0; r < 3; ++r) {
+      if (r == i) continue;
+      const double by = m[r][i] / m[i][i];
+      for (std::size_t c = i; c < 4; ++c) m[r][c] -= by * m[i][c];
+    }
+  }
+  return true;
+}
+
+Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& box) {
+  Plane plane;
+  const double step = std::max(2.0, head.tip_mm.z / relief.focal_px);
+  for (int round = 0; round < 3; ++round) {
+    std::array<std::array<double, 4>, 3> m{};
+    int count = 0;
+    for (double down = box.down0_mm; down <= box.down1_mm; down += step)
+      for (double right = box.right0_mm; right <= box.right1_mm; right += step) {
+        const FacePlace place = place_on(relief, head, right, down);
+        if (!place.inside || !relief.known(place.x, place.y)) continue;
+        const Vec3d p = relief.point(place.x, place.y), d{p.x - head.tip_mm.x, p.y - head.tip_mm.y, p.z - head.tip_mm.z};
+        const double behind = dot(d, head.away);
+        if (plane.known ? std::abs(behind - plane.level - plane.across * right - plane.slope * down) > kStrangeMm : behind < -20 || behind > 60) continue;
+        const std::array<double, 4> row{1, right, down, behind};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 4; ++j) m[i][j] += row[i] * row[j];
+        ++count;
+      }
+    if (count < kLeastPoints || !solve(m)) return plane;
+    plane = {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2], true};
+  }
+  return plane;
+}
+
+float luminance(const ImageView& image, int x, int y) {
+  const std::uint8_t* row = image.row(y);
+  switch (image.format) {
+    case PixelFormat::Rgb8: return static_cast<float>(row[3 * x] + row[3 * x + 1] + row[3 * x + 2]) / 3.0F;
+    case PixelFormat::Grey16: return static_cast<float>(row[2 * x] + 256 * row[2 * x + 1]) / 257.0F;
+    case PixelFormat::Grey8: break;
+  }
+  return row[x];
+}
+
+// The mean of `side` x `side` samples between pixels, one pixel apart, about (x, y).
+float sample(const ImageView& image, Vec2d at, int side) {
+  const double left = at.x - (side - 1) / 2.0, top = at.y - (side - 1) / 2.0;
+  const int x0 = static_cast<int>(std::floor(left)), y0 = static_cast<int>(std::floor(top));
+  const auto u = static_cast<float>(left - x0), v = static_cast<float>(top - y0);
+  float sum = 0;
+  for (int j = 0; j <= side; ++j)
+    for (int i = 0; i <= side; ++i) {
+      const float weight = (i == 0 ? 1 - u : i == side ? u : 1.0F) * (j == 0 ? 1 - v : j == side ? v : 1.0F);
+      sum += weight * luminance(image, x0 + i, y0 + j);
+    }
+  return sum / static_cast<float>(side * side);
+}
+
+// Source pixels of a lattice of cells, and between them.
+class Lattice {
+ public:
+  Lattice(const FacePhoto& photo, const Plane& plane, const FaceWindow& window, std::pmr::memory_resource* memory)
+      : across_((window.columns - 1) / kCell + 2), nodes_(memory) {
+    const int along = (window.rows - 1) / kCell + 2;
+    nodes_.reserve(static_cast<std::size_t>(across_ * along));
+    for (int j = 0; j < along; ++j)
+      for (int i = 0; i < across_; ++i) nodes_.push_back(pixel(photo, plane, window.right_mm(i * kCell), window.down_mm(j * kCell)));
+  }
+  Vec2d at(int x, int y) const {
+    const auto k = static_cast<std::size_t>(y / kCell * across_ + x / kCell);
+    const double u = static_cast<double>(x % kCell) / kCell, v = static_cast<double>(y % kCell) / kCell;
+    const auto across = static_cast<std::size_t>(across_);
+    const auto mix = [&](double a, double b, double c, double d) { return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d); };
+    return {mix(nodes_[k].x, nodes_[k + 1].x, nodes_[k + across].x, nodes_[k + across + 1].x),
+            mix(nodes_[k].y, nodes_[k + 1].y, nodes_[k + across].y, nodes_[k + across + 1].y)};
+  }
+
+ private:
+  static Vec2d pixel(const FacePhoto& photo, const Plane& plane, double right, double down) {
+    const HeadSight& h = photo.head;
+    const double behind = plane.level + plane.across * right + plane.slope * down;
+    const Vec3d p{h.tip_mm.x + right * h.right.x + down * h.down.x + behind * h.away.x, h.tip_mm.y + right * h.right.y + down * h.down.y + behind * h.away.y,
+                  h.tip_mm.z + right * h.right.z + down * h.down.z + behind * h.away.z};
+    return source_pixel(photo.calibration.left, photo.relief.rectified_from_left, 1, {0, 0}, {p.x / p.z, p.y / p.z});
+  }
+  int across_;
+  std::pmr::vector<Vec2d> nodes_;
+};
+
+}  // namespace
+
+double FaceWindow::between(double right_mm, double down_mm) const {
+  const double x = std::clamp(column(right_mm), 0.0, columns - 1.001), y = std::clamp(row(down_mm), 0.0, rows - 1.001);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const double u = x - x0, v = y - y0;
+  return (1 - v) * ((1 - u) * static_cast<double>(at(x0, y0)) + u * static_cast<double>(at(x0 + 1, y0))) +
+         v * ((1 - u) * static_cast<double>(at(x0, y0 + 1)) + u * static_cast<double>(at(x0 + 1, y0 + 1)));
+}
+
+FaceWindow cut_window(const FacePhoto& photo, const WindowBox& box, StageContext& context) {
+  FaceWindow window(&context.scratch);
+  if (!photo.head.known || photo.frame.left.empty()) return window;
+  const Plane plane = fit_plane(photo.relief, photo.head, box);
+  if (!plane.known) return window;
+  window.box = box;
+  window.columns = static_cast<int>((box.right1_mm - box.right0_mm) / FaceWindow::kStepMm) + 1;
+  window.rows = static_cast<int>((box.down1_mm - box.down0_mm) / FaceWindow::kStepMm) + 1;
+  const Lattice lattice(photo, plane, window, &context.scratch);
+  const ImageView& image = photo.frame.left;
+  const Vec2d a = lattice.at(0, 0), b = lattice.at(0, window.rows - 1);
+  const double pixels = std::hypot(b.x - a.x, b.y - a.y) / (window.rows - 1);   // a sample
+  const int side = std::clamp(static_cast<int>(std::lround(pixels)), 1, 8);
+  window.grey.reserve(static_cast<std::size_t>(window.columns * window.rows));
+  for (int y = 0; y < window.rows; ++y)
+    for (int x = 0; x < window.columns; ++x) {
+      const Vec2d at = lattice.at(x, y);
+      if (!(at.x > side && at.y > side && at.x < image.width_px - side - 1 && at.y < image.height_px - side - 1)) {
+        window.grey.clear();
+        return window;
+      }
+      window.grey.push_back(sample(image, at, side));
+    }
+  return window;
+}
+
+double quantile(const FaceWindow& window, const WindowBox& box, double share, StageContext& context) {
+  const int x0 = std::max(0, static_cast<int>(window.column(box.right0_mm))), x1 = std::min(window.columns - 1, static_cast<int>(window.column(box.right1_mm)));
+  const int y0 = std::max(0, static_cast<int>(window.row(box.down0_mm))), y1 = std::min(window.rows - 1, static_cast<int>(window.row(box.down1_mm)));
+  if (window.empty() || x1 < x0 || y1 < y0) return 0;
+  std::pmr::vector<float> values(&context.scratch);
+  values.reserve(static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1)));
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) values.push_back(window.at(x, y));
+  const auto k = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), k, values.end());
+  return static_cast<double>(*k);
+}
+
+}  // namespace relievo::pipeline
