@@ -77,7 +77,7 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
 // Left taken for right has its rows in step and a face within reach.
 bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) const {
   Arena::Mark mark(context.output);
-  const auto pair = rectify({frame.right, frame.left, frame.sequence, frame.skew_ns}, context);
+  auto pair = rectify({frame.right, frame.left, frame.sequence, frame.skew_ns}, context);
   if (!pair) return false;
   const auto matches = match(*pair, context);
   return matches && judge_drift(matches->epipolar_shift, calibration_).verdict != DriftVerdict::Refuse &&
@@ -96,14 +96,8 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, Errc failure, S
   return fault ? std::optional(error_of(*fault)) : std::nullopt;
 }
 
-Result<MatchSet> Pipeline::match(const RectifiedPair& pair, StageContext& context) const {
-  if (preprocessor_ == nullptr) return match_prepared(pair, context);
-  auto prepared = run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); });
-  if (!prepared) return prepared.error();
-  return match_prepared(*prepared, context);
-}
-
-Result<MatchSet> Pipeline::match_prepared(const RectifiedPair& pair, StageContext& context) const {
+Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) const {
+  if (preprocessor_ != nullptr) RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); }));
   auto keypoints = run_stage(context, [&](StageContext& c) { return selector_->select(pair, c); });
   if (!keypoints) return keypoints.error();
   auto set = run_stage(context, [&](StageContext& c) { return matcher_->match(pair, *keypoints, c); });

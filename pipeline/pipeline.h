@@ -37,8 +37,8 @@ class Pipeline {
 
   // Errors: InvalidInput (pictures that are not this calibration's), NoFace, Cancelled, OutOfMemory.
   Result<RectifiedPair> rectify(const StereoFrame& frame, StageContext& context) const;
-  // Errors: TooFewMatches, NoFace, Cancelled, OutOfMemory.
-  Result<MatchSet> match(const RectifiedPair& pair, StageContext& context) const;
+  // The pair's grey values are then what the preprocessor made of them. Errors: TooFewMatches, NoFace, Cancelled, OutOfMemory.
+  Result<MatchSet> match(RectifiedPair& pair, StageContext& context) const;
   Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
@@ -56,7 +56,6 @@ class Pipeline {
   Pipeline() = default;
   bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
   Result<ReliefFigures> judge_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
-  Result<MatchSet> match_prepared(const RectifiedPair& pair, StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;
   RectifierOptions volume_;

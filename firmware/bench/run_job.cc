@@ -41,7 +41,8 @@ Result<void> RunJob::finish(JobControl& control) {
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress, control.cancelled};
   RELIEVO_TRY(figures_.measure(session_.products(), context));
-  return pictures_.draw(session_.products(), set_, context);
+  pictures_.draw(session_.products());
+  return {};
 }
 
 }  // namespace relievo::firmware

@@ -36,6 +36,7 @@ TargetMeter::~TargetMeter() = default;
 Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibration,
                                       const std::atomic<bool>& cancelled) {
   pipeline::AlgorithmSet set;
+  RELIEVO_TRY(set.set("preprocessor", "none"));      // a target is no skin
   RELIEVO_TRY(set.set("grid.min_area_mm2", "300"));  // a sphere of 20 mm, seen within 60 degrees
   RELIEVO_TRY_ASSIGN(auto stages, pipeline::Pipeline::make(set, calibration, {}, pipeline::Region::All));
   TargetMeter meter;

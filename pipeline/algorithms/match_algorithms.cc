@@ -12,6 +12,7 @@
 #include "pipeline/match/constraints/uniqueness_constraint.h"
 #include "pipeline/match/file/file_matcher.h"
 #include "pipeline/match/peer/sgbm_matcher.h"
+#include "pipeline/match/preprocess/highlight_remover.h"
 #include "pipeline/match/preprocess/histogram_normaliser.h"
 #include "pipeline/match/preprocess/histogram_transfer.h"
 #include "pipeline/match/refine/refined_matcher.h"
@@ -31,6 +32,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr std::array kPreprocessors{
+    with_options<Preprocessor, HighlightRemover, HighlightRemoverOptions>("remove-highlights"),
     with_options<Preprocessor, HistogramNormaliser, HistogramNormaliserOptions>("histogram-normalise"),
     with_options<Preprocessor, HistogramTransfer, HistogramTransferOptions>("histogram-match"),
 };
@@ -69,7 +71,7 @@ constexpr std::array kConstraints{
 
 std::vector<Kind> match_kinds() {
   std::vector<Kind> kinds{
-      kind_of("preprocessor", "none", "what is done to the pictures' grey values first", kPreprocessors),
+      kind_of("preprocessor", "remove-highlights", "what is done to the pictures' grey values first", kPreprocessors),
       kind_of("selector", "dense", "which places of the left view are matched", kSelectors),
       kind_of("matcher", "refined", "how their partners in the right view are found", kMatchers),
       kind_of("constraints", "similarity+uniqueness+continuity", "which rules judge the matches, joined by '+', or none", kConstraints),

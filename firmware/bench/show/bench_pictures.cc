@@ -95,18 +95,6 @@ void BenchPictures::draw_pair(BenchStage stage, const pipeline::RectifiedPair& p
   }
 }
 
-Result<void> BenchPictures::draw_processed(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, pipeline::StageContext& context) {
-  RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set));
-  if (preprocessor == nullptr) {
-    draw_pair(BenchStage::Processed, pair, false);
-    return {};
-  }
-  Arena::Mark mark(context.output);
-  RELIEVO_TRY_ASSIGN(const auto processed, pipeline::run_stage(context, [&](pipeline::StageContext& c) { return preprocessor->process(pair, c); }));
-  draw_pair(BenchStage::Processed, processed, false);
-  return {};
-}
-
 void BenchPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
   StageCanvas canvas(begin(BenchStage::Matches, 0).rgb.get(), kSide);
   draw_photograph(pair, 1, canvas);
@@ -158,21 +146,20 @@ void BenchPictures::draw_shapes(const Products& products) {
   }
 }
 
-Result<void> BenchPictures::draw(const Products& products, const pipeline::AlgorithmSet& set, pipeline::StageContext& context) {
+void BenchPictures::draw(const Products& products) {
   wipe();
   if (products.frame) {
     draw_input(products.frame->left, 0);
     draw_input(products.frame->right, 1);
   }
-  if (!products.pair) return {};
+  if (!products.pair) return;
   draw_pair(BenchStage::Rectified, *products.pair, true);
-  RELIEVO_TRY(draw_processed(*products.pair, set, context));
+  draw_pair(BenchStage::Processed, *products.pair, false);  // as the matcher was given it
   if (products.matches) {
     draw_rules(*products.pair, *products.matches);
     draw_disparity(*products.pair, *products.matches);
   }
   draw_shapes(products);
-  return {};
 }
 
 ui::BenchPicture BenchPictures::picture(BenchStage stage, std::size_t side) const {

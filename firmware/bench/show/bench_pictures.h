@@ -6,8 +6,7 @@
 //   Input, Processed, Rectified   both views, whole
 //   Matches                       the face: rejected ones in the colour of the rule that took them first
 //   Disparity, Cloud, Mesh, Texture   the face
-// Thread: the worker draws while its job runs; main reads and wipes while none runs. Errors of draw(): the
-// preprocessor's; OutOfMemory.
+// Thread: the worker draws while its job runs; main reads and wipes while none runs. No errors.
 #pragma once
 
 #include <array>
@@ -26,8 +25,8 @@ class BenchPictures {
   static constexpr int kSide = budget::kBenchPictureSidePx;
 
   BenchPictures();
-  // Draws what the products have; `output` of the context is not touched.
-  Result<void> draw(const Products& products, const pipeline::AlgorithmSet& set, pipeline::StageContext& context);
+  // Draws what the products have.
+  void draw(const Products& products);
   // The left picture (0) or the right one; empty where the stage has none.
   ui::BenchPicture picture(ui::BenchStage stage, std::size_t side) const;
   void copy_from(const BenchPictures& other);
@@ -42,7 +41,6 @@ class BenchPictures {
   One& begin(ui::BenchStage stage, std::size_t side);
   void draw_pair(ui::BenchStage stage, const pipeline::RectifiedPair& pair, bool colour);
   void draw_input(const ImageView& view, std::size_t side);
-  Result<void> draw_processed(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, pipeline::StageContext& context);
   void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_shapes(const Products& products);

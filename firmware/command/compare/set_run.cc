@@ -55,7 +55,7 @@ class Bench {
 
 // What the steps make, in their order.
 struct Made {
-  std::optional<pipeline::RectifiedPair> pair, prepared;
+  std::optional<pipeline::RectifiedPair> pair;
   std::optional<pipeline::Keypoints> keypoints;
   std::optional<pipeline::MatchSet> matches;
   std::optional<pipeline::FaceModel> model;
@@ -81,9 +81,9 @@ Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
   RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
   if (preprocessor != nullptr) {
-    RELIEVO_TRY_ASSIGN(made.prepared, bench.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+    RELIEVO_TRY(bench.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
   }
-  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+  const pipeline::RectifiedPair& pair = *made.pair;
   RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) { return selector->select(pair, c); }));
   RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) { return matcher->match(pair, *made.keypoints, c); }));
   return bench.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
@@ -156,7 +156,7 @@ Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipelin
 Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made, Run& run) {
   if (!made.matches) return {};
   if (made.matches->epipolar_shift.measured()) run.epipolar_px = made.matches->epipolar_shift.residual_px;
-  const pipeline::RectifiedPair& pair = made.prepared ? *made.prepared : *made.pair;
+  const pipeline::RectifiedPair& pair = *made.pair;
   std::optional<DisparityMap> model;
   if (made.model) {
     model = model_view(*made.pair, made.model->mesh);

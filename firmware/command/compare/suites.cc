@@ -77,7 +77,7 @@ Words preprocessors() {
 Words dissertation() {
   Words words;
   const auto add = [&words](std::string name, std::string_view matcher, const std::string& rules) {
-    if (has("matcher", matcher)) words.push_back({std::move(name), {"matcher=" + std::string(matcher), "constraints=" + rules}});
+    if (has("matcher", matcher)) words.push_back({std::move(name), {"preprocessor=none", "matcher=" + std::string(matcher), "constraints=" + rules}});
   };
   add("SSD", "ssd", "none");
   add("ZMNCC", "zmncc", "none");

@@ -13,7 +13,7 @@ using namespace relievo::pipeline;  // NOLINT(google-build-using-namespace): an 
 relievo::Result<FaceMesh> measure(const StereoFrame& pictures, const char* rig, StageContext& context) {
   RELIEVO_TRY_ASSIGN(const StereoCalibration calibration, read_calibration(rig));
   RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make({}, calibration));  // {}: the default algorithms
-  RELIEVO_TRY_ASSIGN(const RectifiedPair pair, pipeline.rectify(pictures, context));
+  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(pictures, context));
   RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
   RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));
   return pipeline.mesh(cloud, context);

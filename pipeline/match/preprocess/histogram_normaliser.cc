@@ -14,12 +14,10 @@ Result<void> HistogramNormaliserOptions::check() const {
   return {};
 }
 
-Result<RectifiedPair> HistogramNormaliser::process(const RectifiedPair& pair, StageContext& context) const {
+Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels(pair));
-  RectifiedPair result(&context.output);
-  result = pair;  // keeps the arena of its own
-  for (RectifiedView* view : {&result.left, &result.right}) {
+  for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
     const auto valid = [&](int x, int y) {
       return view->valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)] != 0;
@@ -33,7 +31,7 @@ Result<RectifiedPair> HistogramNormaliser::process(const RectifiedPair& pair, St
       return 255 * (stretched + options_.equalise * (histogram.share_below(grey) - stretched));
     }).apply(view->grey, context.pool);
   }
-  return result;
+  return {};
 }
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@
 // equalisation (Hummel 1977; Gonzalez and Woods, section 3.3): blind to any monotone change of exposure,
 // gamma included, as far as both views show the same things. equalise = 0: a linear stretch that sends
 // `tail` of the pixels to either end: keeps the proportions, undoes gain and offset. Between: a mixture.
-// Memory: the new pair in `output`. Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+// Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
 #pragma once
 
 #include "pipeline/match/preprocessor.h"
@@ -31,7 +31,7 @@ class HistogramNormaliser final : public Preprocessor {
  public:
   explicit HistogramNormaliser(const HistogramNormaliserOptions& options) : options_(options) {}
   std::string_view name() const override { return "histogram-normalise"; }
-  Result<RectifiedPair> process(const RectifiedPair& pair, StageContext& context) const override;
+  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
 
  private:
   HistogramNormaliserOptions options_;

@@ -36,22 +36,20 @@ Result<void> HistogramTransferOptions::check() const {
   return {};
 }
 
-Result<RectifiedPair> HistogramTransfer::process(const RectifiedPair& pair, StageContext& context) const {
+Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-  RectifiedPair result(&context.output);
-  result = pair;  // keeps the arena of its own
   const Overlap overlap(pair);
   const auto in_left = [&](int x, int y) { return overlap.holds(x, y); };
   const auto in_right = [&](int x, int y) { return overlap.holds(x + overlap.shift_px, y); };
   const GreyHistogram left = GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, in_left, context.pool);
   const GreyHistogram right = GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
-  if (left.count() == 0) return result;
+  if (left.count() == 0) return {};
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
   GreyMap([&](double grey) { return grey + options_.strength * (left.grey_at(right.share_below(grey)) - grey); })
-      .apply(result.right.grey, context.pool);
-  return result;
+      .apply(pair.right.grey, context.pool);
+  return {};
 }
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@
 // views are valid and, where a face region is marked, in it: a pixel counts with the one it would
 // meet at the middle of the depth that is searched, so that what only one view sees has
 // no say. Blind to any monotone difference of exposure, gamma included.
-// Memory: the new pair in `output`. Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+// Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
 #pragma once
 
 #include "pipeline/match/preprocessor.h"
@@ -29,7 +29,7 @@ class HistogramTransfer final : public Preprocessor {
  public:
   explicit HistogramTransfer(const HistogramTransferOptions& options) : options_(options) {}
   std::string_view name() const override { return "histogram-match"; }
-  Result<RectifiedPair> process(const RectifiedPair& pair, StageContext& context) const override;
+  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
 
  private:
   HistogramTransferOptions options_;

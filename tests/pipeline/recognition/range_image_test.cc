@@ -109,7 +109,7 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, bench.pool);
   const auto pipeline = Pipeline::make({}, relievo::test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
-  const auto pair = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
+  auto pair = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
   ASSERT_TRUE(pair);
   const auto matches = pipeline->match(*pair, c);
   ASSERT_TRUE(matches);

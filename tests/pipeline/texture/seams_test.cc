@@ -92,7 +92,7 @@ class SeamsOfAFace : public testing::Test {
     const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
     EXPECT_TRUE(pipeline);
     StageContext& c = bench.context;
-    const auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
+    auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
     EXPECT_TRUE(pair);
     const auto matches = pipeline->match(*pair, c);
     EXPECT_TRUE(matches);
@@ -158,7 +158,7 @@ TEST_F(SeamsOfAFace, ALampMirroredByTheSkinIsNotPaintedOnIt) {
   auto pictures = hal::sim::render_pair(*scene, *rig, {}, 1, bench.pool);
   const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
   ASSERT_TRUE(pipeline);
-  const auto dull = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
+  auto dull = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
   ASSERT_TRUE(dull);
   const auto matches = pipeline->match(*dull, c);
   ASSERT_TRUE(matches);

@@ -30,7 +30,8 @@ DisparityMap model_view(const pipeline::RectifiedPair& pair, const pipeline::Fac
 Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, const DisparityMap& map,
                                             const std::optional<DisparityMap>& model, pipeline::StageContext& context);
 
-// The right view is predicted from the left through the model and compared with what the camera saw: zero-mean
+// The right view is predicted from the left through the model and compared with what the camera saw, as it was given
+// to the matcher: zero-mean
 // normalised correlation in windows of kPhotoWindowPx.
 inline constexpr int kPhotoWindowPx = 15;
 PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model, pipeline::StageContext& context);

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HighlightRemover ("remove-highlights"): takes out of the grey values what lamps add that oily skin mirrors. Two cameras
+// see a lamp's mirror image at two places of the skin, so that who matches it finds a surface behind the face: half a
+// millimetre on a forehead, 1.5 to 4 mm at the tip of a nose.
+// Skin's own colour is reddish and what it mirrors has the lamp's colour (dichromatic reflection, Shafer 1985), white
+// after the camera's white balance. R - (G + B) / 2 of linear light does not see white (after Mallick, Zickler,
+// Kriegman, Belhumeur 2005); times what it is short of the brightness where the skin is dull, it says how bright
+// the skin would be without. What is brighter than that, over `radius_px` and by more than `least`, is subtracted;
+// pores and freckles, finer than that, stay, and so does all that is dull, bit by bit. `least` stands above what
+// compressed pictures get wrong in colours. What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays.
+// Looks only where a face may be, where a region is marked. Pictures without colour stay as they are.
+// The pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels), OutOfMemory,
+// Cancelled.
+#pragma once
+
+#include "pipeline/match/preprocessor.h"
+#include "pipeline/options.h"
+
+namespace relievo::pipeline {
+
+struct HighlightRemoverOptions {
+  double radius_px = 2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
+  double dull = 0.5;
+  double least = 8;
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(HighlightRemoverOptions& o, Field&& field) {
+  field("radius_px", o.radius_px, OptionRange{0.5, 10}, "what is finer than this stays, pixels of the picture");
+  field("dull", o.dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
+  field("least", o.least, OptionRange{0, 64}, "grey levels of brightness that are no highlight yet");
+}
+
+class HighlightRemover final : public Preprocessor {
+ public:
+  explicit HighlightRemover(const HighlightRemoverOptions& options) : options_(options) {}
+  std::string_view name() const override { return "remove-highlights"; }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
+
+ private:
+  HighlightRemoverOptions options_;
+};
+
+}  // namespace relievo::pipeline
