@@ -27,6 +27,19 @@ int stage_under_way(Screen screen) {
   return -1;
 }
 
+// In a corner of the picture, so that the words below keep the whole width and stay where they are.
+void tick(Page& page) {
+  const float across_dp = 38 * page.text_share;
+  Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
+  disc.box.along = Along::Centre;
+  disc.box.across = Across::Centre;
+  disc.box.radius = page.px(across_dp / 2);
+  disc.box.fill = page.palette.card;
+  page.tree.open(disc);
+  page.sign(icon::kGood, 30, page.palette.good);
+  page.tree.close();
+}
+
 void card(Page& page, int stage, const char* words) {
   const int now = stage_under_way(page.view.screen);
   const StageView& born = page.view.stages[static_cast<std::size_t>(stage)];
@@ -53,15 +66,16 @@ void card(Page& page, int stage, const char* words) {
     picture.aspect = static_cast<float>(born.picture.width_px) / static_cast<float>(born.picture.height_px);
     picture.covers = true;
   }
+  if (stage < now) picture.box.along = Along::End, picture.box.across = Across::End;
   page.tree.open(picture);
-  if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
+  if (stage < now) tick(page);
+  else if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
   page.tree.close();
   Node row = page.box(Flow::Row, 10);
   row.box.across = Across::Centre;
   row.box.along = Along::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
-  if (stage < now) page.sign(icon::kGood, 28, page.palette.good);
   page.tree.leaf(page.text(words, 22, stage == now ? Weight::Bold : Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft, TextAlign::Centre));
   page.tree.close();
   page.tree.close();
