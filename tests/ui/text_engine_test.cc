@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
+
+#include "ui/text/phrases.h"
 
 namespace relievo::ui {
 namespace {
@@ -56,6 +59,42 @@ TEST_F(TextEngineTest, NoWordStandsAlone) {
       // Even lines: the box is not much wider than its share.
       EXPECT_LT(size.width_px, 1.45F * engine->measure(text, style, 5000).width_px / static_cast<float>(size.lines)) << width;
     }
+  }
+}
+
+std::vector<std::string> phrases(const std::string& text, bool japanese) {
+  std::vector<std::string> all;
+  std::size_t from = 0;
+  for (const std::size_t to : phrase_starts(text, japanese)) all.push_back(text.substr(from, to - from)), from = to;
+  all.push_back(text.substr(from));
+  return all;
+}
+
+TEST(Phrases, AreWhatIsReadInOneBreath) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(phrases("正面を見て動かないでください", true), (Words{"正面を", "見て", "動かないでください"}));
+  EXPECT_EQ(phrases("ここに入力、またはQRコードを提示", true), (Words{"ここに", "入力、", "または", "QRコードを", "提示"}));
+  EXPECT_EQ(phrases("するかどうかをお決めください。撮り直す", true), (Words{"するかどうかを", "お決めください。", "撮り直す"}));
+  EXPECT_EQ(phrases("触れると「はじめる」です", true), (Words{"触れると", "「はじめる」", "です"}));
+  EXPECT_EQ(phrases("很好。请目视前方，保持不动", false), (Words{"很好。", "请目视前方，", "保持不动"}));
+  EXPECT_EQ(phrases("", true), Words{""});
+}
+
+// Where it costs no line, a line ends with a phrase; a column too narrow for one is still filled.
+TEST_F(TextEngineTest, ChineseAndJapaneseBreakBetweenPhrases) {
+  const struct {
+    const char* language;
+    const char* text;
+    const char* longest;
+  } cases[] = {{"ja", "そのままです。正面を見て動かないでください", "見て動かないでください"}, {"zh-Hans", "很好。请目视前方，保持不动", "很好。请目视前方，"}};
+  for (const auto& one : cases) {
+    TextStyle style;
+    style.language = one.language;
+    const float longest = engine->measure(one.longest, style, 5000).width_px;
+    const TextSize size = engine->measure(one.text, style, 1.02F * longest + 4);
+    EXPECT_EQ(size.lines, 2) << one.text;
+    EXPECT_NEAR(size.width_px, longest, 3) << one.text;
+    EXPECT_LE(engine->measure(one.text, style, 60).width_px, 61) << one.text;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "ui/text/phrases.h"
 #include "ui/text/text_engine.h"
 
 namespace relievo::ui {
@@ -144,14 +145,16 @@ class PangoTextEngine final : public TextEngine {
                                : style.right_to_left                    ? PANGO_ALIGN_RIGHT
                                                                         : PANGO_ALIGN_LEFT);
     pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
+    pango_layout_set_attributes(layout, nullptr);
     pango_layout_set_width(layout, width * PANGO_SCALE);
     const int lines = pango_layout_get_line_count(layout);
+    if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_phrases(text, is(style, "ja"), width, lines);
     int narrow = 0, wide = width;
     if (lines > 1 && lines <= kBalancedLines) {
       for (narrow = width / 2; wide - narrow > 4;) {
         const int middle = (narrow + wide) / 2;
         pango_layout_set_width(layout, middle * PANGO_SCALE);
-        if (pango_layout_get_line_count(layout) <= lines && !breaks_words()) wide = middle;
+        if (pango_layout_get_line_count(layout) <= lines && !breaks_words() && is_within(middle)) wide = middle;
         else narrow = middle;
       }
       pango_layout_set_width(layout, wide * PANGO_SCALE);
@@ -160,6 +163,30 @@ class PangoTextEngine final : public TextEngine {
     PangoRectangle logical;
     pango_layout_get_extents(layout, nullptr, &logical);
     pango_layout_set_width(layout, logical.width + PANGO_SCALE / 2);
+  }
+
+  // Lines end between phrases where that costs no line more; otherwise between any two letters.
+  void keep_phrases(std::string_view text, bool japanese, int width, int lines) {
+    PangoAttrList* whole = pango_attr_list_new();
+    std::vector<std::size_t> starts = phrase_starts(text, japanese);
+    starts.push_back(text.size());
+    std::size_t from = 0;
+    for (const std::size_t to : starts) {
+      PangoAttribute* phrase = pango_attr_allow_breaks_new(FALSE);
+      phrase->start_index = static_cast<guint>(from);
+      phrase->end_index = static_cast<guint>(to);
+      pango_attr_list_insert(whole, phrase);
+      from = to;
+    }
+    pango_layout_set_attributes(layout_.get(), whole);
+    pango_attr_list_unref(whole);
+    if (pango_layout_get_line_count(layout_.get()) > lines || breaks_words() || !is_within(width)) pango_layout_set_attributes(layout_.get(), nullptr);
+  }
+
+  bool is_within(int width) {
+    PangoRectangle logical;
+    pango_layout_get_extents(layout_.get(), nullptr, &logical);
+    return logical.width <= width * PANGO_SCALE;
   }
 
   // A line that ends inside a word.

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/text/phrases.h"
+
+#include <cstdint>
+
+namespace relievo::ui {
+namespace {
+
+enum class Kind : std::uint8_t { Hiragana, Katakana, Kanji, Latin, Ends, Opens };
+
+struct Letter {
+  std::size_t at;
+  char32_t code;
+};
+
+std::vector<Letter> letters_of(std::string_view text) {
+  std::vector<Letter> letters;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    char32_t code = size == 1 ? first : first & (0xFFU >> (size + 1));
+    for (std::size_t i = 1; i < size && at + i < text.size(); ++i) code = code << 6U | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
+    letters.push_back({at, code});
+    at += size;
+  }
+  return letters;
+}
+
+bool is_one_of(char32_t code, std::u32string_view set) { return set.find(code) != std::u32string_view::npos; }
+
+Kind kind_of(char32_t code) {
+  if (is_one_of(code, U"、。，！？：；）」』”")) return Kind::Ends;
+  if (is_one_of(code, U"（「『“")) return Kind::Opens;
+  if (code >= 0x3041 && code <= 0x309F) return Kind::Hiragana;
+  if (code >= 0x30A0 && code <= 0x30FF) return Kind::Katakana;
+  return code < 0x2E80 ? Kind::Latin : Kind::Kanji;
+}
+
+bool is_prefix(const std::vector<Letter>& letters, std::size_t i) {
+  return is_one_of(letters[i].code, U"おご") && i + 1 < letters.size() && kind_of(letters[i + 1].code) == Kind::Kanji;
+}
+
+// The one letter between two kanji of a verb made of two: 撮り直す, 計測し直す.
+bool joins_a_verb(const std::vector<Letter>& letters, std::size_t i) {
+  return i > 0 && is_one_of(letters[i].code, U"いきしちみりえけげめれ") && kind_of(letters[i - 1].code) == Kind::Kanji;
+}
+
+bool begins_word(const std::vector<Letter>& letters, std::size_t i) {
+  const Kind before = kind_of(letters[i - 1].code), here = kind_of(letters[i].code);
+  if (is_prefix(letters, i)) return true;
+  if (before != Kind::Hiragana || here == Kind::Hiragana || is_prefix(letters, i - 1)) return false;
+  return here != Kind::Kanji || !joins_a_verb(letters, i - 1);
+}
+
+}  // namespace
+
+std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese) {
+  const std::vector<Letter> letters = letters_of(text);
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 1; i < letters.size(); ++i) {
+    const Kind before = kind_of(letters[i - 1].code), here = kind_of(letters[i].code);
+    if (here == Kind::Ends || before == Kind::Opens) continue;
+    if (before == Kind::Ends || here == Kind::Opens || (japanese && begins_word(letters, i))) starts.push_back(letters[i].at);
+  }
+  return starts;
+}
+
+}  // namespace relievo::ui

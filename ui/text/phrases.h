@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Phrases of a text in Chinese or Japanese, which are written without spaces and may be broken between
+// any two letters: a heading torn inside a word ("撮影しま|す") reads badly all the same.
+// Chinese: a phrase ends at a punctuation mark. Japanese: there too, and where letters of hiragana
+// (endings, particles) are followed by the next word in kanji, katakana, Latin letters or digits; the
+// prefixes お and ご belong to what follows, the parts of a verb (撮り直す) stay together.
+// UTF-8, as a catalogue holds it. Bytes. Thread: any. Errors: none; where no phrase is seen, the whole text is one.
+// Paper: JIS X 4051:2004 says where a line must not break; the phrase is the bunsetsu of Hashimoto (1934).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace relievo::ui {
+
+// The bytes at which the phrases after the first begin, in order.
+std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese);
+
+}  // namespace relievo::ui
