@@ -14,6 +14,7 @@
 
 #include "pipeline/algorithms.h"
 #include "pipeline/match/preprocess/grey_histogram.h"
+#include "tests/pipeline/match/preprocess/shining_skin.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"
 #include "tests/support/stage_bench.h"
@@ -26,40 +27,8 @@ using test::StageBench;
 // A scene small enough for the slowest sanitizer, rendered once.
 const BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
-// A lamp that skin mirrors: where its image stands in this view, its radius (one standard deviation), how bright (1: full light).
-struct Lamp { double x_px, y_px, radius_px, light; };
-
-// The view as skin of one reddish colour, lit well, and the lamp's white light upon it; sRGB as a camera gives it.
-void paint_skin(RectifiedView& view, int width_px, const Lamp& lamp) {
-  const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-  const auto encoded = [](double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
-  for (std::size_t k = 0; k < view.grey.size(); ++k) {
-    const double dx = static_cast<double>(k % static_cast<std::size_t>(width_px)) - lamp.x_px;
-    const double dy = static_cast<double>(k / static_cast<std::size_t>(width_px)) - lamp.y_px;
-    const double skin = linear(std::clamp((100 + 0.5 * static_cast<double>(view.grey[k])) / 255, 0.0, 1.0));
-    const double white = lamp.light * std::exp(-0.5 * (dx * dx + dy * dy) / (lamp.radius_px * lamp.radius_px));
-    double sum = 0;
-    std::size_t channel = 3 * k;
-    for (const double share : {1.4, 0.9, 0.7}) {
-      const double value = 255 * std::clamp(encoded(share * skin + white), 0.0, 1.0);
-      view.rgb[channel++] = static_cast<std::uint8_t>(std::lround(value));
-      sum += value;
-    }
-    view.grey[k] = static_cast<float>(sum / 3);
-  }
-}
-
-constexpr Lamp kLeftLamp{90, 80, 8, 0.2}, kRightLamp{84, 80, 8, 0.2};
-
-RectifiedPair skin(std::pmr::memory_resource* memory, double light) {
-  RectifiedPair pair = kScene.render(memory);
-  paint_skin(pair.left, pair.width_px, {kLeftLamp.x_px, kLeftLamp.y_px, kLeftLamp.radius_px, light});
-  paint_skin(pair.right, pair.width_px, {kRightLamp.x_px, kRightLamp.y_px, kRightLamp.radius_px, light});
-  return pair;
-}
-
 const RectifiedPair& rendered() {
-  static const RectifiedPair pair = skin(std::pmr::get_default_resource(), kLeftLamp.light);
+  static const RectifiedPair pair = test::shining_skin(kScene, std::pmr::get_default_resource(), test::kLeftLamp.light);
   return pair;
 }
 
@@ -280,66 +249,6 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
       worst = std::max(worst, static_cast<double>(std::abs(done->right.grey[k] - clean->right.grey[k])));
     }
   EXPECT_LT(worst, 12);  // of 255: the histograms of two thirds of the scene instead of all of it
-}
-
-double rms_apart(const RectifiedView& a, const RectifiedView& b, int width_px, const Lamp& around, double radii) {
-  double sum = 0, n = 0;
-  for (std::size_t k = 0; k < a.grey.size(); ++k) {
-    const double dx = static_cast<double>(k % static_cast<std::size_t>(width_px)) - around.x_px;
-    const double dy = static_cast<double>(k / static_cast<std::size_t>(width_px)) - around.y_px;
-    if (std::hypot(dx, dy) > radii * around.radius_px) continue;
-    sum += std::pow(static_cast<double>(a.grey[k] - b.grey[k]), 2);
-    ++n;
-  }
-  return std::sqrt(sum / n);
-}
-
-TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
-  Bench bench;
-  const RectifiedPair dull = skin(&bench.output, 0);
-  const RectifiedPair& shining = rendered();
-  const auto done = run(*make("remove-highlights"), shining, bench);
-  ASSERT_TRUE(done);
-  const double added = rms_apart(shining.left, dull.left, dull.width_px, kLeftLamp, 2);
-  EXPECT_GT(added, 18);
-  // What `least` leaves of it, eight levels.
-  EXPECT_LT(rms_apart(done->left, dull.left, dull.width_px, kLeftLamp, 2), 0.6 * added);
-  EXPECT_LT(rms_apart(done->right, dull.right, dull.width_px, kRightLamp, 2), 0.6 * added);
-  std::size_t far = 0;
-  for (std::size_t k = 0; k < dull.left.grey.size(); ++k) {
-    if (std::hypot(static_cast<double>(k % 200) - kLeftLamp.x_px, static_cast<double>(k / 200) - kLeftLamp.y_px) < 5 * kLeftLamp.radius_px) continue;
-    ASSERT_EQ(done->left.grey[k], shining.left.grey[k]) << k;
-    ++far;
-  }
-  EXPECT_GT(far, 10'000U);
-}
-
-TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
-  pair.region.assign(pair.left.grey.size(), 0);
-  for (int y = 10; y < 30; ++y) std::fill_n(pair.region.begin() + y * pair.width_px + 40, 100, std::uint8_t{1});
-  const auto done = run(*make("remove-highlights"), pair, bench);
-  ASSERT_TRUE(done);
-  EXPECT_EQ(rms_apart(done->left, pair.left, pair.width_px, kLeftLamp, 2), 0);
-}
-
-TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
-  for (RectifiedView* view : {&pair.left, &pair.right})
-    for (std::size_t k = 0; k < view->grey.size(); ++k) std::fill_n(view->rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, static_cast<std::uint8_t>(view->grey[k]));
-  const auto done = run(*make("remove-highlights"), pair, bench);
-  ASSERT_TRUE(done);
-  EXPECT_EQ(done->left.grey, pair.left.grey);
-  EXPECT_EQ(done->right.grey, pair.right.grey);
-}
-
-TEST(HighlightRemover, TooLittleMemoryIsAnError) {
-  StageBench bench(std::size_t{8} << 20, std::size_t{64} << 10);
-  const auto done = run(*make("remove-highlights"), rendered(), bench);
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().code, Errc::OutOfMemory);
 }
 
 // The curve against its slow twin: sorting.

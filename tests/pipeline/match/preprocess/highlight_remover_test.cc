@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/preprocess/highlight_remover.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/pipeline/match/preprocess/shining_skin.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::kLeftLamp;
+using test::kRightLamp;
+using test::Lamp;
+using test::StageBench;
+const test::BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
+
+struct Bench : StageBench {
+  explicit Bench(std::size_t scratch_bytes = std::size_t{1} << 20) : StageBench(std::size_t{8} << 20, scratch_bytes) {}
+  RectifiedPair skin(double light = kLeftLamp.light) { return test::shining_skin(kScene, &output, light); }
+  Result<void> remove(RectifiedPair& pair) {
+    return run_stage(context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); });
+  }
+};
+
+double rms_apart(const RectifiedView& a, const RectifiedView& b, int width_px, const Lamp& around, double radii) {
+  double sum = 0, n = 0;
+  for (std::size_t k = 0; k < a.grey.size(); ++k) {
+    const double dx = static_cast<double>(k % static_cast<std::size_t>(width_px)) - around.x_px;
+    const double dy = static_cast<double>(k / static_cast<std::size_t>(width_px)) - around.y_px;
+    if (std::hypot(dx, dy) > radii * around.radius_px) continue;
+    sum += std::pow(static_cast<double>(a.grey[k] - b.grey[k]), 2);
+    ++n;
+  }
+  return std::sqrt(sum / n);
+}
+
+TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
+  Bench bench;
+  const RectifiedPair dull = bench.skin(0), shining = bench.skin();
+  RectifiedPair done = bench.skin();
+  ASSERT_TRUE(bench.remove(done));
+  const double added = rms_apart(shining.left, dull.left, dull.width_px, kLeftLamp, 2);
+  EXPECT_GT(added, 18);
+  // What `least` leaves of it, eight levels.
+  EXPECT_LT(rms_apart(done.left, dull.left, dull.width_px, kLeftLamp, 2), 0.6 * added);
+  EXPECT_LT(rms_apart(done.right, dull.right, dull.width_px, kRightLamp, 2), 0.6 * added);
+  std::size_t far = 0;
+  for (std::size_t k = 0; k < dull.left.grey.size(); ++k) {
+    if (std::hypot(static_cast<double>(k % 200) - kLeftLamp.x_px, static_cast<double>(k / 200) - kLeftLamp.y_px) < 5 * kLeftLamp.radius_px) continue;
+    ASSERT_EQ(done.left.grey[k], shining.left.grey[k]) << k;
+    ++far;
+  }
+  EXPECT_GT(far, 10'000U);
+}
+
+TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
+  Bench bench;
+  const RectifiedPair shining = bench.skin();
+  for (const int top : {10, 70}) {
+    RectifiedPair done = bench.skin();
+    done.region.assign(done.left.grey.size(), 0);
+    for (int y = top; y < top + 20; ++y) std::fill_n(done.region.begin() + y * done.width_px + 40, 100, std::uint8_t{1});
+    ASSERT_TRUE(bench.remove(done));
+    const double changed = rms_apart(done.left, shining.left, shining.width_px, kLeftLamp, 1);
+    if (top == 10) EXPECT_EQ(changed, 0); else EXPECT_GT(changed, 5);
+  }
+}
+
+// The white of an eye, teeth: no skin. Right beside them a level or two may go.
+TEST(HighlightRemover, WhiteThingsStay) {
+  Bench bench;
+  RectifiedPair pair = bench.skin(0);
+  for (int y = 60; y < 80; ++y)
+    for (int x = 60; x < 90; ++x) {
+      const auto k = static_cast<std::size_t>(y * pair.width_px + x);
+      pair.left.grey[k] = 200;
+      std::fill_n(pair.left.rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, std::uint8_t{200});
+    }
+  const auto before = pair.left.grey;
+  ASSERT_TRUE(bench.remove(pair));
+  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 2) << "x " << k % 200 << " y " << k / 200;
+}
+
+TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {
+  Bench bench;
+  RectifiedPair pair = bench.skin();
+  for (RectifiedView* view : {&pair.left, &pair.right})
+    for (std::size_t k = 0; k < view->grey.size(); ++k)
+      std::fill_n(view->rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, static_cast<std::uint8_t>(view->grey[k]));
+  const auto left = pair.left.grey, right = pair.right.grey;
+  ASSERT_TRUE(bench.remove(pair));
+  EXPECT_EQ(pair.left.grey, left);
+  EXPECT_EQ(pair.right.grey, right);
+}
+
+TEST(HighlightRemover, TooLittleMemoryIsAnError) {
+  Bench bench(std::size_t{64} << 10);
+  RectifiedPair pair = bench.skin();
+  const auto done = bench.remove(pair);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::OutOfMemory);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
