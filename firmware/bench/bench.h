@@ -35,7 +35,7 @@ class Bench {
     ThreadPool& pool;
     storage::Store& store;
     ShowBoards show_boards;                               // see CalibrateJob
-    std::function<void(std::uint32_t revision)> in_use;   // another calibration is in use
+    std::function<void(const pipeline::StereoCalibration&)> in_use;   // another calibration is
   };
   explicit Bench(Parts parts);
   ~Bench();

@@ -108,7 +108,7 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
         problem_ = error ? sentence_of(*error) : "";
         if (error) return;
         parts_.stages.replace(*std::move(made->pipeline));
-        parts_.in_use(made->revision);
+        parts_.in_use(parts_.stages.pipeline().calibration());
         load_history();
       });
 }

@@ -27,7 +27,7 @@ class CalibrationDesk {
     PipelineStages& stages;   // replaced when another calibration comes into use
     storage::Store& store;
     Errands& errands;
-    std::function<void(std::uint32_t revision)> in_use;  // told when one did
+    std::function<void(const pipeline::StereoCalibration&)> in_use;  // told when one did
   };
   explicit CalibrationDesk(Parts parts) : parts_(std::move(parts)) {}
 

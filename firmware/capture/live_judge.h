@@ -30,6 +30,8 @@ class LiveJudge {
  public:
   static Result<LiveJudge> open(const pipeline::StereoCalibration& calibration);
 
+  // Another calibration of the same cameras; while nobody poses.
+  void use(const pipeline::StereoCalibration& calibration) { calibration_ = calibration; }
   // Somebody else may stand here.
   void begin() { history_ = {}; }
   Result<LiveSight> look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context);

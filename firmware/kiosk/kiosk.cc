@@ -108,7 +108,10 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
       return make_hand_pairs(std::move(hand), held.seed);
     };
   }
-  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](std::uint32_t revision) { revision_ = revision; }});
+  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](const pipeline::StereoCalibration& calibration) {
+    revision_ = calibration.revision;
+    judge_->use(calibration);
+  }});
 }
 
 // On the keeper, while the main thread only draws.

@@ -72,7 +72,7 @@ class BenchRig {
     screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
     appliance = std::make_unique<Appliance>(Appliance::Parts{*board, *stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
     errands = std::make_unique<Errands>(*appliance);
-    bench = std::make_unique<Bench>(Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards, [this](std::uint32_t in_use) { revision = in_use; }});
+    bench = std::make_unique<Bench>(Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards, [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenTechnician);
     turn();

@@ -86,6 +86,24 @@ TEST(LiveJudge, WithoutACalibratedPictureNothingIsJudged) {
   EXPECT_EQ(judge->look({}, {}, work.context).error().code, Errc::InvalidInput);
 }
 
+TEST(LiveJudge, GoesByAnotherCalibrationFromThenOn) {
+  pipeline::StereoCalibration calibration = toed_in();
+  auto judge = LiveJudge::open(calibration);
+  ASSERT_TRUE(judge) << judge.error().what.view();
+  const std::vector<std::byte> grey(std::size_t{1920} * 1200, std::byte{90});
+  const ImageView picture{grey.data(), 1920, 1200, 1920, PixelFormat::Grey8};
+  pipeline::Workspace work(1, std::size_t{16} << 20, std::size_t{64} << 20);
+  const auto ideal_width = [&] {
+    const auto sight = judge->look({picture, picture, 0, 0}, {}, work.context);
+    EXPECT_TRUE(sight);
+    return sight ? sight->guidance.ideal_width : 0;
+  };
+  const double before = ideal_width();
+  for (auto* camera : {&calibration.left, &calibration.right}) camera->focal_px = {2000, 2000};
+  judge->use(calibration);
+  EXPECT_NEAR(ideal_width(), before * 2 / 3, 1e-9);
+}
+
 TEST(LiveFeed, ShowsTheReliefBesideThePictureAndForgetsIt) {
   pipeline::Relief relief(std::pmr::get_default_resource());
   relief.width_px = 3, relief.height_px = 1;
