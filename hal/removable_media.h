@@ -17,6 +17,9 @@ class RemovableMedia {
  public:
   virtual ~RemovableMedia() = default;
   virtual std::optional<Medium> current() = 0;   // cheap; asked on every tick
+  // Every file of this folder on the stick is on the medium; who reads one next reads what the stick kept,
+  // not what memory still has. IoFailed: it cannot be written through.
+  virtual Result<void> settle(const std::filesystem::path& folder);
   virtual Result<void> flush_and_eject() = 0;    // safe to pull out afterwards
 };
 }  // namespace relievo::hal

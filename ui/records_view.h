@@ -30,6 +30,8 @@ struct RecordsView {
   std::string_view consent;          // its wording, language and date
   bool erased = false;               // the last thing that was done
   bool exported = false;
+  int asked = 0;                     // records of the last export; 0: the last thing that was done is another
+  int whole = 0;                     // of these, on the stick and read back
 };
 
 }  // namespace relievo::ui

@@ -28,7 +28,9 @@ enum class StaffPage : std::uint8_t {
 
 // How a piece of work ended, as far as it makes a difference to who asked for it.
 enum class Outcome : std::uint8_t {
-  None, Done, Cancelled, NoStick, StickFull, StickGone, NotFound, Refused, Failed
+  None, Done, Cancelled, NoStick, StickFull, StickGone,
+  StickLocked, StickBad, StickHeld,   // write-protected; does not keep what is written; all is there, but the system does not let it go
+  NotFound, Refused, Failed
 };
 
 struct Work {

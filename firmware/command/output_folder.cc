@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 Error failed(const fs::path& place, int number) {
   Error error = number == ENOSPC || number == EDQUOT
-                    ? Error{Errc::MediaFull, "the disk is full: make room or choose another folder"}
+                    ? Error{Errc::MediaFull, "the disk is full: make room or choose another folder", number}
                 : number == EACCES || number == EROFS || number == EPERM
-                    ? Error{Errc::IoFailed, "may not be written: choose a folder you own"}
+                    ? Error{Errc::IoFailed, "may not be written: choose a folder you own", number}
                     : Error{Errc::IoFailed, "cannot be written: check the disk and the path", number};
   return error.at(place.native());
 }

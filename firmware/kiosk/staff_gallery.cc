@@ -36,10 +36,10 @@ constexpr std::array kPeople{
     ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
     ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
 };
-constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, false, false};
-constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, false, false};
-constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, false};
-constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true};
+constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, false, false, 0, 0};
+constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, false, false, 0, 0};
+constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, false, 0, 0};
+constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true, 0, 0};
 
 constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running, ui::CheckState::NotTested},
                                    {"", "", "the store has no calibration: run relievo calibrate first", "", ""}};
@@ -79,6 +79,18 @@ void add_touch(std::deque<Shown>& all) {
   }
 }
 
+// How an export of everyone ended.
+void add_sticks(std::deque<Shown>& all, ServiceView records) {
+  static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, false, false, 5, 2};
+  using ui::Outcome;
+  records.records = &kTwoOfFive;
+  for (const auto& [name, outcome] : {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull}, std::pair{"staff_stick_locked", Outcome::StickLocked},
+                                      std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld}, std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
+    records.work.outcome = outcome;
+    all.push_back({name, StaffPage::Records, 0, records});
+  }
+}
+
 std::deque<Shown> make_shown() {
   std::deque<Shown> all;
   ServiceView door;
@@ -101,8 +113,7 @@ std::deque<Shown> make_shown() {
   records.records = &kList;
   all.push_back({"staff_records", StaffPage::Records, 0, records});
   all.push_back({"staff_search", StaffPage::Records, 1, records});
-  records.work.outcome = ui::Outcome::StickGone;
-  all.push_back({"staff_stick_gone", StaffPage::Records, 0, records});
+  add_sticks(all, records);
   records.work = {true, 0.6F, ui::Outcome::None, {}};
   all.push_back({"staff_export", StaffPage::Records, 0, records});
   records.work = {};

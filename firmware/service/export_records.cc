@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/export_records.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
+#include <algorithm>
+#include <cerrno>
 #include <map>
 #include <memory_resource>
 #include <string>
@@ -12,6 +11,8 @@
 #include "firmware/command/output_folder.h"
 #include "firmware/command/wall_time.h"
 #include "firmware/kiosk/receipt.h"
+#include "firmware/service/desk_page.h"
+#include "firmware/service/stick_folder.h"
 #include "firmware/version.h"
 #include "hal/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
@@ -22,28 +23,22 @@ namespace relievo::firmware {
 namespace {
 
 namespace fs = std::filesystem;
+using Sums = std::map<std::string, storage::Sha256>;
 
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 31;
 
-using Sums = std::map<std::string, storage::Sha256>;
+Error stopped() { return {Errc::Cancelled, "the export was stopped"}; }
+Error pulled() { return {Errc::Disconnected, "the stick was pulled out before the export had ended"}; }
 
-// Of every file in the folder. `from_stick`: not what the system still has in memory.
-Result<Sums> sums_of(const fs::path& folder, bool from_stick) {
+// Of every file in the folder.
+Result<Sums> sums_of(const fs::path& folder) {
   Sums sums;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (from_stick) {
-      const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
-      if (file >= 0) {
-        ::fsync(file);
-        ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
-        ::close(file);
-      }
-    }
-    RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(entry.path(), kMostFileBytes));
-    sums[entry.path().filename().string()] = storage::sha256(bytes);
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(entry->path(), kMostFileBytes));
+    sums[entry->path().filename().string()] = storage::sha256(bytes);
   }
-  if (error) return Error{Errc::IoFailed, "the folder on the stick cannot be read back"};
+  if (error) return Error{Errc::IoFailed, "the folder on the stick cannot be read back", error.value()};
   return sums;
 }
 
@@ -53,48 +48,91 @@ std::string note_of(const storage::Subject& subject, const storage::Enrolment& n
          " (" + newest.consent.language + ") " + text_of(newest.consent.given_at) + "\n";
 }
 
-Result<void> write_record(storage::Store& store, storage::SubjectId id, const fs::path& root, const JobControl& control) {
-  RELIEVO_TRY_ASSIGN(const storage::Subject subject, store.subject(id));
-  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(id));
-  if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
-  std::pmr::monotonic_buffer_resource memory;
-  RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(enrolments.back().id, &memory));
-  const auto images = pipeline::make_recognition_images(model, memory, memory);
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "the export was stopped"};
-  const fs::path target = root / "relievo" / receipt_of(id);
-  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
-  storage::ExportOptions options(storage::ExportFrame::Head);
-  options.version = kVersion;
-  if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
-  RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
-  RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
-  if (!enrolments.back().report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "the export was stopped"};
-  RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path(), false));
-  RELIEVO_TRY(folder.commit());
-  RELIEVO_TRY_ASSIGN(const Sums read, sums_of(target, true));
-  for (const auto& [name, sum] : written) {
-    const auto again = read.find(name);
-    if (again == read.end() || again->second != sum) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"};
+// One export: the errors of its steps, and its progress.
+class Export {
+ public:
+  Export(storage::Store& store, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) : store_(store), media_(media), control_(control), trace_(trace) {}
+
+  Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
+    RELIEVO_TRY(reach(ExportStep::Load, done));
+    RELIEVO_TRY_ASSIGN(const storage::Subject subject, store_.subject(id));
+    RELIEVO_TRY_ASSIGN(const auto enrolments, store_.enrolments(id));
+    if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
+    std::pmr::monotonic_buffer_resource memory;
+    RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
+    const auto images = pipeline::make_recognition_images(model, memory, memory);
+    RELIEVO_TRY(reach(ExportStep::Write, done + 0.3F * share));
+    const fs::path target = root / "relievo" / receipt_of(id);
+    RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
+    storage::ExportOptions options(storage::ExportFrame::Head);
+    options.version = kVersion;
+    if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
+    RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
+    RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
+    if (!enrolments.back().report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
+    RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path()));
+    RELIEVO_TRY(reach(ExportStep::ReadBack, done + 0.6F * share));
+    RELIEVO_TRY(media_.settle(folder.path()));
+    RELIEVO_TRY_ASSIGN(const Sums read, sums_of(folder.path()));
+    if (read != written) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"};
+    RELIEVO_TRY(reach(ExportStep::Write, done + 0.9F * share));
+    return replace_folder(folder, target);
   }
-  return {};
-}
+
+  Result<void> let_go(const std::vector<storage::SubjectId>& subjects, const fs::path& root) {
+    RELIEVO_TRY(reach(ExportStep::LetGo, 1));
+    std::error_code error;
+    // Another stick may have come in the place of the first.
+    for (const storage::SubjectId id : subjects)
+      if (!fs::exists(root / "relievo" / receipt_of(id) / "record.txt", error)) return pulled();
+    return media_.flush_and_eject();
+  }
+
+ private:
+  Result<void> reach(ExportStep step, float share) {
+    if (control_.cancelled.load()) return stopped();
+    trace_.step = step;
+    control_.progress.done.store(share);
+    return {};
+  }
+
+  storage::Store& store_;
+  hal::RemovableMedia& media_;
+  JobControl& control_;
+  ExportTrace& trace_;
+};
 
 }  // namespace
 
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control) {
+Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control, ExportTrace& trace) {
+  trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  std::size_t done = 0;
+  tidy_folder(medium->root / "relievo");
+  Export work(store, media, control, trace);
+  const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
-    if (control.cancelled.load()) return Error{Errc::Cancelled, "the export was stopped"};
-    const Result<void> written = write_record(store, id, medium->root, control);
+    const Result<void> written = work.one(id, medium->root, static_cast<float>(trace.whole) * share, share);
     // Whatever failed: a stick that is gone is the reason.
-    if (!media.current()) return Error{Errc::Disconnected, "the stick was pulled out before the export had ended"};
+    if (!media.current()) return pulled();
     RELIEVO_TRY(written);
-    control.progress.done.store(static_cast<float>(++done) / static_cast<float>(subjects.size()));
+    ++trace.whole;
   }
-  return media.flush_and_eject();
+  return work.let_go(subjects, medium->root);
+}
+
+ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
+  const int number = error.sys_errno;
+  const bool not_allowed = number == EROFS || number == EACCES || number == EPERM;
+  const bool gone = number == ENOENT || number == ENODEV || number == ENXIO || number == ESTALE || error.code == Errc::MediaMissing;
+  const bool of_the_stick = error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
+  if (trace.step >= ExportStep::Write && of_the_stick) {
+    if (gone) return ui::Outcome::StickGone;
+    if (trace.step == ExportStep::LetGo && (not_allowed || number == EBUSY)) return ui::Outcome::StickHeld;
+    if (trace.step == ExportStep::Write && not_allowed) return ui::Outcome::StickLocked;
+    if (trace.step != ExportStep::Write || number == EIO) return ui::Outcome::StickBad;
+  }
+  return outcome_of(error);
 }
 
 }  // namespace relievo::firmware

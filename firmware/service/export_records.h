@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Records on a stick: relievo/CODE/ with the newest portrait's files and record.txt, one folder a
-// person, each whole or not there. What was written is read back and compared before the stick is let go.
+// person, each whole or not there. What was written is read back and compared before a folder gets its
+// name; what an earlier export left half written is cleared away by the next.
 // Thread: the keeper; between two people and two steps it looks whether it is to stop.
 // Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, NotFound,
-// IoFailed (what was read back is not what was written), the store's.
+// IoFailed (outcome_of_export() says what it means), the store's.
 #pragma once
 
 #include <vector>
@@ -13,9 +14,21 @@
 #include "firmware/work/job_thread.h"
 #include "hal/removable_media.h"
 #include "storage/store.h"
+#include "ui/service_view.h"
 
 namespace relievo::firmware {
 
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control);
+enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo };
+
+// How far an export came. Written by the keeper; main reads it when the errand has ended.
+struct ExportTrace {
+  ExportStep step = ExportStep::Find;
+  int whole = 0;   // records on the stick, read back and under their names
+};
+
+Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control, ExportTrace& trace);
+
+// What its error means to who asked: the same error is another thing at another step.
+ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace);
 
 }  // namespace relievo::firmware

@@ -31,6 +31,8 @@ class TinyDisk {
   TinyDisk(const TinyDisk&) = delete;
   TinyDisk& operator=(const TinyDisk&) = delete;
   bool mounted() const { return mounted_; }
+  // Nothing can be written to it any more, or again.
+  bool protect(bool on) const;
   std::string why_not() const { return "mounting a small tmpfs needs root"; }
   const std::filesystem::path& path() const { return folder_.path(); }
 

@@ -8,7 +8,6 @@
 
 #include "firmware/command/wall_time.h"
 #include "firmware/kiosk/receipt.h"
-#include "firmware/service/export_records.h"
 #include "firmware/service/pin_hash.h"
 
 namespace relievo::firmware {
@@ -64,6 +63,8 @@ void RecordsDesk::forget() {
   skip_ = 0;
   ready_ = erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
+  trace_ = {};
+  asked_ = 0;
 }
 
 void RecordsDesk::told(const std::optional<Error>& error) {
@@ -76,6 +77,7 @@ void RecordsDesk::ask(const ui::StaffWish& wish) {
   if (exporting_) return;
   erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
+  asked_ = 0;
   switch (wish.verb) {
     case ui::kRecordsSearch: return search(wish.text());
     case ui::kRecordsNewer:
@@ -185,19 +187,22 @@ void RecordsDesk::take_out(std::int64_t number) {
   else
     for (const Found& found : found_) subjects.push_back(storage::SubjectId{found.number});
   exporting_ = true;
-  const std::size_t count = subjects.size();
+  asked_ = static_cast<int>(subjects.size());
+  const auto trace = std::make_shared<ExportTrace>();
   tools().errands.send(
-      JobPlace::Keeper, [this, subjects = std::move(subjects)](JobControl& control) { return export_records(tools().store, tools().board.media(), subjects, control); },
-      [this, count, visit = visit_](const std::optional<Error>& error) {
-        if (!error) tools().log.say(std::to_string(count) + (count == 1 ? " record was exported" : " records were exported"));
-        if (visit == visit_) exported(error);
+      JobPlace::Keeper, [this, subjects = std::move(subjects), trace](JobControl& control) { return export_records(tools().store, tools().board.media(), subjects, control, *trace); },
+      [this, trace, visit = visit_](const std::optional<Error>& error) {
+        if (trace->whole > 0) tools().log.say(std::to_string(trace->whole) + (trace->whole == 1 ? " record was exported" : " records were exported"));
+        if (visit == visit_) exported(error, *trace);
       });
 }
 
-void RecordsDesk::exported(const std::optional<Error>& error) {
+void RecordsDesk::exported(const std::optional<Error>& error, const ExportTrace& trace) {
   exporting_ = false;
   tools().appliance.end_service_state(!error);
   told(error);
+  trace_ = trace;
+  if (error) outcome_ = outcome_of_export(*error, trace);
   exported_ = !error;
 }
 
@@ -208,7 +213,7 @@ void RecordsDesk::show(ui::ServiceView& view) {
   if (!ready_) return;
   rows_.clear();
   for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
-  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, erased_, exported_};
+  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, erased_, exported_, asked_, trace_.whole};
   if (person_) {
     const Found& one = person_->found;
     shown_ = {one.number, one.name, one.since, one.code, one.portraits};

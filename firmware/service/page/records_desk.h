@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware/service/desk_page.h"
+#include "firmware/service/export_records.h"
 #include "ui/records_view.h"
 
 namespace relievo::firmware {
@@ -45,7 +46,7 @@ class RecordsDesk final : public DeskPage {
   void load(std::int64_t number);
   void erase(std::int64_t number);
   void take_out(std::int64_t number);
-  void exported(const std::optional<Error>& error);
+  void exported(const std::optional<Error>& error, const ExportTrace& trace);
   void told(const std::optional<Error>& error);
   void forget();
   static void wipe(Found& found);
@@ -59,6 +60,8 @@ class RecordsDesk final : public DeskPage {
   std::shared_ptr<Person> person_;
   std::uint32_t model_number_ = 0;
   ui::Outcome outcome_ = ui::Outcome::None;
+  ExportTrace trace_;                // of the last export
+  int asked_ = 0;                    // how many records it was of
   std::vector<ui::RecordRow> rows_;
   ui::RecordRow shown_;
   ui::RecordsView view_;

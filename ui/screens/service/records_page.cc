@@ -4,6 +4,8 @@
 // Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
 #include "ui/records_view.h"
 
+#include <cstdio>
+
 #include "ui/screens/service/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
 
@@ -47,6 +49,15 @@ void working(StaffFrame& page) {
   page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet, ask(kExportStop));
 }
 
+void whole_of(StaffFrame& page, const RecordsView& seen) {
+  char share[32];
+  std::snprintf(share, sizeof share, "%d / %d", seen.whole, seen.asked);
+  Node line = page.text(page.filled(page.tr("Whole on the stick: {}. Nothing else on it counts."), share), type::kSmall, Weight::Regular, page.palette.ink);
+  line.id = "whole";
+  line.role = Role::Status;
+  page.tree.leaf(line);
+}
+
 void said(StaffFrame& page, const RecordsView& seen) {
   const bool done = page.staff.work.outcome == Outcome::Done;
   if (done && (seen.erased || seen.exported)) {
@@ -55,9 +66,15 @@ void said(StaffFrame& page, const RecordsView& seen) {
     line.id = "outcome";
     line.role = Role::Status;
     page.tree.leaf(line);
-  } else {
-    page.outcome();
+    return;
   }
+  // Of an export it matters what the stick has; one that was pulled out has nothing that is sure.
+  const Outcome outcome = page.staff.work.outcome;
+  if (seen.asked > 0 && outcome == Outcome::StickFull) page.status("outcome", page.tr("The stick is full. Make room on it or plug in another one, then export again."), Mood::Bad);
+  else if (seen.asked > 0 && outcome == Outcome::Cancelled) page.status("outcome", page.tr("The export was stopped. Export again whenever you like."), Mood::Warn);
+  else page.outcome();
+  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled || outcome == Outcome::Failed || outcome == Outcome::StickBad;
+  if (seen.asked > 1 && counts) whole_of(page, seen);
 }
 
 void list(StaffFrame& page, const RecordsView& seen) {

@@ -105,7 +105,10 @@ void StaffFrame::outcome() {
     case Outcome::Cancelled: words = tr("Cancelled. Nothing was left half done."); mood = Mood::Warn; break;
     case Outcome::NoStick: words = tr("There is no stick. Plug one in, then try again."); break;
     case Outcome::StickFull: words = tr("There is no room left. Nothing was left half written."); break;
-    case Outcome::StickGone: words = tr("The stick was pulled out too early. What is on it is not complete: do it again."); break;
+    case Outcome::StickGone: words = tr("The stick was pulled out too early. Plug it in and export again: what is half written on it does not count."); break;
+    case Outcome::StickLocked: words = tr("The stick is write-protected. Slide its switch back or plug in another one, then export again."); break;
+    case Outcome::StickBad: words = tr("The stick does not keep what is written on it. Plug in another one and export again."); break;
+    case Outcome::StickHeld: words = tr("It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out."); mood = Mood::Warn; break;
     case Outcome::NotFound: words = tr("It is no longer there."); break;
     case Outcome::Refused: words = tr("This cannot be accepted."); break;
     case Outcome::Failed: words = tr("It could not be done. The log says why."); break;

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// An export that goes wrong, through the operator's page: each way has words of its own and a way on, nothing
+// half-written passes for an export, and the records stay.
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_stick.h"
+#include "ui/records_view.h"
+
+namespace relievo::firmware {
+namespace {
+
+using test::FaultyStick;
+using ui::Outcome;
+
+class StaffExportTest : public StaffHands {
+ protected:
+  StaffExportTest() { changes.media = &faulty; }
+  void open_records() {
+    enrol("Ada Lovelace");
+    enrol("Grace Hopper");
+    start();
+    first_start();
+    sign_in("80526", StaffRole::Operator);
+    tap("open records");
+    ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
+  }
+  Outcome outcome() const { return kiosk->view().service->work.outcome; }
+  bool ended() {
+    return until([this] { return outcome() != Outcome::None; });
+  }
+  Outcome export_all() {
+    tap("export all");
+    EXPECT_TRUE(ended());
+    return outcome();
+  }
+  // What the page says, and that it can be tried again from there.
+  std::string said() {
+    kiosk->turn();
+    EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+    EXPECT_NE(find("export all"), nullptr) << "no way on";
+    const ui::Node* node = find("outcome");
+    return node == nullptr ? std::string() : std::string(node->name.empty() ? node->text : node->name);
+  }
+  std::string whole() const {
+    const ui::Node* node = find("whole");
+    return node == nullptr ? std::string() : std::string(node->text);
+  }
+  // The codes under which something can be taken for an export.
+  static std::string exported_on(const Path& root) {
+    std::string codes;
+    for (std::int64_t number = 1; number <= 2; ++number) {
+      const Path record = root / "relievo" / code_of(number);
+      if (!std::filesystem::exists(record)) continue;
+      EXPECT_TRUE(std::filesystem::exists(record / "record.txt") && std::filesystem::exists(record / "model.ply")) << "half a record under its name";
+      codes += std::to_string(number);
+    }
+    return codes;
+  }
+  static std::size_t entries_of(const Path& at) { return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(at), {})); }
+  // Once more, and now nothing is wrong: everything is there, and nothing else.
+  void ends_well_the_next_time(const Path& root) {
+    faulty.fail(FaultyStick::Fault::None);
+    faulty.plug_in_again();
+    EXPECT_EQ(export_all(), Outcome::Done);
+    EXPECT_EQ(exported_on(root), "12");
+    EXPECT_EQ(entries_of(root / "relievo"), 2U) << "something was left behind";
+    kiosk.reset();
+    auto store = storage::open_sqlite_store(args.store, wall(), {});
+    ASSERT_TRUE(store.has_value());
+    EXPECT_EQ((*store)->subjects({})->size(), 2U) << "an export takes nobody away";
+  }
+  FaultyStick faulty{stick()};
+  std::unique_ptr<test::TinyDisk> disk;
+  std::unique_ptr<FaultyStick> on_disk;
+};
+
+TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedToAgain) {
+  open_records();
+  faulty.fail(FaultyStick::Fault::Pulled, 2);
+  EXPECT_EQ(export_all(), Outcome::StickGone);
+  EXPECT_NE(said().find("pulled out too early"), std::string::npos) << said();
+  EXPECT_EQ(whole(), "") << "nobody knows what a pulled stick has kept";
+  EXPECT_EQ(exported_on(stick().string() + " in a hand"), "2") << "the second was not finished: it has no name";
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, WhatAnEarlierExportLeftIsReplacedAsAWholeOrStays) {
+  open_records();
+  ASSERT_EQ(export_all(), Outcome::Done);
+  faulty.plug_in_again();
+  const std::string before = text_of_file(stick() / "relievo" / code_of(1) / "record.txt");
+  faulty.fail(FaultyStick::Fault::Pulled, 1);
+  EXPECT_EQ(export_all(), Outcome::StickGone);
+  EXPECT_EQ(exported_on(stick().string() + " in a hand"), "12");
+  EXPECT_EQ(text_of_file(Path(stick().string() + " in a hand") / "relievo" / code_of(1) / "record.txt"), before);
+  // The power went between the old folder's going and the new one's coming.
+  faulty.plug_in_again();
+  std::filesystem::rename(stick() / "relievo" / code_of(2), stick() / "relievo" / ("." + code_of(2) + ".before"));
+  faulty.fail(FaultyStick::Fault::Forgets, 1);
+  EXPECT_EQ(export_all(), Outcome::StickBad);
+  EXPECT_EQ(exported_on(stick()), "12") << "it was brought back";
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, AStickThatGivesBackOtherBytesIsFoundOut) {
+  open_records();
+  faulty.fail(FaultyStick::Fault::Forgets, 2);
+  EXPECT_EQ(export_all(), Outcome::StickBad);
+  EXPECT_NE(said().find("does not keep"), std::string::npos) << said();
+  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_EQ(exported_on(stick()), "2");
+  EXPECT_EQ(entries_of(stick() / "relievo"), 1U);
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
+  open_records();
+  faulty.fail(FaultyStick::Fault::Waits, 2);
+  tap("export all");
+  ASSERT_TRUE(until([this] { return faulty.waits() && find("stop export") != nullptr; }));
+  EXPECT_NE(find("export progress"), nullptr);
+  tap("stop export");
+  faulty.let_go_on();
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(outcome(), Outcome::Cancelled);
+  EXPECT_NE(said().find("was stopped"), std::string::npos) << said();
+  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_EQ(exported_on(stick()), "2");
+  EXPECT_EQ(entries_of(stick() / "relievo"), 1U);
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, OfAStickThatIsNotLetGoItIsSaidThatAllIsThere) {
+  open_records();
+  faulty.fail(FaultyStick::Fault::Held);
+  EXPECT_EQ(export_all(), Outcome::StickHeld);
+  EXPECT_NE(said().find("all there and read back"), std::string::npos) << said();
+  EXPECT_EQ(exported_on(stick()), "12");
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, AFullStickKeepsWhatWasWholeAndSaysHowMany) {
+  open_records();
+  ASSERT_EQ(export_all(), Outcome::Done);
+  constexpr std::uintmax_t kPage = 4096;
+  std::uintmax_t one = 0;
+  for (const auto& file : std::filesystem::directory_iterator(stick() / "relievo" / code_of(1))) one += (file.file_size() + kPage - 1) / kPage * kPage;
+  disk = std::make_unique<test::TinyDisk>(one * 3 / 2);
+  if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
+  on_disk = std::make_unique<FaultyStick>(disk->path());
+  tap("sign out");
+  kiosk.reset();
+  changes.media = on_disk.get();
+  start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
+  EXPECT_EQ(export_all(), Outcome::StickFull);
+  EXPECT_NE(said().find("stick is full"), std::string::npos) << said();
+  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_EQ(exported_on(disk->path()).size(), 1U);
+  EXPECT_EQ(entries_of(disk->path() / "relievo"), 1U) << "nothing half-written";
+}
+
+TEST_F(StaffExportTest, AWriteProtectedStickIsNamedSo) {
+  disk = std::make_unique<test::TinyDisk>(std::size_t{64} << 20);
+  if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
+  on_disk = std::make_unique<FaultyStick>(disk->path());
+  changes.media = on_disk.get();
+  open_records();
+  ASSERT_TRUE(disk->protect(true));
+  EXPECT_EQ(export_all(), Outcome::StickLocked);
+  EXPECT_NE(said().find("write-protected"), std::string::npos) << said();
+  ASSERT_TRUE(disk->protect(false));
+  EXPECT_EQ(entries_of(disk->path()), 0U);
+  EXPECT_EQ(export_all(), Outcome::Done) << "its switch was slid back";
+  EXPECT_EQ(exported_on(disk->path()), "12");
+}
+
+}  // namespace
+}  // namespace relievo::firmware

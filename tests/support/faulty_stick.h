@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// FaultyStick: a folder that plays a USB stick on which something goes wrong while a record is being read
+// back, in the middle of an export. A stick that is pulled takes its folder along, as an unmounted one does.
+// Thread: any; a fault is chosen before the export begins.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "hal/sim/replay/folder_media.h"
+
+namespace relievo::test {
+
+class FaultyStick final : public hal::RemovableMedia {
+ public:
+  enum class Fault : std::uint8_t {
+    None,
+    Pulled,    // a hand pulls it
+    Forgets,   // it gives back other bytes than it took
+    Waits,     // nothing goes on until let_go_on()
+    Held,      // all is written, but the system still uses it
+  };
+  explicit FaultyStick(std::filesystem::path folder) : folder_(std::move(folder)) { real_.plug(folder_); }
+
+  // At the n-th record that is read back from now on.
+  void fail(Fault fault, int at_record = 1) {
+    fault_ = fault;
+    records_left_ = at_record;
+  }
+  void plug_in_again() {
+    if (std::filesystem::exists(pulled_folder())) {
+      std::filesystem::remove_all(folder_);   // what was written into the empty place
+      std::filesystem::rename(pulled_folder(), folder_);
+    }
+    real_.plug(folder_);
+  }
+  bool waits() const { return waits_.load(); }
+  void let_go_on() {
+    waits_.store(false);
+    waits_.notify_all();
+  }
+
+  std::optional<hal::Medium> current() override { return real_.current(); }
+  Result<void> settle(const std::filesystem::path& folder) override {
+    if (--records_left_ == 0) strike(folder);
+    return real_.settle(folder);
+  }
+  Result<void> flush_and_eject() override {
+    if (fault_ == Fault::Held) return Error{Errc::IoFailed, "something still uses the stick, as the test says", EBUSY};
+    return real_.flush_and_eject();
+  }
+
+ private:
+  std::filesystem::path pulled_folder() const { return folder_.string() + " in a hand"; }
+  void strike(const std::filesystem::path& folder) {
+    switch (fault_) {
+      case Fault::None:
+      case Fault::Held: return;
+      case Fault::Pulled:
+        real_.unplug();
+        std::filesystem::rename(folder_, pulled_folder());
+        return;
+      case Fault::Forgets: {
+        std::fstream file(folder / "model.ply", std::ios::in | std::ios::out | std::ios::binary);
+        file.seekg(-1, std::ios::end);
+        const char last = static_cast<char>(file.get());
+        file.seekp(-1, std::ios::end);
+        file.put(static_cast<char>(last ^ 1));
+        return;
+      }
+      case Fault::Waits:
+        waits_.store(true);
+        waits_.notify_all();
+        waits_.wait(true);
+        return;
+    }
+  }
+
+  std::filesystem::path folder_;
+  hal::FolderMedia real_;
+  Fault fault_ = Fault::None;
+  int records_left_ = 0;
+  std::atomic<bool> waits_{false};
+};
+
+}  // namespace relievo::test
