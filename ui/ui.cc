@@ -47,15 +47,19 @@ void Ui::feed(const Input& input, const ViewState& view) {
     if (input.kind == Input::Kind::Down || input.kind == Input::Kind::Activate) ask(Intent::StillHere);
     if (asked && input.kind == Input::Kind::Down) return;  // the touch that wakes does nothing else
   }
+  // A key that takes its time is called back by whatever comes after it.
+  if (key_held_ && input.kind != Input::Kind::Move && input.kind != Input::Kind::Up) {
+    key_held_ = false;
+    hands_.pressed.clear();
+    if (input.kind == Input::Kind::Activate) return;
+  }
   switch (input.kind) {
     case Input::Kind::Down: return down(input);
     case Input::Kind::Move: return move(input);
     case Input::Kind::Up: return up(input, view);
     case Input::Kind::Next: return focus_on(1);
     case Input::Kind::Previous: return focus_on(-1);
-    case Input::Kind::Activate:
-      if (const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr) activate(*node, view);
-      return;
+    case Input::Kind::Activate: return activate_focus(view);
     case Input::Kind::Back:
       if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
       return ask(visit_.act({ActionKind::Back, 0}, view));
@@ -84,6 +88,7 @@ void Ui::move(const Input& input) {
     if (std::hypot(finger.x - finger.start_x, finger.y - finger.start_y) > kSlopPx) finger.dragging = true;
     if (!finger.dragging) return;
     const Node* node = tree_.find(hands_.pressed);
+    if (node != nullptr && node->hold && !node->rect.holds(finger.x, finger.y)) hands_.pressed.clear();  // it slid off: that is no holding
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
     if (fingers_[0].down && fingers_[1].down) return pinch(finger, old_x, old_y, fingers_[1 - i]);
     if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);
@@ -124,6 +129,16 @@ void Ui::activate(const Node& node, const ViewState& view) {
   ask(visit_.act(node.action, view));
 }
 
+// A keypad has no finger that rests. What must not happen by mistake takes the same time here, and nobody has to keep a key down.
+void Ui::activate_focus(const ViewState& view) {
+  const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
+  if (node == nullptr) return;
+  if (!node->slow_key) return activate(*node, view);
+  hands_.pressed = node->id;
+  pressed_at_ = view.now;
+  key_held_ = true;
+}
+
 void Ui::focus_on(int direction) {
   const Node* next = tree_.after(hands_.show_focus ? std::string_view(hands_.focus) : std::string_view{}, direction);
   hands_.show_focus = next != nullptr;
@@ -150,6 +165,8 @@ void Ui::frame(const ViewState& view) {
     hands_.scrolled.clear();
     hands_.scroll_px = 0;
     hands_.pressed.clear();
+    hands_.held = 0;
+    key_held_ = false;
     hands_.show_focus = false;
   }
   if ((visit_.step == Step::Attract && last_step_ != Step::Attract) || page != last_page_) {
@@ -164,12 +181,16 @@ void Ui::frame(const ViewState& view) {
   draw(view);
 }
 
-// The way in is held, so that a child's finger does not open it; a keypad opens it at once.
+// What is held is done when its time has passed: the way in, so that a child's finger does not open it, and what nobody can undo.
 void Ui::follow_staff(const ViewState& view) {
   const Node* held = hands_.pressed.empty() ? nullptr : tree_.find(hands_.pressed);
-  if (held != nullptr && held->hold && view.now - pressed_at_ >= kHold) {
+  const bool holds = held != nullptr && held->hold;
+  hands_.held = holds ? std::clamp(std::chrono::duration<float>(view.now - pressed_at_) / std::chrono::duration<float>(kHold), 0.0F, 1.0F) : 0;
+  if (hands_.held >= 1) {
     const Node node = *held;
     hands_.pressed.clear();
+    hands_.held = 0;
+    key_held_ = false;
     activate(node, view);
   }
   service_.follow(view);

@@ -67,6 +67,7 @@ class Ui {
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
   void activate(const Node& node, const ViewState& view);
+  void activate_focus(const ViewState& view);
   void drag_face(float dx, float dy);
   void pinch(const Finger& moved, float old_x, float old_y, const Finger& other);
 
@@ -84,6 +85,7 @@ class Ui {
   std::optional<StaffPage> last_page_;     // none: the visitor's side
   int last_mode_ = 0;
   hal::Instant pressed_at_{};
+  bool key_held_ = false;                  // what is pressed was asked for by the keypad
   bool forgotten_ = false;
   int width_px_ = 1280, height_px_ = 800;
 };

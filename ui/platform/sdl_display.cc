@@ -83,7 +83,9 @@ class SdlDisplay final : public Display {
       case SDLK_UP: return Input{Input::Kind::Previous};
       case SDLK_RETURN:
       case SDLK_KP_ENTER:
-      case SDLK_SPACE: return Input{Input::Kind::Activate};
+      case SDLK_SPACE:
+        if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
+        return Input{Input::Kind::Activate};
       case SDLK_ESCAPE:
       case SDLK_AC_BACK: return Input{Input::Kind::Back};
       default: return std::nullopt;

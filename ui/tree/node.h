@@ -48,6 +48,8 @@ struct Node {
   bool modal = false;        // nothing under it can be touched
   bool drags = false;
   bool hold = false;         // done by a finger that rests (ui/service.h: kHold), not by a tap
+  bool slow_key = false;     // of such a one: a keypad waits as long, and any further key calls it back
+  Colour filling{};          // of the bar that says how long one still has to hold
   Mark mark = Mark::Shape;   // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
   float aspect = 0;          // of the picture: width over height; a stack with one is as large as fits

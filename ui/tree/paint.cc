@@ -12,6 +12,8 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kHeldBar = 10;  // dp
+
 Colour darker(Colour c) {
   const auto less = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
   return {less(c.r), less(c.g), less(c.b), c.a};
@@ -121,6 +123,18 @@ void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands
   list.commands.push_back(c);
 }
 
+// How much of the time has passed: a bar along the bottom, in the direction of reading, within the node's round corners.
+void paint_held(DrawList& list, const Node& node, float share, bool right_to_left, float unit) {
+  Command c;
+  c.mark = Mark::Shape;
+  c.rect = node.rect;
+  c.radius = std::min(node.box.radius, std::min(node.rect.w, node.rect.h) / 2);
+  c.fill = c.fill_end = node.filling;
+  const float h = std::min(node.rect.h, kHeldBar * unit), w = node.rect.w * share;
+  c.clip = {right_to_left ? node.rect.right() - w : node.rect.x, node.rect.bottom() - h, w, h};
+  list.commands.push_back(c);
+}
+
 std::string_view word(Role role) {
   switch (role) {
     case Role::Group: return "group";
@@ -155,6 +169,7 @@ void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Col
     const bool pressed = !node.id.empty() && touches(hands, node);
     if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
     else paint_picture(list, node);
+    if (pressed && node.hold && hands.held > 0) paint_held(list, node, hands.held, right_to_left_, unit);
     if (!node.text.empty()) paint_text(list, node, text, right_to_left_);
     paint_scroll_bar(list, node, hands, right_to_left_, unit);
     if (hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;

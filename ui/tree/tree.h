@@ -24,6 +24,7 @@ struct Interaction {
   std::string focus;              // id; empty: none
   bool show_focus = false;        // the keypad was used last
   std::string pressed;
+  float held = 0;                 // of the time for which what is pressed has to be held
   std::string scrolled;           // the scroller whose place is `scroll_px`
   float scroll_px = 0;
 };

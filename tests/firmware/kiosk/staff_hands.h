@@ -115,13 +115,13 @@ class StaffHands : public KioskHands {
   }
 
   // By the keypad, which needs not hold: on until the door has the focus.
+  void focus_on(std::string_view id) {
+    ASSERT_NE(find(id), nullptr) << id << " is not on the screen";
+    do kiosk->feed({ui::Input::Kind::Next});
+    while (kiosk->ui().focus() != id);
+  }
   void knock() {
-    ASSERT_NE(find("staff"), nullptr);
-    std::string_view at;
-    do {
-      kiosk->feed({ui::Input::Kind::Next});
-      at = kiosk->ui().tree().after(at, 1)->id;
-    } while (at != "staff");
+    focus_on("staff");
     kiosk->feed({ui::Input::Kind::Activate});
     kiosk->turn();
     ASSERT_TRUE(kiosk->ui().service().open);
@@ -146,12 +146,22 @@ class StaffHands : public KioskHands {
     EXPECT_EQ(kiosk->view().service->role, role);
     EXPECT_EQ(kiosk->appliance().state(), State::Technician);
   }
-  // Rests on it until it is done. Time must move by hand (changes.clock).
-  void hold(std::string_view id, hal::ManualClock& time) {
+  // A finger comes and stays.
+  void rest_on(std::string_view id) {
     const ui::Node* node = find(id);
     ASSERT_NE(node, nullptr) << id << " is not on the screen";
-    kiosk->feed({ui::Input::Kind::Down, 7, node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2});
+    rests_x = node->rect.x + node->rect.w / 2;
+    rests_y = node->rect.y + node->rect.h / 2;
+    kiosk->feed({ui::Input::Kind::Down, finger, rests_x, rests_y});
     kiosk->turn();
+  }
+  void lift() {
+    kiosk->feed({ui::Input::Kind::Up, finger, rests_x, rests_y});
+    kiosk->turn();
+  }
+  // Rests on it until it is done. Time must move by hand (changes.clock).
+  void hold(std::string_view id, hal::ManualClock& time) {
+    rest_on(id);
     time.advance(ui::kHold + std::chrono::milliseconds(1));
     kiosk->turn();
   }
@@ -170,6 +180,7 @@ class StaffHands : public KioskHands {
   Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
   KioskArgs args;
   hal::FolderMedia* media = nullptr;
+  float rests_x = 0, rests_y = 0;
 };
 
 }  // namespace relievo::firmware

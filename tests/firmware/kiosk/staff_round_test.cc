@@ -147,8 +147,9 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::NoStick) << "it was let go after the export";
 
   tap("erase");
-  tap("yes");
+  rest_on("yes");
   ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome == ui::Outcome::Done; }));
+  lift();
   sign_out();
   for (const ui::Node& node : kiosk->ui().tree().nodes()) EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
   EXPECT_EQ(kiosk->view().service->records, nullptr) << "no name is left";

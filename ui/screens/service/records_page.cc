@@ -143,7 +143,7 @@ void records_page(StaffFrame& page) {
   if (page.service.mode == kTyping) return typing(page);
   if (seen->shown == nullptr) return list(page, *seen);
   if (page.service.mode != kErasing) return record(page, *seen);
-  page.question(tr("Erase for ever?"), tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."), tr("Yes, erase"),
+  page.grave_question(tr("Erase for ever?"), tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."), tr("Hold to erase"),
                 {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)}, tr("No, keep it"), {ActionKind::StaffMode, kList});
 }
 

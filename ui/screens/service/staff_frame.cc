@@ -9,7 +9,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kMargin = 32, kTop = 20;
-constexpr const char* kLeaveSign = "\uf343";
+constexpr const char *kLeaveSign = "\uf343", *kBin = "\uf1c0";
 constexpr Colour kNone{};
 
 }  // namespace
@@ -130,7 +130,7 @@ void StaffFrame::status(std::string_view id, const char* words, Mood mood) {
   tree.close();
 }
 
-void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
+void StaffFrame::asked(const char* title, const char* words, const char* hint) {
   Node room = grown(box(Flow::Column, space::kM));
   room.id = "question";
   room.box.along = Along::Centre;
@@ -138,11 +138,52 @@ void StaffFrame::question(const char* title, const char* words, const char* yes,
   tree.open(room);
   heading("question title", title, type::kHeading);
   body("question words", words);
+  if (hint != nullptr) {
+    Node how = text(hint, type::kSmall, Weight::Medium, palette.ink);
+    how.id = "question hint";
+    tree.leaf(how);
+  }
   tree.close();
   tree.open(box(portrait || text_share > 1.3F ? Flow::Column : Flow::Row, space::kS));
+}
+
+void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
+  asked(title, words, nullptr);
   const float grow = portrait || text_share > 1.3F ? 0 : 1;
   button("no", no, nullptr, ButtonLook::Quiet, no_action, grow);
   button("yes", yes, nullptr, ButtonLook::Main, yes_action, grow);
+  tree.close();
+}
+
+void StaffFrame::grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
+  asked(title, words, tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."));
+  const float grow = portrait || text_share > 1.3F ? 0 : 1;
+  button("no", no, nullptr, ButtonLook::Main, no_action, grow);
+  held_button("yes", yes, yes_action, grow);
+  tree.close();
+}
+
+// As wide and high as the button beside it, in the colour of what is bad; the bar that fills is as dark as its letters.
+void StaffFrame::held_button(std::string_view id, std::string_view label, Action action, float grow) {
+  constexpr ButtonSize kSize = size::kMainButton;
+  Node node = box(Flow::Row, kSize.gap, text_share > 1.3F ? 14 : kSize.pad_x, kSize.pad_y);
+  node.id = id;
+  node.name = label;
+  node.role = Role::Button;
+  node.action = action;
+  node.hold = node.slow_key = true;
+  node.filling = palette.bad;
+  node.box.along = Along::Centre;
+  node.box.across = Across::Centre;
+  node.box.grow = grow;
+  node.box.min_height = px(kSize.height);
+  node.box.radius = px(kSize.radius);
+  node.box.fill = palette.quiet;
+  node.box.border = palette.bad;
+  node.box.border_px = std::max(2.0F, px(3));
+  tree.open(node);
+  sign(kBin, kSize.sign, palette.bad);
+  tree.leaf(text(label, kSize.text, Weight::Medium, palette.bad, TextAlign::Centre));
   tree.close();
 }
 

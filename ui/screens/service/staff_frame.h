@@ -51,6 +51,8 @@ class StaffFrame : public Page {
   void outcome();
   // A big question in place of the page: two answers.
   void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
+  // The same, of what nobody can undo: "yes" is held for three seconds; by a keypad it waits as long, and another key calls it back.
+  void grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
   // Digits to be typed; `done` when the tick is touched.
   void keypad(Action done);
   // "12.5", kept apart from the direction of the words around.
@@ -59,6 +61,8 @@ class StaffFrame : public Page {
   const char* sign_of(Mood mood) const;
 
  private:
+  void asked(const char* title, const char* words, const char* hint);
+  void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void digit(const char* letter);
   void rule();
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action);

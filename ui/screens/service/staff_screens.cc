@@ -95,6 +95,7 @@ void staff_entrance(Page& page) {
   door.role = Role::Button;
   door.action = {ActionKind::StaffEnter, 0};
   door.hold = true;
+  door.filling = page.palette.accent;
   door.box.along = Along::Centre;
   door.box.across = Across::Centre;
   door.box.radius = page.px(size::kRadius);
