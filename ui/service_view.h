@@ -55,6 +55,7 @@ struct AccessView {
   bool checking = false;
   bool wrong = false;           // the last one was
   int wait_s = 0;               // until the next try
+  bool forgotten = false;       // not set up, because one of the two is to be chosen anew
 };
 
 enum class Mood : std::uint8_t { Plain, Good, Warn, Bad };

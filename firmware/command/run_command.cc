@@ -16,6 +16,7 @@ Result<void> run(const ReconstructArgs& args, Services& services) { return run_r
 Result<void> run(const CompareArgs& args, Services& services) { return run_compare(args, services); }
 Result<void> run(const EnrolArgs& args, Services& services) { return run_enrol(args, services); }
 Result<void> run(const SubjectsArgs& args, Services& services) { return run_subjects(args, services); }
+Result<void> run(const StaffArgs& args, Services& services) { return run_staff(args, services); }
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
 Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
 Result<void> run(const KioskArgs& args, Services& services) { return run_kiosk(args, services); }

@@ -105,6 +105,10 @@ std::deque<Shown> make_shown() {
   fresh.access.clock_right = true;
   fresh.access.fault = ui::PinFault::Simple;
   all.push_back({"staff_first_pin", StaffPage::FirstStart, 1, fresh});
+  fresh.access.forgotten = true;
+  fresh.access.fault = ui::PinFault::None;
+  fresh.access.step = ui::PinStep::Operator;
+  all.push_back({"staff_forgotten_pin", StaffPage::FirstStart, 0, fresh});
   all.push_back({"staff_technician", StaffPage::Menu, 0, at(StaffRole::Technician)});
   ServiceView leaving = at(StaffRole::Operator);
   leaving.leaves_in_s = 9;

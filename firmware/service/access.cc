@@ -64,6 +64,12 @@ Result<bool> Access::is_set_up() {
   return !record.technician.empty() && !record.clerk.empty();
 }
 
+Result<ui::StaffRole> Access::forgotten() {
+  RELIEVO_TRY_ASSIGN(const Record record, read());
+  if (record.technician.empty() == record.clerk.empty()) return ui::StaffRole::None;
+  return record.technician.empty() ? ui::StaffRole::Technician : ui::StaffRole::Operator;
+}
+
 Result<seconds> Access::wait(Record& record) {
   const std::int64_t now = now_s();
   if (record.wrong > 0 && now < record.wrong_at_s) {
@@ -109,6 +115,23 @@ Result<void> Access::set(ui::StaffRole role, std::string_view pin) {
   RELIEVO_TRY_ASSIGN(Record record, read());
   if (record.technician.empty() || record.clerk.empty()) return Error{Errc::InvalidState, "choose both PINs first"};
   RELIEVO_TRY_ASSIGN(role == ui::StaffRole::Technician ? record.technician : record.clerk, stretched(pin));
+  return write(record);
+}
+
+Result<void> Access::forget(ui::StaffRole role) {
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  std::string& kept = role == ui::StaffRole::Technician ? record.technician : record.clerk;
+  if (kept.empty()) return Error{Errc::InvalidState, "has no PIN: it is chosen at the screen"};
+  kept.clear();
+  return write(record);
+}
+
+Result<void> Access::choose_again(ui::StaffRole role, std::string_view pin) {
+  RELIEVO_TRY(check_new(role, pin));
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  std::string& kept = role == ui::StaffRole::Technician ? record.technician : record.clerk;
+  if (!kept.empty()) return Error{Errc::InvalidState, "has a PIN already"};
+  RELIEVO_TRY_ASSIGN(kept, stretched(pin));
   return write(record);
 }
 

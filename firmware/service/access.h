@@ -37,11 +37,17 @@ class Access {
   Access(storage::Store& store, const hal::Clock& clock) : store_(store), clock_(clock) {}
 
   Result<bool> is_set_up();
+  // Of whom one has been forgotten while the other role's is there; None: of nobody, or of both.
+  Result<ui::StaffRole> forgotten();
   Result<std::chrono::seconds> wait();
   Result<Attempt> attempt(std::string_view pin);
   // InvalidInput: not four to eight digits, or too simple. InvalidState: the other role has it.
   Result<void> check_new(ui::StaffRole role, std::string_view pin);
   Result<void> set(ui::StaffRole role, std::string_view pin);
+  // Its PIN is no more; wrong tries stay counted. InvalidState: it has none.
+  Result<void> forget(ui::StaffRole role);
+  // In the place of one that was forgotten. InvalidState: it was not. Else as check_new().
+  Result<void> choose_again(ui::StaffRole role, std::string_view pin);
   // Both at once: a device is set up or it is not.
   Result<void> set_up(std::string_view technician, std::string_view clerk);
 

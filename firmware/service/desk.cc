@@ -16,7 +16,6 @@ namespace {
 using ui::StaffPage;
 using ui::StaffRole;
 
-constexpr const char* kLogFile = "relievo.log";
 constexpr std::chrono::seconds kWarning{15};  // before somebody is signed out
 
 bool is_service(State state) { return state == State::Technician || state == State::Calibrate || state == State::Export; }

@@ -26,6 +26,7 @@ Door::Door(Parts parts)
 
 Result<void> Door::look() {
   RELIEVO_TRY_ASSIGN(set_up_, access_.is_set_up());
+  RELIEVO_TRY_ASSIGN(forgotten_, access_.forgotten());
   RELIEVO_TRY_ASSIGN(const auto wait, access_.wait());
   wait_until_ = clock_.now() + wait;
   return {};
@@ -36,7 +37,7 @@ void Door::opened(StaffPage page) {
   wrong_ = clock_right_ = clock_refused_ = false;
   clock_moved_ = std::chrono::minutes(0);
   fault_ = PinFault::None;
-  step_ = page == StaffPage::Pins ? PinStep::Own : PinStep::Technician;
+  step_ = page == StaffPage::Pins ? PinStep::Own : forgotten_ == StaffRole::Operator ? PinStep::Operator : PinStep::Technician;
 }
 
 void Door::forget() {
@@ -119,6 +120,7 @@ void Door::offered_again(std::string_view pin, StaffRole role) {
     return wipe_text(first_);
   }
   if (before == PinStep::Own) return save_own(std::exchange(first_, {}), role);
+  if (forgotten_ != StaffRole::None) return save_again(std::exchange(first_, {}), forgotten_);
   if (before == PinStep::Operator) return save_first(std::exchange(technician_, {}), std::exchange(first_, {}));
   technician_ = std::exchange(first_, {});
   step_ = PinStep::Operator;
@@ -168,6 +170,28 @@ void Door::save_first(std::string technician, std::string clerk) {
       Errands::Whose::Device);
 }
 
+// One of the two was forgotten: only that one is chosen.
+void Door::save_again(std::string pin, StaffRole role) {
+  const auto kept = std::make_shared<std::string>(std::move(pin));
+  checking_ = true;
+  errands_.send(
+      JobPlace::Keeper,
+      [this, kept, role](JobControl&) {
+        const Result<void> saved = access_.choose_again(role, *kept);
+        wipe_text(*kept);
+        return saved;
+      },
+      [this, role](const std::optional<Error>& error) {
+        checking_ = false;
+        if (error) return refuse(*error, role == StaffRole::Technician ? PinStep::Technician : PinStep::Operator);
+        forgotten_ = StaffRole::None;
+        set_up_ = true;
+        step_ = PinStep::Done;
+        log_.say("the " + std::string(word_of(role)) + "'s PIN was chosen anew");
+      },
+      Errands::Whose::Device);
+}
+
 void Door::save_own(std::string pin, StaffRole role) {
   const auto kept = std::make_shared<std::string>(std::move(pin));
   checking_ = true;
@@ -192,7 +216,7 @@ void Door::show(ui::AccessView& view) const {
   const auto minute = std::chrono::floor<std::chrono::minutes>(clock_.wall_now() + clock_moved_);
   if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
   clock_text_at_ = minute;
-  view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count()))};
+  view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count())), forgotten_ != StaffRole::None};
 }
 
 }  // namespace relievo::firmware

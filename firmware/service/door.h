@@ -51,6 +51,7 @@ class Door {
   void offered_again(std::string_view pin, ui::StaffRole role);
   void save_first(std::string technician, std::string clerk);
   void judge(std::string pin, ui::StaffRole role, ui::PinStep next);
+  void save_again(std::string pin, ui::StaffRole role);
   void save_own(std::string pin, ui::StaffRole role);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
@@ -63,6 +64,7 @@ class Door {
   Access access_;
   const bool demands_set_up_;
   bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false;
+  ui::StaffRole forgotten_ = ui::StaffRole::None;   // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
   ui::PinStep step_ = ui::PinStep::Technician;
   ui::PinFault fault_ = ui::PinFault::None;

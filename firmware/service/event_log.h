@@ -21,6 +21,8 @@
 
 namespace relievo::firmware {
 
+inline constexpr const char* kLogFile = "relievo.log";  // in the folder of the store
+
 class EventLog {
  public:
   static constexpr std::size_t kLines = 200, kLineBytes = 200, kFaults = 8;

@@ -12,6 +12,7 @@
 #include "firmware/command/line/command_line.h"
 #include "firmware/command/line/compare_words.h"
 #include "firmware/command/line/held_picture_words.h"
+#include "firmware/command/line/staff_words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -252,6 +253,7 @@ struct AllArgs {
   CompareArgs compare;
   EnrolArgs enrol;
   SubjectsArgs subjects;
+  StaffArgs staff;
   SimulateArgs simulate;
   SelfTestArgs selftest;
 };
@@ -270,6 +272,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_algorithms(*add_compare(app, line.command, args.compare), args.compare.algorithms);
   add_enrol(app, line.command, args.enrol);
   add_subjects(app, line.command, args.subjects);
+  add_staff(app, line.command, args.staff);
   add_simulate(app, line.command, args.simulate);
   add_selftest(app, line.command, args.selftest);
   app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });

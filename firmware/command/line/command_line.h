@@ -115,6 +115,13 @@ struct SubjectsArgs {
   Path store;
 };
 
+// What whoever administers the device does for its staff, the kiosk stopped.
+struct StaffArgs {
+  enum class Verb { ForgetPin, PlainTouch } verb = Verb::ForgetPin;
+  bool technician = false;        // forget-pin: else the operator
+  Path store;
+};
+
 // A picture that is held before the cameras.
 struct HeldPictureArgs {
   Path picture;                   // empty: none is
@@ -168,7 +175,7 @@ struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
 using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
-                                 SubjectsArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs, KioskArgs>;
+                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;

@@ -106,6 +106,11 @@ void new_pin(StaffFrame& page) {
 }  // namespace
 
 void first_start_page(StaffFrame& page) {
+  if (page.staff.access.forgotten) {
+    page.begin(page.tr("A PIN was forgotten"), icon::kLock);
+    new_pin(page);
+    return page.end();
+  }
   page.begin(page.tr("First start"), kClockSign);
   if (page.service.mode == kWelcome) welcome(page);
   else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);

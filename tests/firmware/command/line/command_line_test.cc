@@ -135,6 +135,17 @@ TEST(CommandLine, VerbsOfSubjects) {
   EXPECT_EQ(args.store, "s");
 }
 
+TEST(CommandLine, VerbsOfTheStaff) {
+  const auto forget = parse({"staff", "forget-pin", "technician", "--store", "s"});
+  EXPECT_EQ(std::get<StaffArgs>(forget.command).verb, StaffArgs::Verb::ForgetPin);
+  EXPECT_TRUE(std::get<StaffArgs>(forget.command).technician);
+  EXPECT_EQ(std::get<StaffArgs>(forget.command).store, "s");
+  EXPECT_FALSE(std::get<StaffArgs>(parse({"staff", "forget-pin", "operator"}).command).technician);
+  EXPECT_EQ(std::get<StaffArgs>(parse({"staff", "plain-touch"}).command).verb, StaffArgs::Verb::PlainTouch);
+  const std::vector<std::vector<const char*>> wrong{{"staff"}, {"staff", "forget-pin"}, {"staff", "forget-pin", "visitor"}};
+  for (const auto& words : wrong) EXPECT_EQ(parse(words).exit_code, 2);
+}
+
 TEST(CommandLine, HelpIsNoError) {
   testing::internal::CaptureStdout();
   const auto line = parse({"reconstruct", "--help"});

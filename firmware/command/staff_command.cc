@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `relievo staff`: the way in of whoever administers the device, when the screen offers none. The store lets
+// nobody else in while a kiosk has it.
+#include <string>
+
+#include "firmware/command/commands.h"
+#include "firmware/service/access.h"
+#include "firmware/service/device/touch_trial.h"
+#include "firmware/service/event_log.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Both logs: the store's, which shows every edit, and the one the technician reads.
+Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& clock, const char* event, const char* whose, const std::string& line) {
+  RELIEVO_TRY(store.append_audit({event, {}, whose}));
+  EventLog log(clock, folder / kLogFile);
+  log.say(line);
+  return log.save();
+}
+
+}  // namespace
+
+Result<void> run_staff(const StaffArgs& args, Services& services) {
+  const Path folder = store_folder(args.store);
+  // To read needs the store: one that is named wrongly is not made.
+  if (const auto there = services.open_store(folder, false); !there) return there.error();
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, true));
+  if (args.verb == StaffArgs::Verb::PlainTouch) {
+    RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));
+    RELIEVO_TRY(note(*store, folder, services.clock, "staff.plain_touch", "", "the touch screen is taken as it is, by the command line"));
+    services.console.say("the touch screen is taken as it is");
+    return {};
+  }
+  const char* role = args.technician ? "technician" : "operator";
+  if (const auto forgot = Access(*store, services.clock).forget(args.technician ? ui::StaffRole::Technician : ui::StaffRole::Operator); !forgot) return forgot.error().at(role);
+  RELIEVO_TRY(note(*store, folder, services.clock, "staff.pin_forgotten", role, "the " + std::string(role) + "'s PIN was forgotten, by the command line"));
+  services.console.say("the " + std::string(role) + "'s PIN is forgotten: start the kiosk and choose a new one at its screen, before anybody else does");
+  return {};
+}
+
+}  // namespace relievo::firmware
