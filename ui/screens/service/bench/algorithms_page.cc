@@ -23,6 +23,14 @@ const char* label_of(const Words& tr, std::string_view kind) {
   return tr("Texture");
 }
 
+// A sentence in which pipeline/ describes itself, in the page's language; English, where that has none, keeps its direction.
+std::string_view described(BenchFrame& b, std::string_view sentence) {
+  const std::string_view english = b.page.tree.keep(sentence);
+  b.page.tree.keep({"", 1});  // gettext wants its end
+  const char* words = b.tr(english.data());
+  return words == english.data() ? b.left_to_right(english) : std::string_view(words);
+}
+
 void kinds(BenchFrame& b) {
   b.page.begin_list("kinds");
   for (std::size_t i = 0; i < b.view.choice.kinds.size(); ++i) {
@@ -69,7 +77,7 @@ void options(BenchFrame& b) {
   const BenchChoice& choice = b.view.choice;
   names(b);
   b.page.begin_list("options");
-  Node said = b.page.text(choice.kinds[choice.kind].sentence, 17, Weight::Regular, b.page.palette.ink_soft);
+  Node said = b.page.text(described(b, choice.kinds[choice.kind].sentence), 17, Weight::Regular, b.page.palette.ink_soft);
   said.box.pad_y = b.page.px(6);
   b.page.tree.leaf(said);
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
@@ -133,7 +141,7 @@ void editor(BenchFrame& b) {
   words.box.scroll = true;
   b.page.tree.open(words);
   b.page.tree.leaf(b.page.text(b.left_to_right(option.key), type::kBody, Weight::Bold, b.page.palette.ink));
-  b.page.tree.leaf(b.page.text(b.left_to_right(option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  b.page.tree.leaf(b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
   char text[96];
   std::snprintf(text, sizeof text, "\u2066%g … %g\u2069", option.least, option.most);
   b.page.row("option range", b.tr("Possible values"), b.page.tree.keep(text));
