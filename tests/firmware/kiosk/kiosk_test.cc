@@ -9,7 +9,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory_resource>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "firmware/kiosk/receipt.h"
 #include "hal/monotonic_clock.h"
@@ -119,37 +122,79 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE(kiosk->take_forgotten());
   }
 
-  // A name that is in the records; the visitor leaves, then comes back with the code and renews.
-  void stop_then_renew() {
-    const Result<void> stopped = play("tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap leave\ntap answer_quiet\nwait attract\n");
-    ASSERT_TRUE(stopped.has_value()) << stopped.error().where();
-    EXPECT_EQ(kiosk->view().known, ui::Known::NotAsked) << "what was asked is forgotten";
-    const std::string again = "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code +
-                              "\ntap done\nwait known\ntap renew\nwait review 600\ntap accept\nwait thanks 600\n";
-    const Result<void> renewed = play(again.c_str());
-    ASSERT_TRUE(renewed.has_value()) << renewed.error().where();
+  void played(const std::string& lines) {
+    const Result<void> done = play(lines.c_str());
+    ASSERT_TRUE(done.has_value()) << done.error().where();
     kiosk->turn();
-    EXPECT_EQ(kiosk->view().receipt, code) << "the same record";
-    tap("finish");
-    kiosk.reset();
+  }
+  std::string with_the_code() const { return "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code + "\ntap done\nwait known\n"; }
+  // What the records have of Ada, the kiosk running.
+  std::vector<storage::Enrolment> kept() const {
+    auto store = storage::open_sqlite_store(args.store, clock, {.mode = storage::OpenMode::ReadOnly});
+    EXPECT_TRUE(store.has_value());
+    EXPECT_EQ((*store)->subjects({})->size(), 1U) << "who left is not there, and nobody is there twice";
+    EXPECT_TRUE(subject_of_receipt(code)) << code;
+    const auto subject = (*store)->subject(*subject_of_receipt(code));
+    EXPECT_TRUE(subject.has_value() && subject->name == "Ada");
+    return *(*store)->enrolments(subject->id);
   }
 
-  void one_record_with_the_newer_portrait() {
+  // A name that is in the records: the visitor leaves, before and after the code that proves it is theirs.
+  void stop() {
+    const auto before = kept();
+    for (const std::string& way : {std::string("tap start\ntap agree\ntype Ada\ntap done\nwait known\n"), with_the_code()}) {
+      played(way + "tap leave\ntap answer_quiet\nwait attract\n");
+      EXPECT_EQ(kiosk->view().known, ui::Known::NotAsked) << "what was asked is forgotten";
+      EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+      EXPECT_FALSE(kiosk->appliance().session().is_open()) << "no camera ran";
+    }
+    ASSERT_EQ(kept().size(), before.size());
+    EXPECT_EQ(kept().front().id, before.front().id) << "all is as it was";
+  }
+
+  void renew() {
+    const auto before = kept();
+    played(with_the_code() + "tap renew\nwait review 600\ntap accept\nwait thanks 600\n");
+    EXPECT_EQ(kiosk->view().receipt, code) << "the same record";
+    played("tap finish\nwait attract\n");
+    const auto after = kept();
+    ASSERT_EQ(after.size(), 1U) << "the old portrait is gone";
+    EXPECT_NE(after.front().id, before.front().id);
+    EXPECT_GT(after.front().consent.given_at, before.front().created_at) << "a consent of its own";
+  }
+
+  void add_another() {
+    const auto before = kept();
+    played(with_the_code() + "tap add\nwait review 600\ntap accept\nwait thanks 600\n");
+    EXPECT_EQ(kiosk->view().receipt, code) << "the same record";
+    played("tap finish\nwait attract\n");
+    const auto after = kept();
+    ASSERT_EQ(after.size(), 2U) << "the old portrait stays beside the new one";
+    EXPECT_EQ(after.front().id, before.front().id);
+    EXPECT_EQ(after.front().consent.given_at, before.front().consent.given_at) << "and its consent";
+    EXPECT_GT(after.back().consent.given_at, before.front().created_at) << "a consent of its own";
+  }
+
+  // A visitor who stays on the page that shows the new portrait and then stops has added nothing.
+  void add_and_stop() {
+    played(with_the_code() + "tap add\nwait review 600\ntap leave\ntap answer_quiet\nwait attract\n");
+    EXPECT_FALSE(kiosk->appliance().session().is_open());
+    EXPECT_EQ(kept().size(), 2U);
+  }
+
+  void everything_is_readable() {
+    kiosk.reset();
     auto store = storage::open_sqlite_store(args.store, clock, {});
     ASSERT_TRUE(store.has_value());
-    EXPECT_EQ((*store)->subjects({})->size(), 1U) << "who left is not there, and nobody is there twice";
-    ASSERT_TRUE(subject_of_receipt(code)) << code;
-    const auto subject = (*store)->subject(*subject_of_receipt(code));
-    ASSERT_TRUE(subject.has_value());
-    EXPECT_EQ(subject->name, "Ada");
-    const auto enrolments = (*store)->enrolments(subject->id);
-    ASSERT_TRUE(enrolments.has_value());
-    ASSERT_EQ(enrolments->size(), 1U) << "the old portrait is gone";
-    EXPECT_GT(enrolments->front().created_at, subject->created_at) << "the newer one stays";
-    EXPECT_EQ(enrolments->front().consent.wording, ui::kConsentWording);
-    EXPECT_EQ(enrolments->front().consent.language, "en");
-    EXPECT_LT(enrolments->front().consent.given_at, enrolments->front().created_at);
-    EXPECT_GT(enrolments->front().consent.given_at, subject->created_at) << "the second consent";
+    const auto enrolments = (*store)->enrolments(*subject_of_receipt(code));
+    ASSERT_EQ(enrolments->size(), 2U);
+    for (const storage::Enrolment& one : *enrolments) {
+      EXPECT_EQ(one.consent.wording, ui::kConsentWording);
+      EXPECT_EQ(one.consent.language, "en");
+      EXPECT_LT(one.consent.given_at, one.created_at);
+      std::pmr::monotonic_buffer_resource memory;
+      EXPECT_TRUE((*store)->load_model(one.id, &memory).has_value());
+    }
     EXPECT_TRUE((*store)->check().has_value());
   }
 
@@ -163,11 +208,14 @@ class KioskTest : public KioskHands {
 };
 
 // One test for all, since building the simulated person takes longest.
-TEST_F(KioskTest, WhoLeavesLeavesNothingAndTheNextIsEnrolledAndRenews) {
+TEST_F(KioskTest, WhoLeavesLeavesNothingAndTheNextIsEnrolledStopsRenewsAndAdds) {
   leave_before_the_picture();
   enrol_by_touch();
-  stop_then_renew();
-  one_record_with_the_newer_portrait();
+  stop();
+  renew();
+  add_another();
+  add_and_stop();
+  everything_is_readable();
 }
 
 }  // namespace
