@@ -35,6 +35,7 @@ struct Subject {
   std::string name;
   WallTime created_at;
   int enrolments = 0;
+  std::int64_t receipt = 0;  // drawn when they came (receipt_number.h); 0: a store of before receipts were drawn
 };
 
 struct SubjectFilter {
@@ -42,6 +43,7 @@ struct SubjectFilter {
   bool whole_name = false;  // false: `name` anywhere in the name, ASCII letters in either case
   std::int64_t skip = 0;    // for paging; the newest come first
   std::int64_t limit = 1000;
+  std::int64_t receipt = 0;  // not 0: only whose receipt it is
 };
 
 // What a person agreed to, when, and to which wording.

@@ -26,7 +26,7 @@ Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& c
 Result<void> run_staff(const StaffArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   // To read needs the store: one that is named wrongly is not made.
-  if (const auto there = services.open_store(folder, false); !there) return there.error();
+  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound) return there.error();
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, true));
   if (args.verb == StaffArgs::Verb::PlainTouch) {
     RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));

@@ -128,7 +128,8 @@ Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& mo
   RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id,
                      store_->add_enrolment(whose, {model, consent, revision_, algorithms, json, consented_.errand == ui::Errand::Renew}));
   RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
-  receipt_ = receipt_of(stored.subject);
+  RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_->subject(stored.subject));
+  receipt_ = receipt_of(whom);
   return {};
 }
 
@@ -139,13 +140,12 @@ Result<void> Kiosk::look_up() {
     said = ui::Known::NoSuchCode;
     CodeGuard guard(*store_, board_->clock());
     RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
-    const auto id = listens ? subject_of_receipt(quoted_) : std::nullopt;
-    const Result<storage::Subject> subject = id ? store_->subject(*id) : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
+    const Result<storage::Subject> subject = listens ? find_by_receipt(*store_, quoted_) : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
     if (!subject && subject.error().code != Errc::NotFound) return subject.error();
     if (subject && subject->name == claimed_) {
       RELIEVO_TRY(guard.was_right());
       said = ui::Known::Code;
-      record_ = *id;
+      record_ = subject->id;
     }
   } else if (tells_known_) {
     const auto same = store_->subjects({.name = claimed_, .whole_name = true, .limit = 1});

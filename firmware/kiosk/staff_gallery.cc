@@ -30,9 +30,9 @@ constexpr std::array<std::string_view, 2> kFaults{"2026-03-14 10:21:09  fault: t
 constexpr ui::HealthView kHealth{kGauges, kFaults};
 
 constexpr std::array kPeople{
-    ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "000431-87", 1},
-    ui::RecordRow{430, "Jürgen Müller", "2026-03-14 09:03", "000430-89", 2},
-    ui::RecordRow{429, "ليلى حسن", "2026-03-13 16:48", "000429-91", 1},
+    ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "4821-9037-5512-71", 1},
+    ui::RecordRow{430, "Jürgen Müller", "2026-03-14 09:03", "0094-2650-7731-77", 2},
+    ui::RecordRow{429, "ليلى حسن", "2026-03-13 16:48", "7315-0086-2249-30", 1},
     ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
     ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
 };

@@ -43,7 +43,7 @@ Result<Sums> sums_of(const fs::path& folder) {
 }
 
 std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
-  return "code: " + receipt_of(subject.id) + "\nname: " + subject.name + "\nkept since: " + text_of(subject.created_at) +
+  return "code: " + receipt_of(subject) + "\nname: " + subject.name + "\nkept since: " + text_of(subject.created_at) +
          "\nportraits: " + std::to_string(subject.enrolments) + "\nthis one: " + text_of(newest.created_at) + "\nconsent: " + newest.consent.wording +
          " (" + newest.consent.language + ") " + text_of(newest.consent.given_at) + "\n";
 }
@@ -62,7 +62,7 @@ class Export {
     RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
     RELIEVO_TRY(reach(ExportStep::Write, done + 0.3F * share));
-    const fs::path target = root / "relievo" / receipt_of(id);
+    const fs::path target = root / "relievo" / receipt_of(subject);
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
     storage::ExportOptions options(storage::ExportFrame::Head);
     options.version = kVersion;
@@ -76,15 +76,17 @@ class Export {
     RELIEVO_TRY_ASSIGN(const Sums read, sums_of(folder.path()));
     if (read != written) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"};
     RELIEVO_TRY(reach(ExportStep::Write, done + 0.9F * share));
-    return replace_folder(folder, target);
+    RELIEVO_TRY(replace_folder(folder, target));
+    made_.push_back(target);
+    return {};
   }
 
-  Result<void> let_go(const std::vector<storage::SubjectId>& subjects, const fs::path& root) {
+  Result<void> let_go() {
     RELIEVO_TRY(reach(ExportStep::LetGo, 1));
     std::error_code error;
     // Another stick may have come in the place of the first.
-    for (const storage::SubjectId id : subjects)
-      if (!fs::exists(root / "relievo" / receipt_of(id) / "record.txt", error)) return pulled();
+    for (const fs::path& record : made_)
+      if (!fs::exists(record / "record.txt", error)) return pulled();
     return media_.flush_and_eject();
   }
 
@@ -100,6 +102,7 @@ class Export {
   hal::RemovableMedia& media_;
   JobControl& control_;
   ExportTrace& trace_;
+  std::vector<fs::path> made_;
 };
 
 }  // namespace
@@ -118,7 +121,7 @@ Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, c
     RELIEVO_TRY(written);
     ++trace.whole;
   }
-  return work.let_go(subjects, medium->root);
+  return work.let_go();
 }
 
 ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {

@@ -24,7 +24,7 @@ std::string code_in(const std::string& name) {
   if (!name.starts_with('.') || end == std::string::npos) return {};
   const std::string_view rest = std::string_view(name).substr(end);
   const std::string code = name.substr(1, end - 1);
-  return (rest.starts_with(".part") || rest == kBefore) && subject_of_receipt(code) ? code : std::string();
+  return (rest.starts_with(".part") || rest == kBefore) && is_receipt(code) ? code : std::string();
 }
 
 }  // namespace

@@ -26,8 +26,10 @@ CREATE TABLE subject (
   name_nonce BLOB,
   key_id INTEGER REFERENCES encryption_key (id),
   wrapped_key BLOB,
-  wrapped_key_nonce BLOB
+  wrapped_key_nonce BLOB, receipt INTEGER CHECK (receipt > 0)
 ) STRICT;
+
+CREATE UNIQUE INDEX receipt_of_subject ON subject (receipt);
 
 CREATE TABLE calibration (
   revision INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -90,4 +92,4 @@ CREATE TABLE audit_end (
 INSERT INTO audit_end (one, number, hash) VALUES (1, 0, zeroblob(32));
 
 -- The oldest version of Relievo that may still open this store.
-INSERT INTO store_info (one, compatible_version) VALUES (1, 3);
+INSERT INTO store_info (one, compatible_version) VALUES (1, 4);

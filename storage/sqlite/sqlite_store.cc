@@ -95,7 +95,7 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal:
     }
     if (!ready) return ready.error();
     if (writable) set_aside_reserve(home, options.reserve_bytes);
-    auto store = std::make_unique<SqliteStore>(std::move(lock), std::move(database), clock, options.mode);
+    auto store = std::make_unique<SqliteStore>(std::move(lock), std::move(database), clock, options);
     return std::unique_ptr<Store>(std::move(store));
   });
 }

@@ -24,6 +24,7 @@
 
 #include "hal/base/result.h"
 #include "hal/clock.h"
+#include "storage/receipt_number.h"
 #include "storage/sqlite/sqlite_database.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
@@ -37,14 +38,15 @@ struct SqliteStoreOptions {
   std::chrono::milliseconds wait_for_lock{2000};
   std::int64_t max_bytes = 0;               // of the database file; 0: as much as the disk holds
   std::int64_t reserve_bytes = 64'000'000;  // an erasure needs as much as it erases, for a moment
+  std::int64_t (*draw_receipt)() = storage::draw_receipt;
 };
 
 class SqliteStore final : public Store {
  public:
   // Of a database that open_sqlite_store() has made ready, and the lock that keeps other writers out.
   SqliteStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Database> database, const hal::Clock& clock,
-              OpenMode mode)
-      : lock_(std::move(lock)), database_(std::move(database)), clock_(clock), mode_(mode) {}
+              const SqliteStoreOptions& options)
+      : lock_(std::move(lock)), database_(std::move(database)), clock_(clock), mode_(options.mode), draw_receipt_(options.draw_receipt) {}
 
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -76,6 +78,7 @@ class SqliteStore final : public Store {
   WallTime now() const;
   Error not_found(Literal what, std::int64_t number) const;
   Result<void> subject_must_exist(SubjectId id);
+  Result<std::int64_t> fresh_receipt();
   Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
   Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
   Result<void> empty_the_log();
@@ -96,6 +99,7 @@ class SqliteStore final : public Store {
   std::unique_ptr<Database> database_;
   const hal::Clock& clock_;
   OpenMode mode_;
+  std::int64_t (*draw_receipt_)();
 };
 
 // `clock` must outlive the store.

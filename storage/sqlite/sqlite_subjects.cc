@@ -11,8 +11,8 @@ namespace relievo::storage {
 namespace {
 
 constexpr std::string_view kSubjects =
-    "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id) FROM "
-    "subject ";
+    "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id), "
+    "coalesce(receipt, 0) FROM subject ";
 
 std::string_view name_in(const Statement& query) {
   const auto bytes = query.blob(1);
@@ -21,7 +21,7 @@ std::string_view name_in(const Statement& query) {
 
 Subject subject_in(const Statement& query) {
   return {SubjectId{query.integer(0)}, std::string(name_in(query)), from_ms(query.integer(2)),
-          static_cast<int>(query.integer(3))};
+          static_cast<int>(query.integer(3)), query.integer(4)};
 }
 
 }  // namespace
@@ -32,13 +32,26 @@ Result<void> SqliteStore::subject_must_exist(SubjectId id) {
   return row ? Result<void>() : not_found("there is no subject with this number", number(id));
 }
 
+// One that nobody has. The index would refuse a second; among a million people one draw in a million meets one.
+Result<std::int64_t> SqliteStore::fresh_receipt() {
+  constexpr int kMostDraws = 100;
+  for (int draw = 0; draw < kMostDraws; ++draw) {
+    const std::int64_t drawn = draw_receipt_();
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT 1 FROM subject WHERE receipt = ?"));
+    RELIEVO_TRY_ASSIGN(const bool taken, query.bind(drawn).step());
+    if (!taken) return drawn;
+  }
+  return Error{Errc::LibraryFailed, "the system's random numbers repeat themselves: nobody can be given a code"};
+}
+
 Result<SubjectId> SqliteStore::insert_subject(const NewSubject& subject, WallTime at) {
   if (!is_name(subject.name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
   RELIEVO_TRY_ASSIGN(auto insert,
-                     database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, ?)"));
-  RELIEVO_TRY(insert.bind(to_ms(at)).bind(std::as_bytes(std::span(subject.name))).run());
+                     database_->prepare("INSERT INTO subject (created_at_ms, name, receipt) VALUES (?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(const std::int64_t receipt, fresh_receipt());
+  RELIEVO_TRY(insert.bind(to_ms(at)).bind(std::as_bytes(std::span(subject.name))).bind(receipt).run());
   const SubjectId id{database_->last_row_id()};
   RELIEVO_TRY(append_audit_line(*database_, {"subject.added", id, ""}, at));
   return id;
@@ -50,7 +63,8 @@ Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
 
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Subject>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "WHERE ?1 = 0 OR receipt = ?1 ORDER BY id DESC"));
+    query.bind(filter.receipt);
     std::vector<Subject> found;
     // Names are compared here, not in SQL: there they will be cipher text.
     for (std::int64_t skip = filter.skip; static_cast<std::int64_t>(found.size()) < filter.limit;) {

@@ -34,7 +34,7 @@ Result<std::vector<storage::Subject>> of_name(storage::Store& store, std::string
 
 Result<storage::Subject> find_subject(storage::Store& store, std::string_view name_or_number) {
   if (const auto id = number_in(name_or_number)) return store.subject(*id);
-  if (const auto id = subject_of_receipt(name_or_number)) return store.subject(*id);
+  if (is_receipt(name_or_number)) return find_by_receipt(store, name_or_number);
   RELIEVO_TRY_ASSIGN(const auto found, of_name(store, name_or_number));
   if (found.empty()) return Error{Errc::NotFound, "nobody of this name is in the store"}.at(name_or_number);
   return found.front();

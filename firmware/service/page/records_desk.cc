@@ -117,13 +117,13 @@ void RecordsDesk::list() {
       [this, listed, skip = skip_](JobControl&) -> Result<void> {
         std::vector<storage::Subject> subjects;
         // The code that a person quotes for their erasure leads to them, too.
-        if (const auto quoted = subject_of_receipt(listed->searched)) {
-          if (const auto subject = tools().store.subject(*quoted)) subjects.push_back(*subject);
+        if (is_receipt(listed->searched)) {
+          if (auto subject = find_by_receipt(tools().store, listed->searched)) subjects.push_back(std::move(*subject));
         } else {
           RELIEVO_TRY_ASSIGN(subjects, tools().store.subjects({listed->searched, false, skip, kPage + 1}));
         }
         for (storage::Subject& subject : subjects) {
-          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject.id), subject.enrolments});
+          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments});
           wipe_text(subject.name);
         }
         return {};
@@ -148,7 +148,7 @@ void RecordsDesk::load(std::int64_t number) {
       JobPlace::Keeper,
       [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(storage::Subject subject, tools().store.subject(id));
-        person->found = {static_cast<std::int64_t>(id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(id), subject.enrolments};
+        person->found = {static_cast<std::int64_t>(id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments};
         wipe_text(subject.name);
         RELIEVO_TRY_ASSIGN(const auto enrolments, tools().store.enrolments(id));
         if (enrolments.empty()) return {};
@@ -171,7 +171,7 @@ void RecordsDesk::erase(std::int64_t number) {
   tools().errands.send(
       JobPlace::Keeper, [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
       [this, number, visit = visit_](const std::optional<Error>& error) {
-        if (!error) tools().log.say("record " + receipt_of(storage::SubjectId{number}) + " was erased");
+        if (!error) tools().log.say("record #" + std::to_string(number) + " was erased");
         if (visit != visit_) return;
         told(error);
         erased_ = !error;

@@ -133,9 +133,8 @@ class KioskTest : public KioskHands {
     auto store = storage::open_sqlite_store(args.store, clock, {.mode = storage::OpenMode::ReadOnly});
     EXPECT_TRUE(store.has_value());
     EXPECT_EQ((*store)->subjects({})->size(), 1U) << "who left is not there, and nobody is there twice";
-    EXPECT_TRUE(subject_of_receipt(code)) << code;
-    const auto subject = (*store)->subject(*subject_of_receipt(code));
-    EXPECT_TRUE(subject.has_value() && subject->name == "Ada");
+    const auto subject = find_by_receipt(**store, code);
+    EXPECT_TRUE(subject.has_value() && subject->name == "Ada") << code;
     return *(*store)->enrolments(subject->id);
   }
 
@@ -186,7 +185,7 @@ class KioskTest : public KioskHands {
     kiosk.reset();
     auto store = storage::open_sqlite_store(args.store, clock, {});
     ASSERT_TRUE(store.has_value());
-    const auto enrolments = (*store)->enrolments(*subject_of_receipt(code));
+    const auto enrolments = (*store)->enrolments(find_by_receipt(**store, code)->id);
     ASSERT_EQ(enrolments->size(), 2U);
     for (const storage::Enrolment& one : *enrolments) {
       EXPECT_EQ(one.consent.wording, ui::kConsentWording);

@@ -47,7 +47,7 @@ class StaffExportTest : public StaffHands {
     return node == nullptr ? std::string() : std::string(node->text);
   }
   // The codes under which something can be taken for an export.
-  static std::string exported_on(const Path& root) {
+  std::string exported_on(const Path& root) const {
     std::string codes;
     for (std::int64_t number = 1; number <= 2; ++number) {
       const Path record = root / "relievo" / code_of(number);

@@ -108,7 +108,13 @@ class StaffHands : public KioskHands {
     if (changes.clock != nullptr) return *changes.clock;
     return clock;
   }
-  static std::string code_of(std::int64_t number) { return receipt_of(storage::SubjectId{number}); }
+  // Of the n-th who was enrolled here.
+  std::string code_of(std::int64_t number) const {
+    auto store = storage::open_sqlite_store(args.store, wall(), {.mode = storage::OpenMode::ReadOnly});
+    EXPECT_TRUE(store.has_value());
+    const auto subject = (*store)->subject(storage::SubjectId{number});
+    return subject ? receipt_of(*subject) : "nobody's";
+  }
   static std::string text_of_file(const Path& file) {
     std::ifstream in(file);
     return {std::istreambuf_iterator<char>(in), {}};

@@ -96,6 +96,8 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
     auto store = opened(dir);
     ASSERT_TRUE(store);
     EXPECT_EQ(store->subjects({})->front().name, "Ada");
+    EXPECT_EQ(store->subjects({})->front().receipt, 0) << "their code is of before receipts were drawn, and stays";
+    EXPECT_NE(store->subject(*store->add_subject({"Bob"}))->receipt, 0);
     EXPECT_TRUE(store->set_setting("language", "de"));
     EXPECT_TRUE(store->check());
     const auto copy = dir / ("relievo.db.before-" + number(version + 1));
@@ -104,6 +106,7 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     EXPECT_EQ(Raw(copy).rows("PRAGMA user_version"), std::vector<std::string>{number(version) + "|"});
     EXPECT_EQ(Raw(copy).rows("SELECT name FROM subject"), std::vector<std::string>{"Ada|"});
+    EXPECT_EQ(store->subjects({.receipt = 1})->size(), 0u);
     // A copy must not outlive the person in it.
     EXPECT_TRUE(store->erase_subject(SubjectId{1}));
     EXPECT_FALSE(std::filesystem::exists(copy));
