@@ -34,7 +34,7 @@ TinyDisk::~TinyDisk() {
   if (mounted_) ::umount2(folder_.path().c_str(), MNT_DETACH);
 }
 
-bool TinyDisk::protect(bool on) const { return ::mount(nullptr, folder_.path().c_str(), nullptr, MS_REMOUNT | (on ? MS_RDONLY : 0U), nullptr) == 0; }
+bool TinyDisk::protect(bool on) const { return ::mount(nullptr, folder_.path().c_str(), nullptr, (on ? MS_REMOUNT | MS_RDONLY : MS_REMOUNT), nullptr) == 0; }
 
 std::string listing(const fs::path& folder) {
   std::set<std::string> names;
