@@ -26,8 +26,8 @@ CREATE TABLE subject (
   name_nonce BLOB,
   key_id INTEGER REFERENCES encryption_key (id),
   wrapped_key BLOB,
-  wrapped_key_nonce BLOB, receipt INTEGER CHECK (receipt > 0)
-) STRICT;
+  wrapped_key_nonce BLOB
+, receipt INTEGER CHECK (receipt > 0)) STRICT;
 
 CREATE UNIQUE INDEX receipt_of_subject ON subject (receipt);
 

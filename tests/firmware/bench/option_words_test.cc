@@ -29,10 +29,11 @@ TEST(OptionWords, EverySentenceIsInEveryLanguageOfTheStaff) {
     const ui::Words words(language);
     std::set<std::string> said;
     for (const std::string& sentence : sentences) {
-      ASSERT_TRUE(words.knows(sentence.c_str())) << ui::info_of(language).code << ".po lacks: " << sentence;
+      EXPECT_TRUE(words.knows(sentence.c_str())) << ui::info_of(language).code << ".po lacks: " << sentence;
+      if (!words.knows(sentence.c_str())) continue;
       const std::string other = words(sentence.c_str());
       EXPECT_TRUE(said.insert(other).second) << "two sentences became one: " << other;
-      if (language == ui::Language::Arabic) EXPECT_TRUE(is_arabic(other)) << other;
+      EXPECT_EQ(is_arabic(other), language == ui::Language::Arabic) << other;
       // Figures and the words of files are the same everywhere.
       for (const char* kept : {"MODE_HH", "QUALITY:DISTANCE_PX", "2^scales", "195"}) {
         EXPECT_EQ(sentence.find(kept) == std::string::npos, other.find(kept) == std::string::npos) << other;

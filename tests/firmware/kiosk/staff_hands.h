@@ -82,7 +82,9 @@ class StaffHands : public KioskHands {
       media->plug(stick());
       return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
     };
-    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, wall(), {}); };
+    services.open_store = [this](const Path& at, bool to_write) {
+      return storage::open_sqlite_store(at, wall(), {.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly});
+    };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       const Path file = folder.path() / "rig.yml";
       RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(tiny_rig())));
