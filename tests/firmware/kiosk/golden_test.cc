@@ -6,19 +6,18 @@
 // by more than 16 levels, or more than a tenth of any tile of 16 x 16.
 //
 //   RELIEVO_RENEW_GOLDENS=1 build/release/tests/firmware/test_firmware --gtest_filter='*Golden*'   draws them anew: look at them
-#include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "firmware/kiosk/gallery.h"
 #include "hal/picture_file.h"
+#include "tests/support/gles_driver.h"
+#include "tests/support/tight_png.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
 #include "ui/render/offscreen.h"
@@ -62,7 +61,7 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     auto opened = ui::open_sdl_display({64, 64});
     ASSERT_TRUE(opened.has_value()) << opened.error().where();
     display = std::move(*opened);
-    const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string driver = test::gles_driver();
     if (driver.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "goldens are llvmpipe's, and this is " << driver;
     auto text = ui::TextEngine::make();
     ASSERT_TRUE(text.has_value());
@@ -130,20 +129,12 @@ Difference difference(const hal::Picture& a, const hal::Picture& b) {
   return {static_cast<double>(all) / a.width_px / a.height_px, static_cast<double>(*std::max_element(in_tile.begin(), in_tile.end())) / (kTile * kTile)};
 }
 
-// Coarse in its grey levels, and packed as tightly as PNG does.
-bool keep(const hal::Picture& picture, const std::filesystem::path& file) {
-  cv::Mat bgr(picture.height_px, picture.width_px, CV_8UC3);
-  for (std::size_t i = 0; i < picture.bytes.size(); ++i)
-    bgr.data[i / 3 * 3 + 2 - i % 3] = static_cast<std::uint8_t>(std::min(255, (std::to_integer<int>(picture.bytes[i]) + kKeptSteps / 2) / kKeptSteps * kKeptSteps));
-  return cv::imwrite(file.string(), bgr, {cv::IMWRITE_PNG_COMPRESSION, 9});
-}
-
 TEST_P(GoldenTest, IsAsItWasLookedAt) {
   const hal::Picture now = draw(GetParam());
   const auto file = kept_in() / (name_of(GetParam()) + ".png");
   if (std::getenv("RELIEVO_RENEW_GOLDENS") != nullptr) {
     std::filesystem::create_directories(kept_in());
-    ASSERT_TRUE(keep(now, file));
+    ASSERT_TRUE(test::write_tight_png(now, kKeptSteps, file));
     return;
   }
   const auto kept = hal::read_picture(file);
