@@ -60,21 +60,32 @@ Grid window(const ImageView& image, const CameraIntrinsics& camera, const Vec3d&
   return grid;
 }
 
+void add_weighted(float weight, const float* from, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
+}
+
 Grid blurred(const Grid& from, double deviation_px, StageContext& context) {
   const int reach = std::max(1, static_cast<int>(std::ceil(3 * deviation_px)));
   std::pmr::vector<float> weight(static_cast<std::size_t>(2 * reach + 1), &context.scratch);
   float total = 0;
   for (int i = -reach; i <= reach; ++i) total += weight[static_cast<std::size_t>(i + reach)] = static_cast<float>(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+  for (float& w : weight) w /= total;
   Grid across{from.width, from.height, from.pixel_mm, std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
   Grid to{from.width, from.height, from.pixel_mm, std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
-  std::size_t i = 0;
+  const auto width = static_cast<std::size_t>(from.width), beside = static_cast<std::size_t>(reach);
+  std::pmr::vector<float> wide(width + 2 * beside, 0.0F, &context.scratch);   // a row, its ends repeated
+  for (std::size_t row = 0; row < from.values.size(); row += width) {
+    const float* values = from.values.data() + row;
+    std::fill_n(wide.begin(), beside, values[0]);
+    std::copy_n(values, width, wide.data() + beside);
+    std::fill_n(wide.data() + beside + width, beside, values[width - 1]);
+    for (std::size_t k = 0; k < weight.size(); ++k) add_weighted(weight[k], wide.data() + k, width, across.values.data() + row);
+  }
   for (int y = 0; y < from.height; ++y)
-    for (int x = 0; x < from.width; ++x, ++i)
-      for (int k = -reach; k <= reach; ++k) across.values[i] += weight[static_cast<std::size_t>(k + reach)] / total * from.at(std::clamp(x + k, 0, from.width - 1), y);
-  i = 0;
-  for (int y = 0; y < from.height; ++y)
-    for (int x = 0; x < from.width; ++x, ++i)
-      for (int k = -reach; k <= reach; ++k) to.values[i] += weight[static_cast<std::size_t>(k + reach)] / total * across.at(x, std::clamp(y + k, 0, from.height - 1));
+    for (int k = -reach; k <= reach; ++k) {
+      const auto other = static_cast<std::size_t>(std::clamp(y + k, 0, from.height - 1));
+      add_weighted(weight[static_cast<std::size_t>(k + reach)], across.values.data() + other * width, width, to.values.data() + static_cast<std::size_t>(y) * width);
+    }
   return to;
 }
 

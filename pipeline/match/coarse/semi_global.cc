@@ -77,6 +77,23 @@ RELIEVO_INLINE void spread_least(Lanes& v) {
   least_of(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
 }
 
+// The least of the lanes of each of four, in turn: their halves side by side, then their quarters, once for all of them instead of once for each.
+RELIEVO_INLINE void halves(const Lanes& a, const Lanes& b, Lanes& to) {
+  to = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
+  least_of(to, __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
+}
+RELIEVO_INLINE void least_of_each(const std::array<Lanes, 4>& v, Lanes& all) {
+  Lanes ab, cd;
+  halves(v[0], v[1], ab);
+  halves(v[2], v[3], cd);
+  // Four of the first, four of the third, four of the second, four of the last.
+  all = __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 16, 17, 18, 19, 8, 9, 10, 11, 24, 25, 26, 27);
+  least_of(all, __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 20, 21, 22, 23, 12, 13, 14, 15, 28, 29, 30, 31));
+  least_of(all, __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+  least_of(all, __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
+}
+constexpr std::array<int, 4> kLeastAt{0, 8, 4, 12};   // where least_of_each() puts them
+
 // One of the four paths into a pixel: the neighbour it comes from, and where its own costs go.
 struct PathStep {
   const std::uint16_t* previous;  // the neighbour's costs at this pixel's first candidate
@@ -224,9 +241,10 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
       }
       std::memcpy(to == nullptr ? sum + b : s.line.data() + b, &total, sizeof total);
     }
-    for (Lanes& of : least) spread_least(of);
-    s.along.least[static_cast<std::size_t>(flip)] = static_cast<std::uint16_t>(least[3][0]);
-    for (std::size_t d = 0; d < 3; ++d) s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(least[d][0]);
+    Lanes each;
+    least_of_each(least, each);
+    s.along.least[static_cast<std::size_t>(flip)] = static_cast<std::uint16_t>(each[kLeastAt[3]]);
+    for (std::size_t d = 0; d < 3; ++d) s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(each[kLeastAt[d]]);
     if (to == nullptr) continue;
     to[x] = kNoDisparity;
     if (valid[x] == 0) continue;

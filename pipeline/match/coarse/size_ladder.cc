@@ -36,9 +36,11 @@ Result<void> match_down(const RectifiedPair& pair, const Pyramids& pyramids, con
     RELIEVO_TRY(match_both(from, to, candidates, costs, context, both));
     cross_check(both.left, both.right, ladder.cross_check_px);
     median3(both.left, context);
-    median3(both.right, context);
     std::copy(both.left.values.begin(), both.left.values.end(), next_left.values.begin());
-    std::copy(both.right.values.begin(), both.right.values.end(), next_right.values.begin());
+    if (level > ladder.finest) {   // of the finest size only the left view's is asked for
+      median3(both.right, context);
+      std::copy(both.right.values.begin(), both.right.values.end(), next_right.values.begin());
+    }
     left = std::move(next_left);
     right = std::move(next_right);
     first *= 2;

@@ -3,8 +3,10 @@
 #include "pipeline/match/coarse/two_way.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "hal/base/simd.h"
@@ -73,6 +75,15 @@ inline float median_of_nine(float* v) {
   return v[4];
 }
 
+// Nine in order by twenty-five exchanges (Dobbelaere's list of sorting networks); the least known one of `known` stands behind the unknown ones.
+inline float median_of_known(float* v, int known) {
+  constexpr std::array<std::array<std::int8_t, 2>, 25> kExchanges{{{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8}, {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4},
+                                                                  {3, 6}, {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5}, {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
+#pragma GCC unroll 25
+  for (const auto& [a, b] : kExchanges) order(v[a], v[b]);
+  return v[9 - known + known / 2];
+}
+
 // As if all nine were known, as they are nearly everywhere, without a branch; the least and the most of the nine tell whether they are.
 RELIEVO_SIMD void medians_of_nine(const float* above, const float* row, const float* below, int width, float* median, float* least, float* most) {
   for (int x = 1; x < width - 1; ++x) {
@@ -93,13 +104,15 @@ void median_row(const Plane<float>& from, int y, float* least, float* most, floa
     to[x] = from.row(y)[x];
     if (most[x] == kNoDisparity) continue;
     float near[9];
-    int n = 0;
+    int known = 0;
     for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i)
-        if (from.row(y + j)[x + i] != kNoDisparity) near[n++] = from.row(y + j)[x + i];
-    if (to[x] == kNoDisparity && n < 5) continue;
-    std::nth_element(near, near + n / 2, near + n);
-    to[x] = near[n / 2];
+      for (int i = -1; i <= 1; ++i) {
+        const float v = from.row(y + j)[x + i];
+        near[3 * (j + 1) + i + 1] = v;
+        known += v != kNoDisparity ? 1 : 0;
+      }
+    if (to[x] == kNoDisparity && known < 5) continue;
+    to[x] = median_of_known(near, known);
   }
 }
 
