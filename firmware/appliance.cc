@@ -106,8 +106,17 @@ void Appliance::note(const Error& error) { problem_ = error; }
 void Appliance::note(const pipeline::DriftJudgement& drift) {
   drift_ = drift;
   if (drift.verdict == pipeline::DriftVerdict::Ok) calibration_note_.clear();
+  if (drift.verdict == pipeline::DriftVerdict::Refuse) ++moved_in_a_row_;
+  else if (drift.verdict != pipeline::DriftVerdict::Unknown) moved_in_a_row_ = 0;
   if (drift.verdict == pipeline::DriftVerdict::Warn || drift.verdict == pipeline::DriftVerdict::Refuse)
     calibration_note_ = pipeline::sentence(drift);
+}
+
+void Appliance::calibrated_anew() {
+  drift_.reset();
+  calibration_note_.clear();
+  moved_in_a_row_ = 0;
+  if (problem_ && problem_->code == Errc::NotCalibrated) problem_.reset();
 }
 
 JobThread& Appliance::thread_at(JobPlace place) {
@@ -155,6 +164,7 @@ void Appliance::heard(const JobReport& report) {
     const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
     handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : advise ? Event::AdviceGiven : Event::StageFailed);
   } else {
+    if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
     handle(state == State::SelfTest ? Event::Passed : state == State::Capture ? Event::Triggered : Event::StageDone);
   }
 }

@@ -63,6 +63,10 @@ class Appliance {
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
+  // How many faces on end have said that they have moved too far to be measured with. Kept over visits.
+  int moved_in_a_row() const { return moved_in_a_row_; }
+  // Another calibration is in use: what was said against the one before counts no more.
+  void calibrated_anew();
   // For the technician: what the last face that could tell said against the calibration; else empty.
   std::string_view calibration_note() const { return calibration_note_; }
   // Is a camera away, and being tried again?
@@ -118,6 +122,7 @@ class Appliance {
   std::optional<Error> problem_;
   std::optional<pipeline::DriftJudgement> drift_;
   std::string calibration_note_;
+  int moved_in_a_row_ = 0;
   std::vector<StageRecord> records_;
   std::function<void(const Change&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state

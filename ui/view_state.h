@@ -33,14 +33,18 @@ std::string_view name_of(Screen screen);
 enum class Trouble : std::uint8_t {
   None,
   Camera,        // unplugged, or silent
-  Calibration,   // missing, or the cameras have moved
+  Calibration,   // the cameras have moved
   Refused,       // no model could be made of these pictures
   Storage,       // full or broken
   TookTooLong,
+  Uncalibrated,  // nobody has calibrated this device yet
   Clock,         // set to a time that cannot be: a consent would bear a wrong date
   Restarted,     // the power went, or the program did, in the middle of something
   Other
 };
+
+// Nothing a visitor can pass by: it stands until the staff have mended it.
+constexpr bool bars_the_way(Trouble trouble) { return trouble == Trouble::Uncalibrated || trouble == Trouble::Calibration || trouble == Trouble::Clock; }
 
 // What the records say to the name or code that was typed.
 enum class Known : std::uint8_t {
@@ -93,7 +97,7 @@ struct ViewState {
   const ServiceView* service = nullptr;            // for the staff's pages; none: there are none
   const ConsentTexts* consent = nullptr;   // the operator's own; none: the sample
   Known known = Known::NotAsked;
-  Trouble out_of_order = Trouble::None;    // Clock, Restarted: shown instead of the page that invites
+  Trouble out_of_order = Trouble::None;    // Uncalibrated, Calibration, Clock, Restarted: shown instead of the page that invites
 };
 
 }  // namespace relievo::ui

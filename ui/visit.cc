@@ -262,7 +262,8 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   const bool idle = view.screen == Screen::Idle;
   if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
   if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None) go(Step::Attract, view.now);
-  if ((step == Step::Thanks || (step == Step::Trouble && view.screen == Screen::Idle)) && view.now - std::max(entered_, last_touch_) > kThanks)
+  const bool barred = idle && step == Step::Trouble && bars_the_way(view.out_of_order);
+  if ((step == Step::Thanks || (step == Step::Trouble && idle && !barred)) && view.now - std::max(entered_, last_touch_) > kThanks)
     go(Step::Attract, view.now);
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
@@ -271,7 +272,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       return Intent::Cancel;
     }
     if (silent > patience()) overlay = Overlay::StillThere;
-  } else if (step == Step::Attract && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
+  } else if ((step == Step::Attract || barred) && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
     forget();
   }
   if (const auto intent = follow_look_up(view)) return intent;

@@ -29,7 +29,7 @@ Bench::Bench(Parts parts)
       run_(session_, parts_.pool, parts_.board.clock()), watch_(parts_.appliance.grabber(), session_, parts_.board),
       calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool, std::move(parts_.show_boards)),
       calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, std::move(parts_.in_use)}) {
-  algorithms_.begin(parts_.stages.pipeline().algorithms());
+  algorithms_.begin(parts_.stages.algorithms());
 }
 
 // Nothing of it runs any longer than it lives.
@@ -40,7 +40,14 @@ Bench::~Bench() {
 
 Products* Bench::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
 
-BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.pipeline().calibration()}; }
+BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.calibration()}; }
+
+// What is measured with a calibration waits for one; the pages say so.
+bool Bench::is_calibrated() {
+  if (parts_.stages.calibration() != nullptr) return true;
+  say({Errc::NotCalibrated, "this device has no calibration yet: calibrate its cameras first"});
+  return false;
+}
 
 void Bench::say(const Error& error) {
   problem_ = std::string(error.what.view());
@@ -65,6 +72,7 @@ void Bench::act(ui::BenchOrder order) {
   switch (order.act) {
     case BenchAct::None: break;
     case BenchAct::Capture:
+      if (!is_calibrated()) return;
       if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = Next::Shot;
       return watch_cameras(false);
     case BenchAct::Run: return run();
@@ -156,12 +164,12 @@ void Bench::calibrate() {
 }
 
 void Bench::run() {
-  if (!at_rest() || !session_.is_open() || !session_.products().frame) return;
+  if (!at_rest() || !session_.is_open() || !session_.products().frame || !is_calibrated()) return;
   problem_.clear();
   point_ = {};
   tables_.forget();
   changed_ = false;
-  run_.order(algorithms_.set(), parts_.stages.pipeline().calibration());
+  run_.order(algorithms_.set(), *parts_.stages.calibration());
   phase_ = BenchPhase::Running;
   parts_.errands.send(
       JobPlace::Worker, [this](JobControl& control) { return run_.run(control); }, [this](const std::optional<Error>& error) { run_done(error); });
@@ -196,14 +204,14 @@ void Bench::point(ui::BenchOrder order) {
 
 // The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
 void Bench::apply_set() {
-  if (applying_) return;
+  if (applying_ || !is_calibrated()) return;
   applying_ = true;
   const auto made = std::make_shared<std::optional<pipeline::Pipeline>>();
   const pipeline::AlgorithmSet set = algorithms_.set();
   parts_.errands.send(
       JobPlace::Keeper,
       [this, made, set](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, parts_.stages.pipeline().calibration()));
+        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, *parts_.stages.calibration()));
         return parts_.store.set_setting(kAlgorithmsSetting, set.to_text());
       },
       [this, made](const std::optional<Error>& error) {
@@ -246,12 +254,13 @@ void Bench::leave() {
   point_ = {};
   phase_ = BenchPhase::Empty;
   problem_.clear();
-  algorithms_.begin(parts_.stages.pipeline().algorithms());
+  algorithms_.begin(parts_.stages.algorithms());
 }
 
 void Bench::look() {
   view_ = {};
   view_.phase = phase_;
+  view_.calibrated = parts_.stages.calibration() != nullptr;
   view_.problem = problem_;
   view_.stage = stage_;
   view_.point = point_;

@@ -70,6 +70,7 @@ class Bench {
   void watch_cameras(bool on);
   void choose(ui::BenchOrder order);
   void keep_result();
+  bool is_calibrated();
   void say(const Error& error);
   void look();
 

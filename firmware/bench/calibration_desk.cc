@@ -45,7 +45,7 @@ void CalibrationDesk::act(ui::BenchOrder order) {
 CalibrateJob::Order CalibrationDesk::order() const {
   CalibrateJob::Order order;
   order.board = board_;
-  order.in_use = parts_.stages.pipeline().calibration();
+  if (const auto* in_use = parts_.stages.calibration()) order.in_use = *in_use;
   return order;
 }
 
@@ -100,7 +100,7 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
       [this, made, first = std::move(first)](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(made->revision, first());
         RELIEVO_TRY_ASSIGN(const auto calibration, parts_.store.calibration(made->revision));
-        RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(parts_.stages.pipeline().algorithms(), calibration));
+        RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(parts_.stages.algorithms(), calibration));
         return {};
       },
       [this, made](const std::optional<Error>& error) {
@@ -108,7 +108,7 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
         problem_ = error ? sentence_of(*error) : "";
         if (error) return;
         parts_.stages.replace(*std::move(made->pipeline));
-        parts_.in_use(parts_.stages.pipeline().calibration());
+        parts_.in_use(*parts_.stages.calibration());
         load_history();
       });
 }

@@ -36,10 +36,16 @@ FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration, const pipel
 }
 
 Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration) {
+  RELIEVO_TRY_ASSIGN(LiveJudge judge, open(calibration.left.width_px));
+  judge.use(calibration);
+  return judge;
+}
+
+Result<LiveJudge> LiveJudge::open(int width_px) {
   pipeline::CaptureGateOptions options;
-  options.relief.reduction = std::max(1, static_cast<int>(std::lround(static_cast<double>(calibration.left.width_px) / kJudgedWidthPx)));
+  options.relief.reduction = std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx)));
   RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(options));
-  return LiveJudge(std::move(gate), calibration);
+  return LiveJudge(std::move(gate));
 }
 
 Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration, const pipeline::Relief& relief) {
@@ -59,13 +65,14 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
 }
 
 Result<LiveSight> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context) {
+  if (!calibration_) return Error{Errc::NotCalibrated, "this device has no calibration yet: a technician has to calibrate its cameras"};
   RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
-    return gate_.look(frame, calibration_, now.time_since_epoch(), history_, c);
+    return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
   }));
   const pipeline::HeadSight& head = look.answer.measures.head;
   std::optional<FaceBoxes> face;
-  if (head.known) face = face_boxes(calibration_, look.relief.rectified_from_left, head.tip_mm);
-  return LiveSight{guidance_of(look.answer, calibration_, look.relief), face, std::move(look.relief)};
+  if (head.known) face = face_boxes(*calibration_, look.relief.rectified_from_left, head.tip_mm);
+  return LiveSight{guidance_of(look.answer, *calibration_, look.relief), face, std::move(look.relief)};
 }
 
 }  // namespace relievo::firmware

@@ -4,7 +4,7 @@
 // LiveJudge: the capture gate before the person at the screen. It keeps the gate's history of one visit, turns its measures into what
 // the screen shows, and says where the face is in both whole pictures, for the light meter and the burst. The relief it measures
 // with is handed on, to be drawn.
-// Thread: capture. Errors of open() and look(): those of the gate; nobody in the picture is no error but an advice.
+// Thread: capture. Errors of open() and look(): those of the gate, NotCalibrated; nobody in the picture is no error but an advice.
 #pragma once
 
 #include <optional>
@@ -29,6 +29,8 @@ struct LiveSight {
 class LiveJudge {
  public:
   static Result<LiveJudge> open(const pipeline::StereoCalibration& calibration);
+  // Of cameras that nobody has calibrated yet: use() comes before look().
+  static Result<LiveJudge> open(int width_px);
 
   // Another calibration of the same cameras; while nobody poses.
   void use(const pipeline::StereoCalibration& calibration) { calibration_ = calibration; }
@@ -37,10 +39,10 @@ class LiveJudge {
   Result<LiveSight> look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context);
 
  private:
-  LiveJudge(pipeline::CaptureGate gate, const pipeline::StereoCalibration& calibration) : gate_(std::move(gate)), calibration_(calibration) {}
+  explicit LiveJudge(pipeline::CaptureGate gate) : gate_(std::move(gate)) {}
 
   pipeline::CaptureGate gate_;
-  pipeline::StereoCalibration calibration_;
+  std::optional<pipeline::StereoCalibration> calibration_;
   pipeline::GateHistory history_;
 };
 

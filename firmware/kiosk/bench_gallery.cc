@@ -152,6 +152,9 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
   const auto add = [&](std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}}); };
   BenchView view;
   add("bench_empty", StaffPage::Stages, view);
+  view.calibrated = false;
+  add("bench_uncalibrated", StaffPage::Stages, view);
+  view.calibrated = true;
   view.phase = BenchPhase::Running;
   view.working_on = 1;
   view.progress = 0.4F;

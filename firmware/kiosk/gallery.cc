@@ -126,6 +126,8 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add_trouble("trouble_store", Trouble::Storage, Screen::Fault);
   g.add_trouble("trouble_time", Trouble::TookTooLong, Screen::Idle);
   ui::ViewState barred = idle;
+  barred.out_of_order = Trouble::Uncalibrated;
+  g.add("trouble_uncalibrated", barred, g.at(Step::Trouble));
   barred.out_of_order = Trouble::Clock;
   g.add("trouble_clock", barred, g.at(Step::Trouble));
   barred.out_of_order = Trouble::Restarted;

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "firmware/budget.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
@@ -40,22 +41,47 @@ Kiosk::~Kiosk() {
   wipe(quoted_);
 }
 
-Result<pipeline::StereoCalibration> Kiosk::find_calibration(const KioskArgs& args, Services& services) {
+// None: nobody has calibrated this device yet.
+Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args, Services& services) {
   const hal::CaptureMode mode = board_->preferred_mode();
-  if (!args.calibration.empty()) return pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
-  Result<pipeline::StereoCalibration> stored = store_->active_calibration();
-  if (stored) revision_ = stored->revision;
-  if (stored || stored.error().code != Errc::NotCalibrated || args.board != "sim") return stored;
-  return services.simulated_calibration();
+  std::string named;
+  Result<pipeline::StereoCalibration> found = Error{Errc::NotCalibrated, "none was named"};
+  if (!args.calibration.empty()) {
+    found = pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
+    named = args.calibration.filename().string();
+  } else if (found = store_->active_calibration(); !found && found.error().code == Errc::NotCalibrated) {
+    if (args.board != "sim" || !services.simulated_calibration) return std::optional<pipeline::StereoCalibration>();
+    found = services.simulated_calibration();
+    named = "of the simulated rig";
+  }
+  if (!found) return found.error();
+  revision_ = found->revision;
+  if (!named.empty()) {
+    RELIEVO_TRY_ASSIGN(revision_, store_->know_calibration(*found, named));
+  }
+  return std::optional(*found);
 }
 
 // What the technician has chosen holds, unless the command says otherwise.
-Result<pipeline::Pipeline> Kiosk::chosen_pipeline(const KioskArgs& args, const pipeline::StereoCalibration& calibration) {
+Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
   const Result<std::string> kept = store_->setting(kAlgorithmsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty()) return make_pipeline(args.algorithms, calibration);
-  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, set_from_text(*kept));
-  return pipeline::Pipeline::make(set, calibration);
+  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty()) return choose_algorithms(args.algorithms);
+  return set_from_text(*kept);
+}
+
+// Without a calibration everything is made that needs none: the rest comes with the first one (make_bench).
+Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) {
+  RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration, find_calibration(args, services));
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms(args));
+  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px : board_->preferred_mode().width_px));
+  judge_ = std::make_unique<LiveJudge>(std::move(judge));
+  stages_ = std::make_unique<PipelineStages>(set);
+  if (!calibration) return {};
+  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(set, *calibration));
+  judge_->use(*calibration);
+  stages_->replace(std::move(pipeline));
+  return {};
 }
 
 Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
@@ -71,14 +97,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
   RELIEVO_TRY_ASSIGN(board_, services.open_board(args.board));
-  RELIEVO_TRY_ASSIGN(const pipeline::StereoCalibration calibration, find_calibration(args, services));
-  if (revision_ == 0) {
-    RELIEVO_TRY_ASSIGN(revision_, store_->know_calibration(calibration, args.calibration.empty() ? "of the simulated rig" : args.calibration.filename().string()));
-  }
-  RELIEVO_TRY_ASSIGN(auto pipeline, chosen_pipeline(args, calibration));
-  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration));
-  judge_ = std::make_unique<LiveJudge>(std::move(judge));
-  stages_ = std::make_unique<PipelineStages>(std::move(pipeline));
+  RELIEVO_TRY(set_up_measuring(args, services));
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
@@ -111,13 +130,14 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
   return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](const pipeline::StereoCalibration& calibration) {
     revision_ = calibration.revision;
     judge_->use(calibration);
+    appliance_->calibrated_anew();
   }});
 }
 
 // On the keeper, while the main thread only draws.
 Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, consented_.least_room_mib));
-  Report report{"store revision " + std::to_string(revision_), stages_->pipeline().algorithms().to_text(), appliance_->records(), {}, peak_rss_bytes(),
+  Report report{"store revision " + std::to_string(revision_), stages_->algorithms().to_text(), appliance_->records(), {}, peak_rss_bytes(),
                 model.quality, appliance_->drift(), {}, model.landmarks, model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   const std::string json = report_json(report), algorithms = report.algorithms;
@@ -156,12 +176,15 @@ Result<void> Kiosk::look_up() {
   return {};
 }
 
-// A consent must not bear a date before the newest record's, nor one before this program was.
+// A consent must not bear a date before the newest record's, nor one before this program was; and nobody is photographed
+// by cameras that cannot measure.
 ui::Trouble Kiosk::out_of_order() const {
   using namespace std::chrono_literals;
   constexpr std::chrono::sys_days kNoEarlier{std::chrono::year{2026} / 1 / 1};
   const auto now = board_->clock().wall_now();
   if (now < kNoEarlier || now < newest_record_ - 24h) return ui::Trouble::Clock;
+  if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
+  if (appliance_->moved_in_a_row() >= budget::kMovedFaces) return ui::Trouble::Calibration;
   return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
@@ -196,6 +219,8 @@ void Kiosk::feed(const ui::Input& input) {
 }
 
 void Kiosk::ask(ui::Intent intent) {
+  const bool measures = stages_->calibration() != nullptr && appliance_->moved_in_a_row() < budget::kMovedFaces;
+  if (!measures && appliance_->state() == State::Idle && (intent == ui::Intent::Pose || intent == ui::Intent::Begin)) return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
     consented_ = {consent_ ? consent_->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand, view_.settings.of(ui::Setting::LeastRoomMib)};

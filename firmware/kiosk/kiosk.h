@@ -7,7 +7,8 @@
 //   feed(Input) ... turn() -> ui().draw_list()
 //
 // Thread: main; the jobs have threads of their own and turn() never waits for them.
-// Errors of open(): NotCalibrated, those of board, store, fonts, words and algorithms.
+// Without a calibration it starts, and serves the staff alone until they have made one.
+// Errors of open(): those of board, store, fonts, words and algorithms.
 #pragma once
 
 #include <atomic>
@@ -56,8 +57,9 @@ class Kiosk {
   };
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
-  Result<pipeline::StereoCalibration> find_calibration(const KioskArgs& args, Services& services);
-  Result<pipeline::Pipeline> chosen_pipeline(const KioskArgs& args, const pipeline::StereoCalibration& calibration);
+  Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args, Services& services);
+  Result<pipeline::AlgorithmSet> chosen_algorithms(const KioskArgs& args);
+  Result<void> set_up_measuring(const KioskArgs& args, Services& services);
   std::unique_ptr<Bench> make_bench(const KioskArgs& args, Services& services);
   Result<void> look_up();
   void forget_asked();

@@ -36,10 +36,11 @@ Error moved(const pipeline::DriftJudgement& drift) {
 // A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
+  if (!pipeline_) return Error{Errc::NotCalibrated, "this device has no calibration yet: a technician has to calibrate its cameras"};
   Result<void> done = run_stage_of(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame) return done;
-  if (std::optional<Error> cause = pipeline_.explain(*products.frame, done.error().code, context)) return *cause;
+  if (std::optional<Error> cause = pipeline_->explain(*products.frame, done.error().code, context)) return *cause;
   return done;
 }
 
@@ -68,10 +69,10 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
 Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context, StageRecord& record) const {
   RELIEVO_ASSERT(products.frame.has_value());
   record.in = pixels(products.frame->left) + pixels(products.frame->right);
-  RELIEVO_TRY_ASSIGN(products.pair, pipeline_.rectify(*products.frame, context));
-  RELIEVO_TRY_ASSIGN(products.matches, pipeline_.match(*products.pair, context));
+  RELIEVO_TRY_ASSIGN(products.pair, pipeline_->rectify(*products.frame, context));
+  RELIEVO_TRY_ASSIGN(products.matches, pipeline_->match(*products.pair, context));
   record.out = accepted(*products.matches);
-  products.drift = pipeline::judge_drift(products.matches->epipolar_shift, pipeline_.calibration());
+  products.drift = pipeline::judge_drift(products.matches->epipolar_shift, pipeline_->calibration());
   if (products.drift->verdict != pipeline::DriftVerdict::Refuse || when_moved_ == WhenMoved::GoOn) return {};
   return moved(*products.drift);
 }
@@ -80,7 +81,7 @@ Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageCont
                                          StageRecord& record) const {
   RELIEVO_ASSERT(products.pair.has_value() && products.matches.has_value());
   record.in = accepted(*products.matches);
-  RELIEVO_TRY_ASSIGN(products.cloud, pipeline_.reconstruct(*products.pair, *products.matches, context));
+  RELIEVO_TRY_ASSIGN(products.cloud, pipeline_->reconstruct(*products.pair, *products.matches, context));
   record.out = products.cloud->points.size();
   return {};
 }
@@ -88,7 +89,7 @@ Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageCont
 Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const {
   RELIEVO_ASSERT(products.cloud.has_value());
   record.in = products.cloud->points.size();
-  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_.mesh(*products.cloud, context));
+  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_->mesh(*products.cloud, context));
   record.out = products.mesh->triangles.size();
   return {};
 }
@@ -96,7 +97,7 @@ Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& co
 Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context, StageRecord& record) const {
   RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value() && products.matches.has_value());
   record.in = products.mesh->triangles.size();
-  RELIEVO_TRY_ASSIGN(products.model, pipeline_.texture(std::move(*products.mesh), *products.pair, context));
+  RELIEVO_TRY_ASSIGN(products.model, pipeline_->texture(std::move(*products.mesh), *products.pair, context));
   products.mesh.reset();  // it lives on in the model
   products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
   record.out = products.model->texture.rgb.size() / 3;

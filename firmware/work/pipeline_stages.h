@@ -3,9 +3,14 @@
 //
 // PipelineStages: the four stages of the machine, done by pipeline::Pipeline. Matching also judges whether
 // the cameras have moved since they were calibrated (products.drift).
-// Errors: the stage's own, or what was wrong with the pictures where that explains it (pair_diagnosis.h); NotCalibrated after Match where they have moved too far to be measured with,
-// unless told to go on. Thread: worker.
+//
+//   algorithms alone --replace()--> calibrated --replace()--> other algorithms, another calibration
+//
+// Errors: the stage's own, or what was wrong with the pictures where that explains it (pair_diagnosis.h); NotCalibrated without a
+// calibration, and after Match where the cameras have moved too far to be measured with, unless told to go on. Thread: worker.
 #pragma once
+
+#include <optional>
 
 #include "firmware/work/stage_runner.h"
 #include "pipeline/pipeline.h"
@@ -17,10 +22,17 @@ enum class WhenMoved : std::uint8_t { Refuse, GoOn };
 class PipelineStages final : public StageRunner {
  public:
   explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse)
-      : pipeline_(std::move(pipeline)), when_moved_(when_moved) {}
-  const pipeline::Pipeline& pipeline() const { return pipeline_; }
-  // Other algorithms, another calibration; while no job runs.
-  void replace(pipeline::Pipeline pipeline) { pipeline_ = std::move(pipeline); }
+      : set_(pipeline.algorithms()), pipeline_(std::move(pipeline)), when_moved_(when_moved) {}
+  // Of a device that nobody has calibrated yet.
+  explicit PipelineStages(const pipeline::AlgorithmSet& set) : set_(set) {}
+  const pipeline::AlgorithmSet& algorithms() const { return set_; }
+  // None: there is none yet. Until replace().
+  const pipeline::StereoCalibration* calibration() const { return pipeline_ ? &pipeline_->calibration() : nullptr; }
+  // While no job runs.
+  void replace(pipeline::Pipeline pipeline) {
+    set_ = pipeline.algorithms();
+    pipeline_ = std::move(pipeline);
+  }
   Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override;
 
  private:
@@ -30,8 +42,9 @@ class PipelineStages final : public StageRunner {
   Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> texture(Products& products, pipeline::StageContext& context, StageRecord& record) const;
 
-  pipeline::Pipeline pipeline_;
-  WhenMoved when_moved_;
+  pipeline::AlgorithmSet set_;
+  std::optional<pipeline::Pipeline> pipeline_;
+  WhenMoved when_moved_ = WhenMoved::Refuse;
 };
 
 }  // namespace relievo::firmware

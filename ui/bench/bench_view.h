@@ -22,6 +22,7 @@ enum class BenchPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare
 
 struct BenchView {
   BenchPhase phase = BenchPhase::Empty;
+  bool calibrated = true;                 // without a calibration there is no test capture
   float progress = 0;
   std::uint8_t working_on = 0;            // while phase is Running: Match, Reconstruct, Mesh, Texture
   std::string_view problem;

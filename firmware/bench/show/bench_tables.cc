@@ -30,8 +30,9 @@ Heads heads_of(BenchTable table) {
   return kCalibration;
 }
 
-std::size_t rows_of(BenchTable table, const Products* products) {
-  if (table == BenchTable::Calibration) return kTableRows;
+std::size_t rows_of(BenchTable table, const BenchTables::Source& from) {
+  if (table == BenchTable::Calibration) return from.calibration != nullptr ? kTableRows : 0;
+  const Products* products = from.products;
   if (products == nullptr) return 0;
   if (table == BenchTable::Matches) return products->matches ? products->matches->matches.size() : 0;
   if (table == BenchTable::Points) return products->cloud ? products->cloud->points.size() : 0;
@@ -47,7 +48,7 @@ void BenchTables::show(BenchTable table, const Source& from) {
 }
 
 void BenchTables::turn(std::int64_t pages, const Source& from) {
-  const std::size_t rows = rows_of(table_, from.products);
+  const std::size_t rows = rows_of(table_, from);
   const std::int64_t last = rows == 0 ? 0 : static_cast<std::int64_t>((rows - 1) / kTableRows);
   page_ = static_cast<std::size_t>(std::clamp(static_cast<std::int64_t>(page_) + pages, std::int64_t{0}, last));
   fill(from);
@@ -70,12 +71,12 @@ void BenchTables::word(std::string_view text) { texts_.emplace_back(text); }
 
 void BenchTables::fill(const Source& from) {
   texts_.clear();
-  rows_ = rows_of(table_, from.products);
+  rows_ = rows_of(table_, from);
   if (page_ * kTableRows >= rows_) page_ = 0;
   first_ = page_ * kTableRows;
   last_ = std::min(rows_, first_ + kTableRows);
   if (table_ == BenchTable::Calibration) {
-    fill_calibration(from.calibration);
+    if (from.calibration != nullptr) fill_calibration(*from.calibration);
   } else {
     for (std::size_t row = first_; row < last_; ++row) {
       cell("%.0f", static_cast<double>(row + 1));

@@ -26,7 +26,7 @@ class BenchTables {
   struct Source {
     const Products* products = nullptr;  // may be missing, and parts of it
     const BenchFigures& figures;
-    const pipeline::StereoCalibration& calibration;
+    const pipeline::StereoCalibration* calibration = nullptr;  // may be missing
   };
   void show(ui::BenchTable table, const Source& from);
   void turn(std::int64_t pages, const Source& from);

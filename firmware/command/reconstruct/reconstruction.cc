@@ -29,7 +29,7 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
   if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
   // A stage does not know the names of the files it works on.
   if (!done) return done.error().at(left.string() + (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
-  report_ = {calibration_file.string(), stages.pipeline().algorithms().to_text(), job.records(), job.took(),
+  report_ = {calibration_file.string(), stages.algorithms().to_text(), job.records(), job.took(),
              peak_rss_bytes(), model().quality, session_.products().drift,
              session_.products().matches->motion_px, model().landmarks, model().head_from_camera};
   return {};

@@ -95,7 +95,7 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
 
 std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
                       const pipeline::FaceModel& model) {
-  Report report{calibrated.name, stages.pipeline().algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
+  Report report{calibrated.name, stages.algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
                 model.quality, appliance.drift(), {}, model.landmarks, model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   return report_json(report);
@@ -128,7 +128,7 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   const Keep keep = [&](std::string_view, const pipeline::FaceModel& model) -> Result<void> {
     const auto now = std::chrono::floor<std::chrono::milliseconds>(board->clock().wall_now());
     const std::string report = report_of(*records, stages, calibrated, model);
-    const std::string algorithms = stages.pipeline().algorithms().to_text();
+    const std::string algorithms = stages.algorithms().to_text();
     // What a model was measured with must be found again, also when the file is gone.
     std::uint32_t revision = calibrated.revision;
     if (revision == 0) {

@@ -16,9 +16,9 @@
 #include "firmware/work/pipeline_stages.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
-#include "hal/sim/photo/held_board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/held_hand.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/ui.h"
 
@@ -33,28 +33,7 @@ inline hal::sim::RigOptions small_rig(double scale = kScale) {
   return rig;
 }
 
-// Whoever holds a board before the small rig does as told.
-inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
-  const hal::sim::BoardPattern pattern{args.corners_across, args.corners_down, args.square_mm, 0.75 * args.square_mm, hal::sim::BoardKind::Chessboard, 0, 4};
-  hal::sim::SensorOptions sensor;
-  sensor.grey = true;
-  const auto board = std::make_shared<hal::sim::HeldBoard>(small_rig(kBoardScale), pattern, sensor, 2);
-  const auto pose_of = [pattern](const HeldPose& held) {
-    using hal::sim::radians;
-    using hal::sim::rotation;
-    hal::sim::BoardPose pose;
-    pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
-    const hal::sim::Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
-    pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
-    return pose;
-  };
-  return make_hand_pairs(
-      [board, pose_of](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
-        auto pair = board->photograph(pose_of(opened), pose_of(closed), number);
-        return HeldPair{std::move(pair.left), std::move(pair.right)};
-      },
-      1);
-}
+inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) { return make_hand_pairs(held_board(small_rig(kBoardScale), args), 1); }
 
 class BenchRig {
  public:

@@ -95,7 +95,7 @@ TEST_F(BenchTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
     for (std::size_t k = 4; k < 7; ++k) EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
   }
   rig().tap("table 3");
-  std::snprintf(text, sizeof text, "%.3f", rig().stages->pipeline().calibration().left.focal_px.x);
+  std::snprintf(text, sizeof text, "%.3f", rig().stages->calibration()->left.focal_px.x);
   EXPECT_EQ(rig().now().rows.cells[1], text);
 }
 
@@ -165,16 +165,16 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   EXPECT_NE(rig().now().compared[0].version, rig().now().compared[1].version);
 
   rig().open(StaffPage::Algorithms);
-  EXPECT_EQ(rig().stages->pipeline().algorithms().get("matcher"), "refined") << "visitors' are another choice";
+  EXPECT_EQ(rig().stages->algorithms().get("matcher"), "refined") << "visitors' are another choice";
   rig().tap("apply");
   ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
-  EXPECT_EQ(rig().stages->pipeline().algorithms().get("zmncc.window_px"), "9");
+  EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
   const auto kept = set_from_text(*rig().store->setting("algorithms"));
   ASSERT_TRUE(kept.has_value());
   EXPECT_EQ(kept->get("constraints"), "similarity+uniqueness");
   rig().tap("reset");
   rig().tap("apply");
-  ASSERT_TRUE(rig().until([] { return rig().stages->pipeline().algorithms().get("matcher") == "refined"; }));
+  ASSERT_TRUE(rig().until([] { return rig().stages->algorithms().get("matcher") == "refined"; }));
 }
 
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
@@ -207,19 +207,19 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
   const ui::BenchCalibration made = rig().now().calibration;
   ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << made.reason;
-  const auto& between = rig().stages->pipeline().calibration().right_from_left.translation_mm;
+  const auto& between = rig().stages->calibration()->right_from_left.translation_mm;
   EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
   EXPECT_EQ(rig().appliance->state(), State::Technician);
 
   rig().tap("calibration store");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; })) << rig().now().calibration.problem;
   EXPECT_EQ(rig().revision, 2U);
-  EXPECT_EQ(rig().stages->pipeline().calibration().revision, 2U) << "visitors are measured with it";
+  EXPECT_EQ(rig().stages->calibration()->revision, 2U) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, 2U);
   // The one before it comes back by a touch.
   rig().tap("calibration 1");
   ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem;
-  EXPECT_EQ(rig().stages->pipeline().calibration().revision, 1U);
+  EXPECT_EQ(rig().stages->calibration()->revision, 1U);
 }
 
 // The last: it leaves.

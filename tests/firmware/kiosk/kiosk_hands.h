@@ -40,6 +40,12 @@ class KioskHands : public testing::Test {
     }
     return reached();
   }
+  bool says(std::string_view words) const {
+    for (const ui::Node& node : kiosk->ui().tree().nodes()) {
+      if (node.text.find(words) != std::string_view::npos) return true;
+    }
+    return false;
+  }
   bool reach(ui::Step step) {
     return until([this, step] { return kiosk->ui().visit().step == step; });
   }

@@ -47,12 +47,6 @@ class KioskMomentsTest : public KioskHands {
     kiosk = std::move(*opened);
     kiosk->ui().resize(1280, 800);
   }
-  bool says(std::string_view words) const {
-    for (const ui::Node& node : kiosk->ui().tree().nodes()) {
-      if (node.text.find(words) != std::string_view::npos) return true;
-    }
-    return false;
-  }
   void type_name(std::string_view name) {
     ASSERT_TRUE(reach(ui::Step::Attract));
     tap("start");

@@ -38,7 +38,8 @@ struct Words4 {
 
 Words4 words_of(const Page& page) {
   const auto& tr = page.tr;
-  const bool waits = page.view.screen == Screen::Idle && page.view.trouble == Trouble::None;
+  // What stands in everybody's way counts more than what stood in the last visitor's.
+  const bool waits = page.view.screen == Screen::Idle && (page.view.trouble == Trouble::None || bars_the_way(page.view.out_of_order));
   switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
       return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing of you was kept.")};
@@ -50,6 +51,8 @@ Words4 words_of(const Page& page) {
       return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing of you was kept.")};
     case Trouble::TookTooLong:
       return {icon::kWait, tr("That took too long"), tr("You can start anew. Nothing of you was kept.")};
+    case Trouble::Uncalibrated:
+      return {icon::kWrench, tr("This device is not set up yet"), tr("A technician has to calibrate its cameras first. As soon as that is done, it goes on by itself. Nothing of you was kept.")};
     case Trouble::Clock:
       return {icon::kWait, tr("The clock of this device is wrong"), tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device goes on by itself. Nothing of you was kept.")};
     case Trouble::Restarted:
@@ -94,9 +97,7 @@ void trouble_screen(Page& page) {
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  // A wrong clock is nothing a visitor can pass by.
-  const bool barred = page.view.out_of_order == Trouble::Clock;
-  if (page.view.screen == Screen::Idle && !barred) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
+  if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order)) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
   end_message(page);
 }
 

@@ -173,6 +173,7 @@ void editor(BenchFrame& b) {
 }
 
 void status(BenchFrame& b) {
+  if (!b.view.calibrated) return b.page.status("uncalibrated", b.tr("This device is not calibrated yet"), Mood::Warn);
   b.problem(b.view.problem);
   const bool running = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
   if (running) return b.page.progress("run progress", b.view.phase == BenchPhase::Running ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4 : 0);
@@ -205,7 +206,7 @@ void bench_algorithms_page(StaffFrame& page) {
   if (editing) return;
   page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
   page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet), page.portrait ? 0.0F : 1.0F);
-  page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), page.portrait ? 0.0F : 1.0F);
+  if (b.view.calibrated) page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), page.portrait ? 0.0F : 1.0F);
   page.tree.close();
   b.capture_buttons(true);
 }

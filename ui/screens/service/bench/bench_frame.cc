@@ -122,7 +122,22 @@ void BenchFrame::problem(std::string_view words) {
   page.tree.close();
 }
 
+void BenchFrame::uncalibrated() {
+  Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
+  room.box.along = Along::Centre;
+  room.box.across = Across::Centre;
+  page.tree.open(room);
+  page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
+  page.body("uncalibrated words", tr("Nothing can be captured, compared or measured before. Visitors are told that a technician is needed."), TextAlign::Centre);
+  page.small_button("to calibration", tr("To the calibration"), icon::kWrench, ButtonLook::Main, {ActionKind::StaffOpen, static_cast<int>(StaffPage::Calibrate)});
+  page.tree.close();
+}
+
 bool BenchFrame::capture_state() {
+  if (!view.calibrated) {
+    uncalibrated();
+    return false;
+  }
   problem(view.problem);
   if (view.phase == BenchPhase::Ready || (view.phase == BenchPhase::Failed && view.result.there)) return true;
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
@@ -141,6 +156,7 @@ bool BenchFrame::capture_state() {
 }
 
 void BenchFrame::capture_buttons(bool with_run) {
+  if (!view.calibrated) return;
   const bool busy = view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running;
   page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
   const float grow = page.portrait ? 0.0F : 1.0F;

@@ -44,6 +44,8 @@ class BenchFrame {
   // The way into every page that needs a capture: nothing there, under way, or what went wrong; true when
   // there is a result to be shown below it.
   bool capture_state();
+  // In their place while there is no calibration: what to do first.
+  void uncalibrated();
   // The buttons under the pages of the test capture.
   void capture_buttons(bool with_run);
   void problem(std::string_view words);

@@ -209,7 +209,7 @@ void at_rest(BenchFrame& b) {
 void bench_calibrate_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
-  b.problem(b.view.calibration.problem);
+  b.problem(b.view.calibration.problem.empty() ? page.view.calibration_note : b.view.calibration.problem);
   if (b.view.calibration.running) running(b);
   else at_rest(b);
 }

@@ -94,7 +94,7 @@ void bench_tables_page(StaffFrame& page) {
     }
     page.tree.close();
   }
-  if (rows.cells.empty() && rows.table != BenchTable::Calibration) {
+  if (rows.cells.empty() && (rows.table != BenchTable::Calibration || !b.view.calibrated)) {
     if (b.capture_state()) {
       page.tree.open(page.grown(page.box(Flow::Column)));
       page.body("no rows", b.tr("There is nothing: a stage before it gave up."));

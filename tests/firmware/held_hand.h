@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A printed board in a hand before a simulated rig of any size, for live calibrations: whoever holds it does as
+// told (firmware/command/calibrate/calibrate_live_hand.h).
+#pragma once
+
+#include <memory>
+
+#include "firmware/command/calibrate/calibrate_live_pairs.h"
+#include "hal/sim/photo/held_board.h"
+
+namespace relievo::firmware {
+
+inline HeldBoard held_board(const hal::sim::RigOptions& rig, const BoardArgs& args) {
+  const hal::sim::BoardPattern pattern{args.corners_across, args.corners_down, args.square_mm, 0.75 * args.square_mm, hal::sim::BoardKind::Chessboard, 0, 4};
+  hal::sim::SensorOptions sensor;
+  sensor.grey = true;
+  const auto board = std::make_shared<hal::sim::HeldBoard>(rig, pattern, sensor, 2);
+  const auto pose_of = [pattern](const HeldPose& held) {
+    using hal::sim::radians;
+    using hal::sim::rotation;
+    hal::sim::BoardPose pose;
+    pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
+    const hal::sim::Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
+    pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
+    return pose;
+  };
+  return [board, pose_of](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
+    auto pair = board->photograph(pose_of(opened), pose_of(closed), number);
+    return HeldPair{std::move(pair.left), std::move(pair.right)};
+  };
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The real kiosk whose calibration is missing, or whose cameras have been knocked: what visitors are told, what the
+// technician may do, and that a calibration made or chosen at the screen is all it needs to serve.
+#include "tests/firmware/held_hand.h"
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/rig_calibration.h"
+
+namespace relievo::firmware {
+namespace {
+
+hal::sim::RigOptions small_rig() {
+  hal::sim::RigOptions rig;
+  rig.width_px = rig.width_px / 2;
+  rig.height_px = rig.height_px / 2;
+  return rig;
+}
+
+class KioskCalibrationTest : public StaffHands {
+ protected:
+  KioskCalibrationTest() {
+    services.open_board = [](std::string_view) {
+      hal::SimBoardOptions options;
+      options.simulation.rig = small_rig();
+      return hal::make_sim_board(options);
+    };
+    services.simulated_calibration = {};
+    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> { return held_board(small_rig(), held.board); };
+  }
+  void open() {
+    auto opened = Kiosk::open(args, services);
+    ASSERT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+  const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
+
+  void visitors_are_told() {
+    ASSERT_TRUE(reach(ui::Step::Trouble));
+    EXPECT_TRUE(says("not set up yet")) << "its own words";
+    EXPECT_EQ(find("finish"), nullptr) << "nobody passes by";
+    EXPECT_EQ(find("start"), nullptr);
+  }
+  void the_bench_says_what_comes_first() {
+    for (const char* page : {"open stages", "open model", "open tables", "open compare"}) {
+      tap(page);
+      EXPECT_TRUE(says("not calibrated yet")) << page;
+      EXPECT_EQ(find("capture"), nullptr) << page;
+      tap("back");
+    }
+    tap("open algorithms");
+    EXPECT_TRUE(says("not calibrated yet"));
+    EXPECT_EQ(find("apply"), nullptr);
+    EXPECT_NE(find("reset"), nullptr) << "what needs no calibration can be done";
+    tap("back");
+    tap("open stages");
+    tap("to calibration");
+    EXPECT_EQ(kiosk->ui().service().page, StaffPage::Calibrate);
+  }
+  void calibrate() {
+    tap("calibration begin");
+    ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Calibrate; }));
+    ASSERT_TRUE(until([this] { return bench().calibration.views >= 8 || !bench().calibration.running; })) << bench().calibration.problem;
+    if (bench().calibration.running) tap("calibration finish");
+    ASSERT_TRUE(until([this] { return bench().calibration.ended || !bench().calibration.problem.empty(); }));
+    ASSERT_EQ(bench().calibration.problem, "");
+    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.reason;
+    EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
+    tap("calibration store");
+    ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; })) << bench().calibration.problem;
+    EXPECT_TRUE(bench().calibrated);
+  }
+};
+
+TEST_F(KioskCalibrationTest, WithoutACalibrationItStartsIsCalibratedAtItsScreenAndServes) {
+  open();
+  visitors_are_told();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  the_bench_says_what_comes_first();
+  calibrate();
+  sign_out();
+  ASSERT_TRUE(reach(ui::Step::Attract)) << "without a restart";
+  const Result<void> played = play("tap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
+  ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice) << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view() : "");
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store.has_value());
+  const auto enrolments = (*store)->enrolments(storage::SubjectId{1});
+  ASSERT_TRUE(enrolments.has_value());
+  ASSERT_EQ(enrolments->size(), 1U);
+  EXPECT_EQ(enrolments->front().calibration_revision, (*store)->active_calibration()->revision) << "measured with what was made at the screen";
+}
+
+TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibrated) {
+  {
+    auto store = storage::open_sqlite_store(args.store, clock, {});
+    ASSERT_TRUE(store.has_value());
+    const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(small_rig()));
+    ASSERT_TRUE((*store)->save_calibration(now, "as the cameras stand").has_value());
+    // Since this one was made, the right camera has been knocked by 3 px across the rows.
+    ASSERT_TRUE((*store)->save_calibration(test::turned(now, 3 / now.right.focal_px.y, 0, 0), "before the knock").has_value());
+  }
+  open();
+  for (int visitor = 0; visitor < budget::kMovedFaces; ++visitor) {
+    const Result<void> played = play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait trouble 120\n");
+    ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice);
+    EXPECT_EQ(kiosk->view().trouble, ui::Trouble::Calibration);
+    EXPECT_TRUE(says("must be adjusted"));
+    EXPECT_FALSE(says("Ada"));
+    EXPECT_EQ(kiosk->ui().visit().name(), "");
+    EXPECT_FALSE(kiosk->appliance().session().is_open());
+    EXPECT_EQ(kiosk->ui().draw_list().face, nullptr);
+  }
+  // One face may have nodded; a second one ends it: nobody else is photographed in vain.
+  ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Trouble);
+  EXPECT_TRUE(says("must be adjusted"));
+  EXPECT_EQ(find("finish"), nullptr);
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open calibrate");
+  EXPECT_TRUE(says("calibrate again")) << "what the faces said, in figures";
+  ASSERT_TRUE(until([this] { return bench().calibration.history_count == 2; }));
+  tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");
+  ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; })) << bench().calibration.problem;
+  EXPECT_FALSE(says("calibrate again"));
+  sign_out();
+  const Result<void> played = play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
+  EXPECT_TRUE(played.has_value()) << played.error().where();
+}
+
+// A real device, whose cameras nobody simulates: it starts, and no touch and no wait begins a capture.
+TEST_F(KioskCalibrationTest, NothingBeginsACaptureBefore) {
+  hal::ManualClock time;
+  changes.clock = &time;
+  args.board = "folder";
+  services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
+    RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
+    return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+  };
+  open();
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  for (int minute = 0; minute < 20; ++minute) {
+    for (float y = 20; y < 800; y += 60) {
+      for (float x = 20; x < 1280; x += 60) {
+        kiosk->feed({ui::Input::Kind::Down, 7, x, y});
+        kiosk->feed({ui::Input::Kind::Up, 7, x, y});
+      }
+      kiosk->turn();
+      EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Trouble);
+      ASSERT_EQ(kiosk->appliance().state(), State::Idle);
+    }
+    time.advance(std::chrono::minutes(1));
+    kiosk->turn();
+    EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Trouble);
+  }
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::English) << "whatever was touched is forgotten";
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+}
+
+}  // namespace
+}  // namespace relievo::firmware
