@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <thread>
 #include <vector>
 
 #include "hal/board.h"
@@ -18,12 +19,13 @@ namespace relievo::test {
 struct PlayedWorld {
   std::atomic<bool> pulled{false};            // both cameras' plugs
   std::atomic<std::int64_t> wall_shift_s{0};  // of the wall clock
+  std::atomic<std::int64_t> ahead_s{0};       // of the clock that counts time
 };
 
 class PlayedClock final : public hal::Clock {
  public:
   explicit PlayedClock(const PlayedWorld& world) : world_(world) {}
-  hal::Instant now() const override { return real_.now(); }
+  hal::Instant now() const override { return real_.now() + std::chrono::seconds(world_.ahead_s.load()); }
   std::chrono::system_clock::time_point wall_now() const override { return real_.wall_now() + std::chrono::seconds(world_.wall_shift_s.load()); }
 
  private:
@@ -51,6 +53,7 @@ class PlayedCamera final : public hal::Camera {
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), std::byte{0x5A}) {}
   std::deque<Errc> errors;   // one a picture, then pictures
   Result<void> on_start{};
+  std::atomic<bool> held{false};  // it has been pulsed and its picture does not come
 
  private:
   Result<void> plugged() const { return world_.pulled.load() ? Result<void>(Error{Errc::Disconnected, "as the test says"}) : on_start; }
@@ -59,6 +62,10 @@ class PlayedCamera final : public hal::Camera {
   void do_stop() override {}
   Result<hal::Frame> do_next_frame(hal::Instant) override {
     if (world_.pulled.load()) return Error{Errc::Disconnected, "as the test says"};
+    if (held.load()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      return Error{Errc::Timeout, "as the test says"};
+    }
     if (!errors.empty()) {
       const Errc code = errors.front();
       errors.pop_front();
