@@ -36,6 +36,11 @@ void EnrolmentSession::retake() {
   make_products();
 }
 
+void EnrolmentSession::took(const pipeline::StereoFrame& frame) {
+  products().frame = frame;
+  holds_ = spare_slot_.holds(frame.left) ? &spare_slot_ : &slot_;
+}
+
 void EnrolmentSession::rework() {
   const auto frame = products().frame;
   wipe_products();
@@ -51,6 +56,7 @@ void EnrolmentSession::close() {
 
 void EnrolmentSession::wipe() {
   wipe_products();
+  holds_ = nullptr;
   slot_.wipe();
   live_.wipe();
   spare_slot_.wipe();

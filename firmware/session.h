@@ -61,6 +61,11 @@ class EnrolmentSession {
   void close();
   bool is_open() const { return products_ != nullptr; }
 
+  // A capture of the session; its views lie in one of the two slots. Thread: capture.
+  void took(const pipeline::StereoFrame& frame);
+  // The slot that no capture lies in: for pictures beside it, which their maker wipes. Thread: capture.
+  StereoSlot& free_slot() { return holds_ == &slot_ ? spare_slot_ : slot_; }
+
   std::string_view subject() const { return {subject_.data()}; }
   Products& products() const;
   StereoSlot& slot() { return slot_; }
@@ -93,6 +98,7 @@ class EnrolmentSession {
   LiveFeed live_;
   StagePictures stage_pictures_;
   StereoSlot spare_slot_;
+  const StereoSlot* holds_ = nullptr;  // the capture
   Arena output_;
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;

@@ -22,8 +22,6 @@ void count(const CameraCounts& from, ui::BenchCamera& to) {
 }  // namespace
 
 void CameraWatchJob::prepare() {
-  const std::optional<pipeline::StereoFrame>& frame = session_.products().frame;
-  slot_ = frame && session_.spare_slot().holds(frame->left) ? &session_.slot() : &session_.spare_slot();
   steps_.store(0, std::memory_order_relaxed);
   for (FocusHelp& focus : focus_) focus.reset();
   last_pair_.reset();
@@ -41,7 +39,7 @@ Result<void> CameraWatchJob::watch(JobControl& control) {
   light_ = {board_.preferred_mode().exposure, 1};
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     if (steps_.load(std::memory_order_relaxed) != 0) set_light();
-    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(*slot_, control.cancelled));
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.free_slot(), control.cancelled));
     RELIEVO_TRY(look(frame));
     std::this_thread::sleep_for(budget::kLivePause);
   }

@@ -3,7 +3,7 @@
 //
 // CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
 // focus of the middle of each, how far apart the two were exposed, what the grabber has counted. It watches in
-// the slot of the session that does not hold the test capture, until it is cancelled.
+// the session's free slot, beside the test capture, until it is cancelled.
 // Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace relievo::firmware {
 class CameraWatchJob final : public Job {
  public:
   CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board) : grabber_(grabber), session_(session), board_(board) {}
-  // The slot that is free; while the job does not run.
+  // While the job does not run.
   void prepare();
   // A third stop brighter (1) or darker (-1) from the next pair on.
   void change_light(int steps) { steps_.fetch_add(steps, std::memory_order_relaxed); }
@@ -39,7 +39,6 @@ class CameraWatchJob final : public Job {
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Board& board_;
-  StereoSlot* slot_ = nullptr;
   std::array<LiveFeed, 2> feeds_;
   std::array<FocusHelp, 2> focus_;
   std::atomic<int> steps_{0};

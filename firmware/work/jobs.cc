@@ -79,7 +79,8 @@ Result<void> GrabJob::run(JobControl& control) {
   BurstOptions options;
   options.light = board_.shot_light();
   if (!board_.is_live()) {
-    RELIEVO_TRY_ASSIGN(session_.products().frame, grabber_.grab(session_.slot(), control.cancelled));
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
+    session_.took(frame);
     return {};
   }
   if (pose_.face()) options.face = pose_.face()->left;
@@ -93,7 +94,7 @@ Result<void> GrabJob::run(JobControl& control) {
   }
   exposure.unlock();
   if (!burst) return burst.error();
-  session_.products().frame = burst->frame;
+  session_.took(burst->frame);
   return {};
 }
 

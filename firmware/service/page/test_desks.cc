@@ -18,11 +18,11 @@ using ui::CheckState;
 
 constexpr std::chrono::milliseconds kBetweenPulses{100};
 
-// One pair, looked at by nobody and wiped.
+// One pair, looked at by nobody and wiped; beside the last test capture, which stays.
 Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
   StereoGrabber& grabber = tools.appliance.grabber();
   RELIEVO_TRY(grabber.start(tools.board.preferred_mode()));
-  StereoSlot& slot = tools.appliance.session().slot();
+  StereoSlot& slot = tools.appliance.session().free_slot();
   const auto pair = grabber.grab(slot, control.cancelled);
   slot.wipe();
   return pair;
