@@ -21,7 +21,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{1280, 800}, {1920, 1080}, {1080, 1920}};
 constexpr std::size_t kTexts[] = {0, 2};  // 100 and 150 %
-constexpr int kThumbAcross = 6, kThumbWidthPx = 480;
+constexpr int kThumbAcross = 6, kMostRows = 16, kThumbWidthPx = 480;
 
 void tap(Kiosk& kiosk, std::string_view id) {
   const ui::Node* node = kiosk.ui().tree().find(id);
@@ -69,17 +69,22 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
 
 class Sheet {
  public:
-  Sheet(std::size_t count, Size size) : thumb_h_(kThumbWidthPx * size.height_px / size.width_px) {
-    const auto rows = (static_cast<int>(count) + kThumbAcross - 1) / kThumbAcross;
-    sheet_.width_px = kThumbAcross * (kThumbWidthPx + 8);
-    sheet_.height_px = rows * (thumb_h_ + 8);
+  // More pages, more of them beside each other, and smaller where the sheet would be too large a picture.
+  Sheet(std::size_t count, Size size) : across_(std::max(kThumbAcross, (static_cast<int>(count) + kMostRows - 1) / kMostRows)) {
+    const int rows = (static_cast<int>(count) + across_ - 1) / across_;
+    for (thumb_w_ = kThumbWidthPx;; thumb_w_ -= 8) {
+      thumb_h_ = thumb_w_ * size.height_px / size.width_px;
+      sheet_.width_px = across_ * (thumb_w_ + 8);
+      sheet_.height_px = rows * (thumb_h_ + 8);
+      if (std::max(sheet_.width_px, sheet_.height_px) <= hal::kMaxPictureSidePx && static_cast<long>(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx) break;
+    }
     sheet_.bytes.assign(std::size_t{3} * static_cast<std::size_t>(sheet_.width_px) * static_cast<std::size_t>(sheet_.height_px), std::byte{90});
   }
   void add(const hal::Picture& picture) {
-    const int x0 = count_ % kThumbAcross * (kThumbWidthPx + 8) + 4, y0 = count_ / kThumbAcross * (thumb_h_ + 8) + 4;
+    const int x0 = count_ % across_ * (thumb_w_ + 8) + 4, y0 = count_ / across_ * (thumb_h_ + 8) + 4;
     ++count_;
     for (int y = 0; y < thumb_h_; ++y) {
-      for (int x = 0; x < kThumbWidthPx; ++x) copy(picture, x, y, x0 + x, y0 + y);
+      for (int x = 0; x < thumb_w_; ++x) copy(picture, x, y, x0 + x, y0 + y);
     }
   }
   const hal::Picture& picture() const { return sheet_; }
@@ -87,7 +92,7 @@ class Sheet {
  private:
   // The mean of the pixels that fall into one.
   void copy(const hal::Picture& from, int x, int y, int to_x, int to_y) {
-    const int u0 = x * from.width_px / kThumbWidthPx, u1 = std::max(u0 + 1, (x + 1) * from.width_px / kThumbWidthPx);
+    const int u0 = x * from.width_px / thumb_w_, u1 = std::max(u0 + 1, (x + 1) * from.width_px / thumb_w_);
     const int v0 = y * from.height_px / thumb_h_, v1 = std::max(v0 + 1, (y + 1) * from.height_px / thumb_h_);
     int sum[3] = {0, 0, 0};
     for (int v = v0; v < v1; ++v) {
@@ -100,7 +105,7 @@ class Sheet {
   }
 
   hal::Picture sheet_;
-  int thumb_h_;
+  int across_, thumb_w_ = 0, thumb_h_ = 0;
   int count_ = 0;
 };
 
