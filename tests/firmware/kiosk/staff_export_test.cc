@@ -108,7 +108,7 @@ TEST_F(StaffExportTest, AStickThatGivesBackOtherBytesIsFoundOut) {
   faulty.fail(FaultyStick::Fault::Forgets, 2);
   EXPECT_EQ(export_all(), Outcome::StickBad);
   EXPECT_NE(said().find("does not keep"), std::string::npos) << said();
-  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_NE(whole().find("1\u00a0/\u00a02"), std::string::npos) << whole();
   EXPECT_EQ(exported_on(stick()), "2");
   EXPECT_EQ(entries_of(stick() / "relievo"), 1U);
   ends_well_the_next_time(stick());
@@ -125,7 +125,7 @@ TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
   ASSERT_TRUE(ended());
   EXPECT_EQ(outcome(), Outcome::Cancelled);
   EXPECT_NE(said().find("was stopped"), std::string::npos) << said();
-  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_NE(whole().find("1\u00a0/\u00a02"), std::string::npos) << whole();
   EXPECT_EQ(exported_on(stick()), "2");
   EXPECT_EQ(entries_of(stick() / "relievo"), 1U);
   ends_well_the_next_time(stick());
@@ -158,7 +158,7 @@ TEST_F(StaffExportTest, AFullStickKeepsWhatWasWholeAndSaysHowMany) {
   ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
   EXPECT_EQ(export_all(), Outcome::StickFull);
   EXPECT_NE(said().find("stick is full"), std::string::npos) << said();
-  EXPECT_NE(whole().find("1 / 2"), std::string::npos) << whole();
+  EXPECT_NE(whole().find("1\u00a0/\u00a02"), std::string::npos) << whole();
   EXPECT_EQ(exported_on(disk->path()).size(), 1U);
   EXPECT_EQ(entries_of(disk->path() / "relievo"), 1U) << "nothing half-written";
 }

@@ -51,7 +51,7 @@ void working(StaffFrame& page) {
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
   char share[32];
-  std::snprintf(share, sizeof share, "%d / %d", seen.whole, seen.asked);
+  std::snprintf(share, sizeof share, "\u2066%d\u00a0/\u00a0%d\u2069", seen.whole, seen.asked);  // figures alone take the direction around them
   Node line = page.text(page.filled(page.tr("Whole on the stick: {}. Nothing else on it counts."), share), type::kSmall, Weight::Regular, page.palette.ink);
   line.id = "whole";
   line.role = Role::Status;

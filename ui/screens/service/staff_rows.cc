@@ -30,7 +30,7 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
     row.action = action;
   }
   tree.open(row);
-  tree.open(grown(box(Flow::Column), value.empty() ? 1 : 1.2F));
+  tree.open(grown(box(Flow::Column), value.empty() || (portrait && text_share > 1.2F) ? 1 : 1.2F));  // a date stays on one line
   tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.close();
   if (!value.empty()) {
