@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/gate/head/beside_head.h"
 #include "pipeline/gate/head/face_cover.h"
 #include "pipeline/gate/light/edge_blur.h"
 
@@ -50,7 +51,7 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
 }
 
 void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {
-  m.eyes = {measure_eye(photo, -1, context), measure_eye(photo, 1, context)};
+  m.eyes = measure_eyes(photo, context);
   m.mouth = measure_mouth(photo, context);
 }
 
@@ -141,6 +142,7 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
     if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(relief, now, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
+    m.beside_share = beside_share(relief, m.head);
     measure_expression({frame, calibration, relief, m.head}, context, m);
   }
   answer.reason = judge(m, options_.limits, history.said);

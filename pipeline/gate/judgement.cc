@@ -88,6 +88,7 @@ struct Judge {
     if (open) return Advice::MouthOpen;
     return above(mouth.rise_mm, l.rise_mm, Advice::NotNeutral) ? Advice::NotNeutral : Advice::None;
   }
+  Advice beside() const { return above(m.beside_share, l.beside_share, Advice::Background) ? Advice::Background : Advice::None; }
 };
 
 }  // namespace
@@ -98,7 +99,7 @@ Result<void> GateLimits::check() const {
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
   for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
                          side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness, iris_contrast,
-                         glare_mm2, dark_mm2, steps_mm, before_mm, rise_mm, leave, leave_sides})
+                         glare_mm2, dark_mm2, steps_mm, before_mm, rise_mm, beside_share, leave, leave_sides})
     if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
   if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
   return {};
@@ -114,7 +115,7 @@ Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said
   const Judge judge{measures, limits, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
-  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover(), judge.eyes(), judge.mouth()})
+  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover(), judge.eyes(), judge.mouth(), judge.beside()})
     if (advice != Advice::None) return advice;
   return measures.tracked ? Advice::NoFace : Advice::None;
 }

@@ -32,6 +32,7 @@ struct GateMeasures {
   double blur_mm = 0;               // on the face: edge_blur.h
   std::array<EyeSight, 2> eyes;     // on the picture's left, on its right
   MouthSight mouth;
+  double beside_share = 0;          // of a field beside the head, by something else at the depth of the face: beside_head.h
 };
 
 // A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
@@ -42,7 +43,7 @@ struct GateLimits {
   double speed_mm_s = 70, turn_deg_s = 60;
   double darkest_mean = 0.16, brightest_mean = 0.80;  // LuminanceMean; OFIQ's slopes are at 0.2 and 0.8
   double dark_share = 0.45, bright_share = 0.12;
-  double side_ratio = 0.48;                        // least
+  double side_ratio = 0.40;                        // least
   double glossy_share = 0.10;
   double blur_mm = 1.3;                            // sharp faces of real cameras measure 0.7 to 1.1
   double covered_share = 0.06, in_front_share = 0.05, unknown_share = 0.45;
@@ -50,9 +51,10 @@ struct GateLimits {
   double relief_mm = 8;                            // a nose stands out further: else something flat is before it
   double eye_brightness = 0.55;                    // least: darker is behind dark glass
   double iris_contrast = 0.10;                     // least: an eye is open
-  double glare_mm2 = 45;                           // lamps in both corneas are smaller
+  double glare_mm2 = 14;                           // of an eye, behind a lamp mirrored in glasses
   double dark_mm2 = 18, steps_mm = 4.8, before_mm = 4;  // of closed lips
   double rise_mm = 1.7;                            // of the mouth's corners: a smile
+  double beside_share = 0.20;
   // Beyond these the relief itself is not to be trusted, and what it says of pose and motion: light and sharpness are asked first.
   double lost_dark_mean = 0.10, lost_bright_share = 0.30, lost_blur_mm = 1.4, lost_below_mm_s = 190;
   double leave = 0.85;                             // share of a limit

@@ -32,7 +32,7 @@ enum class Advice : std::uint8_t {
   GlassesGlare,     // glasses mirror a lamp
   MouthOpen,        // MouthClosed; teeth, tongue
   NotNeutral,       // ExpressionNeutrality: a smile
-  Background,       // BackgroundUniformity
+  Background,       // something beside the head: make room
 };
 
 }  // namespace relievo::pipeline

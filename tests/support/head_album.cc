@@ -169,9 +169,15 @@ void Album::expose(Shot& shot) {
     const sim::ArtefactPose place{mouth ? sim::rotation(0.1, 0.15, 0.3) : sim::rotation(0.1, -0.3, -0.4), sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
     scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
   }
+  const double side = shot.pose.right_mm > 0 ? -1 : 1;   // where there is more room
+  if (shot.extra == Extra::BagBeside || shot.extra == Extra::WallBehind) {
+    const bool bag = shot.extra == Extra::BagBeside;
+    const sim::Vec3 by = bag ? sim::Vec3{side * 158, -25, 35} : sim::Vec3{0, -20, 480};
+    const sim::ArtefactPose place{bag ? sim::rotation(0.1, side * 0.2, 0.15) : sim::rotation(0, 0, 0), sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
+    scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(bag ? sim::FlatPlate{125, 170, 9} : sim::FlatPlate{1200, 900, 11}, place));
+  }
   if (shot.extra == Extra::Friend || shot.extra == Extra::Twin) {
     sim::HeadPose other = shot.pose;
-    const double side = shot.pose.right_mm > 0 ? -1 : 1;
     other.right_mm += side * 175, other.distance_mm += 260, other.yaw_deg += side * 14;
     scene = std::make_unique<Both>(std::move(scene), sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}), other, pool_));
   }

@@ -23,8 +23,9 @@
 namespace relievo::test {
 
 // Something before or beside the person.
-// A friend looks in from the side where there is more room; a twin does the same and needs no second head to be built.
-enum class Extra : std::uint8_t { None, HandBefore, Friend, HandOnCheek, Twin };
+// A friend looks in from the side where there is more room; a twin does the same and needs no second head to be built. A bag is held up on that side, level with
+// the face. Pictures hang on a wall a foot behind the head.
+enum class Extra : std::uint8_t { None, HandBefore, Friend, HandOnCheek, Twin, BagBeside, WallBehind };
 
 // What the person does with the face, and wears on it.
 struct Guise {

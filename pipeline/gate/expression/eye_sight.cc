@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace relievo::pipeline {
 namespace {
@@ -18,6 +20,11 @@ constexpr double kSidesMm = 3.0;                // rows above and below the midd
 constexpr double kGlareShare = 1.35;             // of skin and sclera
 constexpr double kScleraShare = 1.1;             // of the skin, where that is dark
 constexpr double kBurntOut = 245;
+// A lamp that is mirrored in glasses shines before eye and lids alike; sclera and the lamp in a cornea end where the lids begin.
+constexpr double kEyeHalfWidthMm = 13, kEyeHalfHeightMm = 5;
+constexpr double kShineRightMm = 20, kShineDownMm = 14;   // how far about the iris it is looked for
+constexpr double kBesideEyeMm2 = 15;
+constexpr double kLostShare = 0.5;               // of the other eye's contrast: this one is covered
 
 struct Circle { double right = 0, down = 0, radius = 0, contrast = 0; };
 
@@ -79,29 +86,98 @@ double disc(const FaceWindow& w, const Circle& c) {
   return sum / count;
 }
 
-}  // namespace
+// What shines, piece by piece: samples within the opening of an eye there, and beyond it.
+class Shine {
+ public:
+  Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
+      : w_(window), eye_(eye), x0_(std::max(0, static_cast<int>(w_.column(eye.x - kShineRightMm)))), x1_(std::min(w_.columns - 1, static_cast<int>(w_.column(eye.x + kShineRightMm)))),
+        y0_(std::max(0, static_cast<int>(w_.row(eye.y - kShineDownMm)))), y1_(std::min(w_.rows - 1, static_cast<int>(w_.row(eye.y + kShineDownMm)))),
+        open_(&context.scratch), todo_(&context.scratch) {
+    open_.assign(w_.grey.size(), 0);
+    for (int y = y0_; y <= y1_; ++y)
+      for (int x = x0_; x <= x1_; ++x) open_[index(x, y)] = w_.at(x, y) > bright ? 1 : 0;
+    todo_.reserve(w_.grey.size());
+  }
+  // Of the opening, behind pieces that also shine beside it.
+  double before_eye_mm2() {
+    constexpr double kSampleMm2 = FaceWindow::kStepMm * FaceWindow::kStepMm;
+    int sum = 0;
+    for (int y = y0_; y <= y1_; ++y)
+      for (int x = x0_; x <= x1_; ++x) {
+        if (open_[index(x, y)] == 0) continue;
+        const auto [within, beyond] = piece(x, y);
+        if (beyond * kSampleMm2 >= kBesideEyeMm2) sum += within;
+      }
+    return sum * kSampleMm2;
+  }
 
-EyeSight measure_eye(const FacePhoto& photo, double side, StageContext& context) {
-  EyeSight eye;
+ private:
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * w_.columns + x); }
+  void take(int x, int y) {
+    if (x < x0_ || x > x1_ || y < y0_ || y > y1_ || open_[index(x, y)] == 0) return;
+    open_[index(x, y)] = 0;
+    todo_.push_back({x, y});
+  }
+  std::array<int, 2> piece(int from_x, int from_y) {
+    std::array<int, 2> samples{};
+    todo_.clear();
+    take(from_x, from_y);
+    for (std::size_t i = 0; i < todo_.size(); ++i) {
+      const auto [x, y] = todo_[i];
+      const double u = (w_.right_mm(x) - eye_.x) / kEyeHalfWidthMm, v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm;
+      ++samples[u * u + v * v < 1 ? 0 : 1];
+      take(x - 1, y), take(x + 1, y), take(x, y - 1), take(x, y + 1);
+    }
+    return samples;
+  }
+
+  const FaceWindow& w_;
+  Vec2d eye_;
+  int x0_, x1_, y0_, y1_;
+  std::pmr::vector<std::uint8_t> open_;             // shines and has not been counted yet
+  std::pmr::vector<std::array<int, 2>> todo_;
+};
+
+double skin_of(const FaceWindow& w, double side, StageContext& context) {
   const double middle = side * kPupilMm;
-  const FaceWindow w = cut_window(photo, {middle - kHalfWidthMm, middle + kHalfWidthMm, kTopMm, kBottomMm}, context);
+  return std::max(1.0, quantile(w, {middle - 8, middle + 14, -18, kBottomMm}, 0.5, context));
+}
+
+double glare(const FaceWindow& w, double side, Vec2d eye, StageContext& context) {
+  const double skin = skin_of(w, side, context), sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75, context);  // or the glare itself
+  const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
+  return Shine(w, eye, static_cast<float>(bright), context).before_eye_mm2();
+}
+
+EyeSight measure_eye(const FaceWindow& w, double side, StageContext& context) {
+  EyeSight eye;
   if (w.empty()) return eye;
   eye.known = true;
-  const double skin = std::max(1.0, quantile(w, {middle - 8, middle + 14, -18, kBottomMm}, 0.5, context));
+  const double skin = skin_of(w, side, context);
   const Circle iris = find_iris(w, side);
   eye.right_mm = iris.right, eye.down_mm = iris.down;
   eye.contrast = iris.contrast;
   eye.aperture_mm = iris.contrast > 0 ? aperture(w, iris) : 0;
   eye.iris = disc(w, iris) / skin;
   eye.brightness = quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;
-  const double sclera = quantile(w, {iris.right - 12, iris.right + 12, iris.down - 5, iris.down + 5}, 0.75, context);  // or the glare itself
-  const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
-  int spots = 0;
-  for (int y = std::max(0, static_cast<int>(w.row(iris.down - 8))); y < std::min(w.rows, static_cast<int>(w.row(iris.down + 8))); ++y)
-    for (int x = std::max(0, static_cast<int>(w.column(iris.right - 15))); x < std::min(w.columns, static_cast<int>(w.column(iris.right + 15))); ++x)
-      spots += static_cast<double>(w.at(x, y)) > bright ? 1 : 0;
-  eye.glare_mm2 = spots * FaceWindow::kStepMm * FaceWindow::kStepMm;
   return eye;
+}
+
+}  // namespace
+
+std::array<EyeSight, 2> measure_eyes(const FacePhoto& photo, StageContext& context) {
+  constexpr std::array kSides{-1.0, 1.0};
+  const auto window = [&](double side) { return cut_window(photo, {side * kPupilMm - kHalfWidthMm, side * kPupilMm + kHalfWidthMm, kTopMm, kBottomMm}, context); };
+  const std::array windows{window(kSides[0]), window(kSides[1])};
+  std::array<EyeSight, 2> eyes;
+  for (std::size_t i = 0; i < 2; ++i) eyes[i] = measure_eye(windows[i], kSides[i], context);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!eyes[i].known) continue;
+    const EyeSight& other = eyes[1 - i];
+    const bool covered = other.known && eyes[i].contrast < kLostShare * other.contrast;
+    eyes[i].glare_mm2 = glare(windows[i], kSides[i], covered ? Vec2d{-other.right_mm, other.down_mm} : Vec2d{eyes[i].right_mm, eyes[i].down_mm}, context);
+  }
+  return eyes;
 }
 
 }  // namespace relievo::pipeline

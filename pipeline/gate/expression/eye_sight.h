@@ -10,6 +10,8 @@
 // Memory: none of its own. Thread: any. Errors: none.
 #pragma once
 
+#include <array>
+
 #include "pipeline/gate/expression/face_window.h"
 
 namespace relievo::pipeline {
@@ -21,10 +23,10 @@ struct EyeSight {
   double iris = 1;                  // mean luminance within the iris, share of the skin below the eye
   double aperture_mm = 0;           // between the lids, where the iris is: EyesOpen
   double brightness = 1;            // the brighter parts of the eye and its lids, share of the skin below it: dark glasses are dark all over (EyesVisible)
-  double glare_mm2 = 0;             // far brighter than the skin, more than a cornea mirrors
+  double glare_mm2 = 0;             // of the eye, behind what shines before it and before the lids as well: neither sclera nor the lamp in a cornea
 };
 
-// `side`: -1 the eye on the picture's left, +1 on its right.
-EyeSight measure_eye(const FacePhoto& photo, double side, StageContext& context);
+// The eye on the picture's left, then the one on its right. Where glare covers one, the other says where it is.
+std::array<EyeSight, 2> measure_eyes(const FacePhoto& photo, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -32,9 +32,10 @@ GateTrial::GateTrial(const char* album_folder) : album_(album_folder) {
   gate_.emplace(*std::move(made));
 }
 
-const test::Shot& GateTrial::shot(Advice fault, std::uint32_t person, int variant) {
+const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int variant) {
   const bool other = variant != 0;
-  switch (fault) {
+  if (fault.clutter) return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::WallBehind);
+  switch (fault.expected) {
     case Advice::NoFace: return album_.shoot(0, {0, 0, 0, 0, 0, 0});
     case Advice::MoreThanOneFace: return album_.shoot(person, other ? standing(540, 35, 5, -3) : standing(560, -40), Extra::Friend);
     case Advice::TooClose: return album_.shoot(person, other ? standing(385, 15, -10, 6, 4, 3) : standing(400));
@@ -44,8 +45,9 @@ const test::Shot& GateTrial::shot(Advice fault, std::uint32_t person, int varian
     case Advice::LooksUpOrDown: return album_.shoot(person, standing(560, 0, 0, 0, other ? -20 : 20));
     case Advice::Tilted: return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
     case Advice::FaceHidden: return album_.shoot(person, standing(560), other ? Extra::HandOnCheek : Extra::HandBefore);
+    case Advice::Background: return album_.shoot(person, other ? standing(590, 30, -5, -3, 2, 2) : standing(545, -30, 5, 3), Extra::BagBeside);
     case Advice::None: case Advice::Moved: case Advice::TooDark: case Advice::TooBright: case Advice::UnevenLight: case Advice::Highlights:
-    case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::NotNeutral: case Advice::Background: break;
+    case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::NotNeutral: break;
   }
   return other ? album_.shoot(person, standing(600, -12, 8, -4, 3, 3)) : album_.shoot(person, standing(560));
 }

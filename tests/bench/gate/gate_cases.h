@@ -18,6 +18,7 @@ namespace relievo::bench {
 struct Fault {
   const char* name;
   pipeline::Advice expected;
+  bool clutter = false;            // behind the head
 };
 // The first two are nobody's fault.
 inline constexpr std::array kFaults{
@@ -25,14 +26,15 @@ inline constexpr std::array kFaults{
     Fault{"too near", pipeline::Advice::TooClose}, Fault{"too far", pipeline::Advice::TooFar}, Fault{"off centre", pipeline::Advice::OffCentre},
     Fault{"turned", pipeline::Advice::TurnedAside}, Fault{"bowed", pipeline::Advice::LooksUpOrDown}, Fault{"tilted", pipeline::Advice::Tilted},
     Fault{"moving", pipeline::Advice::Moved}, Fault{"dark", pipeline::Advice::TooDark}, Fault{"bright", pipeline::Advice::TooBright},
-    Fault{"one lamp", pipeline::Advice::UnevenLight}, Fault{"blurred", pipeline::Advice::Blurred}, Fault{"hand", pipeline::Advice::FaceHidden}};
+    Fault{"one lamp", pipeline::Advice::UnevenLight}, Fault{"blurred", pipeline::Advice::Blurred}, Fault{"hand", pipeline::Advice::FaceHidden},
+    Fault{"beside", pipeline::Advice::Background}, Fault{"clutter", pipeline::Advice::None, true}};
 inline constexpr int kVariants = 2;  // ways of standing with each fault
 
 class GateTrial {
  public:
   explicit GateTrial(const char* album_folder);
   // Few places a person, so that few photographs serve many cases.
-  const test::Shot& shot(pipeline::Advice fault, std::uint32_t person, int variant);
+  const test::Shot& shot(const Fault& fault, std::uint32_t person, int variant);
   // Exposure and noise, and how strong the fault is where developing makes it: much too dark and bright is meant of the person's own skin.
   static test::Developing developing(pipeline::Advice fault, std::uint32_t person, hal::sim::Random& random);
   pipeline::GateAnswer look(const test::Shot& shot, const test::Developing& how, pipeline::GateTime now, pipeline::GateHistory& history);

@@ -24,15 +24,21 @@ using hal::sim::Random;
 constexpr pipeline::GateTime kFrame = std::chrono::milliseconds(66);
 
 // What is said of the second picture of a case; a moving person stands elsewhere in every picture.
-Advice case_of(GateTrial& trial, Advice fault, std::uint32_t person, int variant, Random& random) {
+Advice case_of(GateTrial& trial, const Fault& fault, std::uint32_t person, int variant, Random& random) {
   pipeline::GateHistory history;
-  test::Developing how = GateTrial::developing(fault, person, random);
+  test::Developing how = GateTrial::developing(fault.expected, person, random);
   pipeline::GateAnswer answer;
   for (int i = 0; i < 2; ++i) {
     how.noise_seed += 1;
-    answer = trial.look(trial.shot(fault, person, fault == Advice::Moved ? (i + variant) % kVariants : variant), how, (i + 1) * kFrame, history);
+    answer = trial.look(trial.shot(fault, person, fault.expected == Advice::Moved ? (i + variant) % kVariants : variant), how, (i + 1) * kFrame, history);
   }
   return answer.reason;
+}
+
+const char* name_of(Advice advice) {
+  for (const Fault& fault : kFaults)
+    if (fault.expected == advice) return fault.name;
+  return "other";
 }
 
 void print_table(GateTrial& trial, std::uint32_t first, int people, int cases) {
@@ -41,16 +47,17 @@ void print_table(GateTrial& trial, std::uint32_t first, int people, int cases) {
     const std::uint32_t person = first + 2 * static_cast<std::uint32_t>(k);
     Random random(Random(person).next());
     for (std::size_t f = 0; f < kFaults.size(); ++f)
-      for (int i = 0; i < cases; ++i) ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f].expected, person, i % kVariants, random))];
+      for (int i = 0; i < cases; ++i) ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f], person, i % kVariants, random))];
   }
   std::printf("| case | cases | hit | taken as good | the advice where there is no such fault | else said |\n| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t f = 0; f < kFaults.size(); ++f) {
     const auto own = static_cast<std::size_t>(kFaults[f].expected);
-    int elsewhere = 0;
-    for (std::size_t g = 0; g < kFaults.size(); ++g) elsewhere += g == f ? 0 : given[g][own];
-    std::printf("| %s | %d | %d | %d | %d of %d |", kFaults[f].name, people * cases, given[f][own], given[f][0], elsewhere, people * cases * static_cast<int>(kFaults.size() - 1));
-    for (const Fault& other : kFaults)
-      if (const int n = given[f][static_cast<std::size_t>(other.expected)]; n > 0 && other.expected != kFaults[f].expected) std::printf(" %s %d", other.name, n);
+    int elsewhere = 0, others = 0;
+    for (std::size_t g = 0; g < kFaults.size(); ++g)
+      if (kFaults[g].expected != kFaults[f].expected) elsewhere += given[g][own], others += people * cases;
+    std::printf("| %s | %d | %d | %d | %d of %d |", kFaults[f].name, people * cases, given[f][own], given[f][0], elsewhere, others);
+    for (std::size_t a = 1; a < given[f].size(); ++a)
+      if (given[f][a] > 0 && a != own) std::printf(" %s %d", name_of(static_cast<Advice>(a)), given[f][a]);
     std::printf(" |\n");
   }
   std::fflush(stdout);

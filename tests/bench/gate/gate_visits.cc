@@ -46,7 +46,7 @@ struct Visit {
   pipeline::GateTime now{};
 
   // One look at somebody who stands the same way as in the look before, but for who moves.
-  pipeline::GateAnswer look(Advice fault, int variant, test::Developing& how) {
+  pipeline::GateAnswer look(const Fault& fault, int variant, test::Developing& how) {
     now += kVisitFrame;
     how.noise_seed = random.next() >> 2;
     return trial.look(trial.shot(fault, person, variant), how, now, history);
@@ -63,7 +63,7 @@ VisitEnd Visit::run() {
     test::Developing how = GateTrial::developing(phase.fault->expected, person, random);
     for (int i = 0; i < phase.looks; ++i) {
       if (phase.fault->expected == Advice::Moved) variant = 1 - variant;
-      const pipeline::GateAnswer answer = look(phase.fault->expected, variant, how);
+      const pipeline::GateAnswer answer = look(*phase.fault, variant, how);
       if (phase.fault->expected == Advice::None || answer.reason != Advice::None) continue;
       if (answer.steady >= kNearly) end.nearly = true;
       if (answer.steady >= kHeld) return end.with_fault = phase.fault->name, end;
@@ -74,7 +74,7 @@ VisitEnd Visit::run() {
   const int variant = between(random, 0, kVariants - 1);
   test::Developing how = GateTrial::developing(Advice::None, person, random);
   for (const pipeline::GateTime from = now + kVisitFrame; now - from < kAllowed;) {
-    const pipeline::GateAnswer answer = look(Advice::None, variant, how);
+    const pipeline::GateAnswer answer = look(kFaults[0], variant, how);
     if (answer.reason != Advice::None || answer.steady < kHeld) continue;
     end.captured = true;
     end.after = now - from;

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "hal/sim/head/shape/head_field.h"
 #include "pipeline/workspace.h"
 #include "tests/support/head_album.h"
 #include "tests/support/proof.h"
@@ -67,12 +68,38 @@ struct Step {
   int pictures;
   Advice expected;  // after the last of them
   test::Extra extra = test::Extra::None;
+  test::Guise guise = {};
+  Advice reason = Advice::None;   // of the last picture, where what is said has not followed yet
 };
 
+// Glasses in which, at `pose` with the head inclined a little, a lamp is mirrored before an eye (or before none), by the geometry of lens and lamp.
+struct Worn {
+  hal::sim::HeadPose pose;
+  test::Guise guise;
+};
+Worn glasses(bool mirror) {
+  const hal::sim::HeadField field(hal::sim::traits_of(kPerson));
+  const hal::sim::Vec3 eye = field.eye.centre();
+  const hal::sim::Wearer wearer{{eye, {-eye.x, eye.y, eye.z}}, field.eye.radius(), field.traits.head_breadth};
+  Worn worn{{}, {{}, true, {}}};
+  for (double pitch = -6; pitch <= 6; pitch += 2)
+    for (double tilt = 0; tilt <= 9; tilt += 1)
+      for (double curve = 80; curve <= 140; curve += 10) {
+        worn.pose = standing(560, 0, 0, 0, pitch);
+        worn.guise.glasses.tilt_deg = tilt, worn.guise.glasses.curve_mm = curve;
+        const double area = mirrored_mm2(wearer, worn.pose, worn.guise.glasses, {0, 0, 0});
+        if (mirror ? area > 120 : area < 1) return worn;
+      }
+  ADD_FAILURE() << "no such glasses";
+  return worn;
+}
+
 // A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, the lens fogs, a hand hides the face, a
-// friend looks in, and they leave and come back.
+// friend looks in, they blink, close their eyes, put on glasses, and they leave and come back.
 TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
   const hal::sim::HeadPose right = standing(560);
+  const Worn mirroring = glasses(true), clear = glasses(false);
+  const test::Guise closed{{.lids_open = 0}, false, {}};
   const Step steps[] = {
       {"nobody", nobody(), {}, 2, Advice::NoFace},
       {"too near", standing(400), {}, 3, Advice::TooClose},
@@ -89,6 +116,15 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
       {"the hand is gone", right, {}, 4, Advice::None},
       {"a friend looks in", standing(560, -40), {}, 3, Advice::MoreThanOneFace, test::Extra::Twin},
       {"the friend has gone", right, {}, 4, Advice::None},
+      {"blinks: seen, not yet said", right, {}, 1, Advice::None, {}, closed, Advice::EyesClosed},
+      {"looks again", right, {}, 4, Advice::None},
+      {"closes the eyes", right, {}, 3, Advice::EyesClosed, {}, closed},
+      {"opens them", right, {}, 4, Advice::None},
+      {"puts on glasses, which mirror a lamp", mirroring.pose, {}, 3, Advice::GlassesGlare, {}, mirroring.guise},
+      {"wears them so that they mirror none", clear.pose, {}, 4, Advice::None, {}, clear.guise},
+      {"takes them off", right, {}, 4, Advice::None},
+      {"a bag held up beside the head", standing(560, -30), {}, 3, Advice::Background, test::Extra::BagBeside},
+      {"it is gone", right, {}, 4, Advice::None},
       {"steps out", nobody(), {}, 2, Advice::NoFace},
       {"comes back", right, {}, 4, Advice::None},
   };
@@ -99,15 +135,18 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
     for (int i = 0; i < step.pictures; ++i) {
       Developing how = step.how;
       how.noise_seed = noise++;
-      answer = rig.look(album().shoot(kPerson, step.pose, step.extra), how);
-      if (step.expected != Advice::None) {
+      answer = rig.look(album().shoot(kPerson, step.pose, step.extra, step.guise), how);
+      if (step.expected != Advice::None || step.reason != Advice::None) {
         EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
       }
     }
     EXPECT_EQ(answer.advice, step.expected) << step.event << ": yaw " << answer.measures.head.yaw_deg << " pitch " << answer.measures.head.pitch_deg << " light "
                                             << answer.measures.light.luminance_mean << " sides " << answer.measures.light.side_ratio << " blur " << answer.measures.blur_mm
-                                            << " speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
-    EXPECT_EQ(answer.steady > GateTime{0}, step.expected == Advice::None) << step.event;
+                                            << " eyes " << answer.measures.eyes[0].contrast << " " << answer.measures.eyes[1].contrast << " glare " << answer.measures.eyes[0].glare_mm2 << " "
+                                            << answer.measures.eyes[1].glare_mm2 << " beside " << answer.measures.beside_share << " speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
+    if (step.reason != Advice::None) { EXPECT_EQ(answer.reason, step.reason) << step.event; }
+    EXPECT_EQ(answer.steady > GateTime{0}, answer.reason == Advice::None) << step.event;
+    EXPECT_EQ(answer.reason == Advice::None, step.expected == Advice::None && step.reason == Advice::None) << step.event;
   }
 }
 

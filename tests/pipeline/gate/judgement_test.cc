@@ -66,6 +66,7 @@ const std::vector<Row>& rows() {
       {"teeth", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.steps_mm = l.steps_mm + 0.1; }},
       {"the tongue", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.before_mm = l.before_mm + 0.1; }},
       {"a smile", Advice::NotNeutral, [](GateMeasures& m) { m.mouth.rise_mm = l.rise_mm + 0.1; }},
+      {"a bag beside the head", Advice::Background, [](GateMeasures& m) { m.beside_share = l.beside_share + 0.01; }},
       {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
   };
   return table;

@@ -50,7 +50,7 @@ Said said(const Page& page) {
     case Advice::GlassesGlare: return {tr("Please take off your glasses"), icon::kPerson};
     case Advice::MouthOpen: return {tr("Please close your mouth"), icon::kPerson};
     case Advice::NotNeutral: return {tr("Please relax your face"), icon::kPerson};
-    case Advice::Background: return {tr("Please stand so that nothing moves behind you"), icon::kPerson};
+    case Advice::Background: return {tr("Please keep the space beside your head free"), icon::kPerson};
   }
   return {tr("Look into the oval"), icon::kPerson};
 }
