@@ -43,7 +43,7 @@ Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::S
   RELIEVO_TRY_ASSIGN(const auto pictures, firmware::read_pair(folder / "left.png", folder / "right.png"));
   RELIEVO_TRY_ASSIGN(const auto calibration, firmware::read_calibration_for(pictures, folder / "rig.yml", folder / "left.png"));
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make({}, calibration));
-  RELIEVO_TRY_ASSIGN(const auto pair, stages.rectify(pictures.frame(), room.context));
+  RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(pictures.frame(), room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   const double* x = pair.rectified_from_left.m;

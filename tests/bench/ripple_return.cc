@@ -46,7 +46,7 @@ Result<FaceMesh> reconstruct(const Scene& scene, const SimRig& rig, const Algori
   room.output.reset();
   const hal::sim::PicturePair pictures = render_pair(scene, rig, {}, 1, room.pool);
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make(algorithms, test::true_calibration(rig)));
-  RELIEVO_TRY_ASSIGN(const auto pair, stages.rectify({pictures.left.view(), pictures.right.view(), 0, 0}, room.context));
+  RELIEVO_TRY_ASSIGN(auto pair, stages.rectify({pictures.left.view(), pictures.right.view(), 0, 0}, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   return stages.mesh(cloud, room.context);

@@ -12,7 +12,7 @@ using namespace pipeline;  // NOLINT: a bench of the pipeline
 
 Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pictures, test::StageBench& room, Verdict& verdict) {
   const StereoFrame frame{pictures.left.view(), pictures.right.view(), 0, 0};
-  RELIEVO_TRY_ASSIGN(const auto pair, stages.rectify(frame, room.context));
+  RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(frame, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   RELIEVO_TRY_ASSIGN(auto mesh, stages.mesh(cloud, room.context));

@@ -107,7 +107,7 @@ Result<Surface> reconstruct(const sim::PicturePair& pictures, const sim::SimRig&
   // The volume follows the distance: nose to ear, and how people stand.
   const pipeline::RectifierOptions volume{r.distance_mm - 160, r.distance_mm + 190, 8192};
   RELIEVO_TRY_ASSIGN(const auto stages, pipeline::Pipeline::make({}, test::true_calibration(rig), volume));
-  RELIEVO_TRY_ASSIGN(const auto pair, stages.rectify({pictures.left.view(), pictures.right.view()}, room.context));
+  RELIEVO_TRY_ASSIGN(auto pair, stages.rectify({pictures.left.view(), pictures.right.view()}, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   RELIEVO_TRY_ASSIGN(const auto mesh, stages.mesh(cloud, room.context));
