@@ -3,7 +3,6 @@
 #include "pipeline/reconstruct/face_crop.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/match/region/face_reach.h"
 
@@ -19,13 +18,12 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
   Arena::Mark mark(context.scratch);
   std::pmr::vector<Vec3d> middle(&context.scratch);
   middle.reserve(cloud.points.size());
-  const double reach = kNoseReach * pair.face_width_px;
   for (const CloudPoint& p : cloud.points)
-    if (std::hypot(p.left_px.x - pair.face_centre_px.x, p.left_px.y - pair.face_centre_px.y) < reach)
+    if (may_be_nose(pair, static_cast<double>(p.left_px.x), static_cast<double>(p.left_px.y)))
       middle.push_back({static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)});
   if (middle.size() < 50)
     return Error{Errc::NoFace, "nothing was measured in the middle of the face: more light, or nothing before the face"};
-  const Vec3d tip = nearest_tip(middle);
+  const Vec3d tip = outstanding_tip(middle);
   const auto outside = [&](const CloudPoint& p) {
     const double dx = p.at_mm.x - tip.x;
     const double dy = p.at_mm.y - tip.y;

@@ -3,7 +3,7 @@
 //
 // Keeps the face of a measured head: everything within a ball around the tip of the nose, as 3D face
 // recognition crops it. Collar, shoulders and what stands beside the head go.
-// The tip is taken as the nearest surface in the middle of the detected face.
+// The tip is what stands out furthest in the middle of the detected face (match/region/face_reach.h).
 // Memory: scratch only; the cloud shrinks in place and keeps its order. Thread: any.
 #pragma once
 

@@ -6,19 +6,55 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 namespace relievo::pipeline {
 namespace {
 
 constexpr double kNearest = 0.01;
 constexpr std::size_t kLeast = 50;    // nodes in the middle; of fewer nothing can be said
+constexpr double kNoseDown = 0.12;    // of the face's width, from the middle of its box
 
-}  // namespace
+// Depth over the middle's plane: level + right * x + down * y, about the points' mean.
+struct Plane3 {
+  Vec3d mean;
+  double level = 0, right = 0, down = 0;
+  double before(const Vec3d& p) const { return mean.z + level + right * (p.x - mean.x) + down * (p.y - mean.y) - p.z; }
+};
 
-Vec3d nearest_tip(std::span<Vec3d> middle) {
+// Least squares, then five times more with what lies off it counting little (Geman-McClure): the nose itself, above all.
+Plane3 plane_of(std::span<const Vec3d> points) {
+  constexpr double kScale = 6;       // mm: a face without its nose is about that flat
+  constexpr double kSteepest = 1.2;  // 50 degrees: the few points of a poor picture may say anything
+  Plane3 plane;
+  for (const Vec3d& p : points) plane.mean.x += p.x, plane.mean.y += p.y, plane.mean.z += p.z;
+  const auto count = static_cast<double>(points.size());
+  plane.mean.x /= count, plane.mean.y /= count, plane.mean.z /= count;
+  for (int round = 0; round < 6; ++round) {
+    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const Vec3d& p : points) {
+      const double e = round == 0 ? 0 : plane.before(p) / kScale;
+      const double weight = 1 / ((1 + e * e) * (1 + e * e));
+      const Eigen::Vector3d row(1, p.x - plane.mean.x, p.y - plane.mean.y);
+      a += weight * row * row.transpose();
+      b += weight * (p.z - plane.mean.z) * row;
+    }
+    const Eigen::Vector3d k = a.ldlt().solve(b);
+    plane.level = k[0];
+    plane.right = std::clamp(k[1], -kSteepest, kSteepest);
+    plane.down = std::clamp(k[2], -kSteepest, kSteepest);
+  }
+  return plane;
+}
+
+// The mean of the hundredth of points that comes first.
+template <typename Before>
+Vec3d mean_of_first(std::span<Vec3d> middle, Before&& before) {
   const auto count = std::max<std::size_t>(10, static_cast<std::size_t>(kNearest * static_cast<double>(middle.size())));
   const std::span<Vec3d> nearest = middle.first(std::min(count, middle.size()));
   std::nth_element(middle.begin(), middle.begin() + static_cast<std::ptrdiff_t>(nearest.size() - 1), middle.end(),
-                   [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+                   before);
   Vec3d tip;
   for (const Vec3d& p : nearest) {
     tip.x += p.x / static_cast<double>(nearest.size());
@@ -26,6 +62,21 @@ Vec3d nearest_tip(std::span<Vec3d> middle) {
     tip.z += p.z / static_cast<double>(nearest.size());
   }
   return tip;
+}
+
+}  // namespace
+
+Vec3d nearest_tip(std::span<Vec3d> middle) {
+  return mean_of_first(middle, [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+}
+
+Vec3d outstanding_tip(std::span<Vec3d> middle) {
+  const Plane3 plane = plane_of(middle);
+  return mean_of_first(middle, [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
+}
+
+bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px) {
+  return std::hypot(x_px - pair.face_centre_px.x, y_px - pair.face_centre_px.y - kNoseDown * pair.face_width_px) < kNoseReach * pair.face_width_px;
 }
 
 void keep_within_reach(const RectifiedPair& pair, StageContext& context, SurfaceField& field) {
@@ -40,10 +91,10 @@ void keep_within_reach(const RectifiedPair& pair, StageContext& context, Surface
   middle.reserve(field.domain.values.size());
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i)
-      if (field.domain.row(j)[i] != 0 && std::hypot(i * field.step_px - pair.face_centre_px.x, j * field.step_px - pair.face_centre_px.y) < kNoseReach * pair.face_width_px)
+      if (field.domain.row(j)[i] != 0 && may_be_nose(pair, i * field.step_px, j * field.step_px))
         middle.push_back(point(i, j));
   if (middle.size() < kLeast) return;
-  const Vec3d tip = nearest_tip(middle);
+  const Vec3d tip = outstanding_tip(middle);
   const double reach2 = pair.face_reach_mm * pair.face_reach_mm;
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i) {

@@ -16,9 +16,18 @@ namespace relievo::pipeline {
 // Where, in shares of the face's width around its middle, every nose is: 38 mm on a grown-up.
 inline constexpr double kNoseReach = 0.25;
 
-// The tip of the nose: the mean of the nearest hundredth of points of the middle of the face, for a single stray
-// point is none. Any frame whose z leads away from the cameras; reorders the points, of which there must be 10 or more.
+// The mean of the nearest hundredth of points of the middle of the face, for a single stray point is none: the tip of the
+// nose, unless the head is bowed by 10 degrees or more, when the forehead is nearer. Any frame whose z leads away from
+// the cameras; reorders the points, of which there must be 10 or more.
 Vec3d nearest_tip(std::span<Vec3d> middle);
+
+// The tip of the nose of a head turned or bowed by 25 degrees and more: the mean of the hundredth of points that stands
+// out furthest towards the cameras from the plane that the rest of them lies about. As nearest_tip() else.
+Vec3d outstanding_tip(std::span<Vec3d> middle);
+
+// Is a pixel of the left view where a nose may be? It lies 0.05 to 0.17 of the face's width below the middle of its box,
+// 0.3 when the head is bowed by 15 degrees.
+bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px);
 
 // Takes nodes out of the domain that lie further than pair.face_reach_mm from the surface nearest to the
 // cameras in the middle of the face. Does nothing where no face was looked for, or where hardly anything lies there.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/stage_bench.h"
 
@@ -12,6 +13,9 @@ namespace relievo::pipeline {
 namespace {
 
 // A dome of 70 mm radius with its top at 500 mm, on a wall at 570 mm; 0.5 mm a pixel.
+constexpr double kNoseMm = 25, kTipMm = 500 - kNoseMm;
+
+// And a nose on the dome.
 PointCloud dome_on_a_wall(std::pmr::memory_resource* memory) {
   PointCloud cloud(memory);
   cloud.lattice_step_px = 4;
@@ -20,7 +24,8 @@ PointCloud dome_on_a_wall(std::pmr::memory_resource* memory) {
       const double u = 0.5 * (x - 500);
       const double v = 0.5 * (y - 500);
       const double r2 = u * u + v * v;
-      const double z = r2 < 4900 ? 570 - std::sqrt(4900 - r2) : 570;
+      const double nose = std::max(0.0, kNoseMm * (1 - std::sqrt(r2) / 20));
+      const double z = (r2 < 4900 ? 570 - std::sqrt(4900 - r2) : 570) - nose;
       cloud.points.push_back({{static_cast<float>(u), static_cast<float>(v), static_cast<float>(z)},
                               {static_cast<float>(x), static_cast<float>(y)}, 0.1F});
     }
@@ -34,15 +39,27 @@ RectifiedPair pair_with_face(double width_px) {
   return pair;
 }
 
-TEST(FaceCrop, KeepsTheBallAroundTheNearestPoint) {
+TEST(FaceCrop, KeepsTheBallAroundTheTipOfTheNose) {
   test::StageBench bench(1 << 24, 1 << 22, 1);
   PointCloud cloud = dome_on_a_wall(&bench.output);
   ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 110}, bench.context));
   double farthest = 0;
   for (const CloudPoint& p : cloud.points)
-    farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y + (p.at_mm.z - 500.0) * (p.at_mm.z - 500.0)));
+    farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y + (p.at_mm.z - kTipMm) * (p.at_mm.z - kTipMm)));
   EXPECT_GT(farthest, 107);
   EXPECT_LT(farthest, 113);
+}
+
+// Bowed, the forehead is nearest; the ball stays about the nose.
+TEST(FaceCrop, ABowedHeadKeepsItsChin) {
+  test::StageBench bench(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&bench.output);
+  const double slope = std::tan(20 * std::numbers::pi / 180);
+  for (CloudPoint& p : cloud.points) p.at_mm.z += static_cast<float>(slope * static_cast<double>(p.at_mm.y));  // what is higher is nearer
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 80}, bench.context));
+  double lowest = 0;
+  for (const CloudPoint& p : cloud.points) lowest = std::max(lowest, static_cast<double>(p.at_mm.y));
+  EXPECT_GT(lowest, 40);
 }
 
 TEST(FaceCrop, OneStrayPointDoesNotMoveTheBall) {

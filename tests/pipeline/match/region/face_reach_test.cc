@@ -41,7 +41,8 @@ struct Wall {
         field.disparity_px.row(j)[i] = static_cast<float>(pair.disparity_px(depth(i, j)));
       }
   }
-  static double depth(int i, int j) { return std::hypot(i * kStep - 480, j * kStep - 300) < 20 ? kTip : kWall; }
+  // A cone.
+  static double depth(int i, int j) { return std::min(kWall, kTip + (kWall - kTip) * std::hypot(i * kStep - 480, j * kStep - 300) / 40); }
   double from_tip_mm(int i, int j) const {
     const double z = depth(i, j);
     return std::hypot((i * kStep - 480) * z / 1500, (j * kStep - 300) * z / 1500, z - kTip);
@@ -76,7 +77,7 @@ TEST(FaceReach, AHoleInTheMiddleSaysNothing) {
   Wall wall;
   for (int j = 0; j < wall.field.domain.height; ++j)
     for (int i = 0; i < wall.field.domain.width; ++i)
-      if (std::hypot(i * kStep - 480, j * kStep - 300) < 120) wall.field.domain.row(j)[i] = 0;
+      if (std::hypot(i * kStep - 480, j * kStep - 340) < 120) wall.field.domain.row(j)[i] = 0;
   const long before = wall.kept();
   keep_within_reach(wall.pair, wall.bench.context, wall.field);
   EXPECT_EQ(wall.kept(), before);
