@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/preprocess/grey_histogram.h"
+#include "pipeline/match/preprocess/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -21,6 +21,9 @@ constexpr float kLit = 0.05F, kColoured = 0.01F;
 // Below this share of the brightness there is no colour to go by: a grey camera, a coloured lamp.
 constexpr float kLeastColour = 0.05F;
 constexpr float kWhite = 0.2F;  // less of the light than this is skin's: no highlight but a white of the eye, teeth, a beard
+constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder than lips is paint
+constexpr double kLampReach = 0.03;     // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
+constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
 constexpr double kSkinShare = 0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
 
 double linear_of(double grey) {
@@ -110,58 +113,6 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
   }
 }
 
-struct Kernel {
-  std::array<float, 17> weight{};  // the middle first, which counts half: each is added from both sides
-  int reach = 0;
-};
-
-Kernel gaussian(double sigma) {
-  Kernel kernel;
-  kernel.reach = std::min(static_cast<int>(std::ceil(3 * sigma)), static_cast<int>(kernel.weight.size()) - 1);
-  float sum = 0;
-  for (int i = 0; i <= kernel.reach; ++i) {
-    float& weight = kernel.weight[static_cast<std::size_t>(i)];
-    weight = static_cast<float>((i == 0 ? 0.5 : 1.0) * std::exp(-0.5 * i * i / (sigma * sigma)));
-    sum += 2 * weight;
-  }
-  for (float& weight : kernel.weight) weight /= sum;
-  return kernel;
-}
-
-// to += weight * (a + b)
-RELIEVO_SIMD void add_weighted(const float* a, const float* b, float weight, int count, float* to) {
-  for (int x = 0; x < count; ++x) to[x] += weight * (a[x] + b[x]);
-}
-
-// to = min(to, from)
-RELIEVO_SIMD void lower(const float* from, int count, float* to) {
-  for (int x = 0; x < count; ++x) to[x] = from[x] < to[x] ? from[x] : to[x];
-}
-
-// The plane's edge goes on outwards. `room`: as high, wider by the kernel's reach on either side.
-void smooth(Plane<float>& plane, const Kernel& kernel, ThreadPool& pool, Plane<float>& room) {
-  const int reach = kernel.reach;
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* wide = room.row(y);
-      float* to = wide + reach;
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i)
-        add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)), kernel.weight[static_cast<std::size_t>(i)], plane.width, to);
-      std::fill_n(wide, reach, to[0]);
-      std::fill_n(to + plane.width, reach, to[plane.width - 1]);
-    }
-  });
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y) + reach;
-      float* to = plane.row(y);
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i) add_weighted(from - i, from + i, kernel.weight[static_cast<std::size_t>(i)], plane.width, to);
-    }
-  });
-}
-
 // Which cells say what colour the skin has: about the middle of a face that was found, all of the part else. In the right
 // view it stands where the middle of the searched depths puts it.
 Part skin_of(const RectifiedPair& pair, bool right, const Part& part) {
@@ -177,7 +128,7 @@ Part skin_of(const RectifiedPair& pair, bool right, const Part& part) {
   return skin;
 }
 
-// Brightness over colour where the skin is dull; 0 where there is no colour to go by.
+// Brightness over colour where the skin is dull, of the whole face; 0 where there is no colour to go by.
 float dull_ratio(const Part& skin, const Light& light, double dull, std::pmr::memory_resource* memory) {
   std::pmr::vector<float> ratios(memory);
   ratios.reserve(static_cast<std::size_t>(skin.width) * static_cast<std::size_t>(skin.height));
@@ -192,44 +143,42 @@ float dull_ratio(const Part& skin, const Light& light, double dull, std::pmr::me
   return *at * kLeastColour < 1 ? *at : 0;
 }
 
+// Lips, blemishes and many a nose are redder than the rest of a face, so that a lamp upon them would pass for dull skin:
+// there the ratio is that of the least white nearby. A grey opening keeps what is redder and cuts off what is whiter, where
+// that is finer than `reach`.
+void find_local_ratio(const Light& light, float ratio, int reach, const Gaussian& gaussian, ThreadPool& pool, Plane<float>& local, Plane<float>& room) {
+  for (int y = 0; y < local.height; ++y)
+    for (int x = 0; x < local.width; ++x) {
+      const float all = light.all.row(y)[x], colour = light.colour.row(y)[x];
+      local.row(y)[x] = all >= kLit && colour >= kColoured ? std::clamp(all / colour, kReddest * ratio, ratio) : ratio;
+    }
+  erode(local, reach, pool, room);
+  dilate(local, reach, pool, room);
+  gaussian.smooth(local, pool, room);
+}
+
+// Nothing of what is little, for that may be noise; all of what is much; smooth between, for an edge would be matched.
+float doubted(float excess, float least) { return excess * excess * excess / (excess * excess + least * least + 1e-6F); }
+
 // What is to be taken away, in grey levels, into light.all, and how far it is to be believed, into light.colour.
-void find_excess(const Part& part, float ratio, float least, Light& light, int begin, int end) {
+void find_excess(const Plane<float>& ratio, float least, Light& light, int begin, int end) {
   const Curves& c = curves();
   for (int y = begin; y < end; ++y) {
     float* all = light.all.row(y);
     float* colour = light.colour.row(y);
-    for (int x = 0; x < part.width; ++x) {
+    for (int x = 0; x < ratio.width; ++x) {
       const float seen = c.to_grey(all[x]);
-      const float skin = colour[x] * ratio;  // light without the lamp's
+      const float skin = colour[x] * ratio.row(y)[x];  // light without the lamp's
       colour[x] = std::clamp((skin - kWhite * all[x]) / (kWhite * all[x] + 1e-6F), 0.0F, 1.0F);
-      all[x] = std::max(0.0F, seen - c.to_grey(skin) - least);
+      all[x] = doubted(std::max(0.0F, seen - c.to_grey(skin)), least);
     }
   }
 }
 
 // Next to a grey wall or an eye the Gaussian mixes skin with what is none: nothing is believed there.
 void weigh(Light& light, int reach, ThreadPool& pool, Plane<float>& room) {
-  const int width = light.all.width, height = light.all.height;
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* least = room.row(y);
-      std::fill_n(least, width, 1.0F);
-      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) lower(light.colour.row(v), width, least);
-    }
-  });
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y);
-      float* least = light.colour.row(y);
-      std::copy_n(from, width, least);
-      for (int i = 1; i <= std::min(reach, width - 1); ++i) {
-        lower(from + i, width - i, least);
-        lower(from, width - i, least + i);
-      }
-      float* excess = light.all.row(y);
-      for (int x = 0; x < width; ++x) excess[x] *= least[x];
-    }
-  });
+  erode(light.colour, reach, pool, room);
+  for (std::size_t i = 0; i < light.all.values.size(); ++i) light.all.values[i] *= light.colour.values[i];
 }
 
 void subtract(const Plane<float>& excess, const Part& part, int width_px, std::pmr::vector<float>& grey, int begin, int end) {
@@ -251,6 +200,29 @@ void subtract(const Plane<float>& excess, const Part& part, int width_px, std::p
   }
 }
 
+void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& options, const Gaussian& gaussian, StageContext& context) {
+  RectifiedView& view = right ? pair.right : pair.left;
+  const Part part = part_of(pair, right, kCell * gaussian.reach());
+  if (part.width == 0 || part.height == 0) return;
+  Light light{{&context.scratch, part.width, part.height}, {&context.scratch, part.width, part.height}};
+  Plane<float> room(&context.scratch, part.width + 2 * gaussian.reach(), part.height);
+  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) { gather(view, pair.width_px, part, light, begin, end); });
+  gaussian.smooth(light.all, context.pool, room);
+  gaussian.smooth(light.colour, context.pool, room);
+  const float ratio = dull_ratio(skin_of(pair, right, part), light, options.dull, &context.scratch);
+  if (!(ratio > 0)) return;
+  Plane<float> local(&context.scratch, part.width, part.height);
+  const double face = pair.face_width_px > 0 ? pair.face_width_px : kFaceOfPicture * pair.width_px;
+  find_local_ratio(light, ratio, std::max(1, static_cast<int>(std::lround(kLampReach * face / kCell))), gaussian, context.pool, local, room);
+  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
+    find_excess(local, static_cast<float>(options.least), light, begin, end);
+  });
+  weigh(light, 2 * gaussian.reach() / 3, context.pool, room);
+  context.pool.for_each_band(part.height * kCell, kRowsOfABand, [&](int begin, int end, int) {
+    subtract(light.all, part, pair.width_px, view.grey, begin, end);
+  });
+}
+
 }  // namespace
 
 Result<void> HighlightRemoverOptions::check() const {
@@ -262,26 +234,10 @@ Result<void> HighlightRemoverOptions::check() const {
 Result<void> HighlightRemover::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels(pair));
-  const Kernel kernel = gaussian(options_.radius_px / kCell);
+  const Gaussian gaussian(options_.radius_px / kCell);
   for (const bool right : {false, true}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-    RectifiedView& view = right ? pair.right : pair.left;
-    const Part part = part_of(pair, right, kCell * kernel.reach);
-    if (part.width == 0 || part.height == 0) continue;
-    Light light{{&context.scratch, part.width, part.height}, {&context.scratch, part.width, part.height}};
-    Plane<float> room(&context.scratch, part.width + 2 * kernel.reach, part.height);
-    context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) { gather(view, pair.width_px, part, light, begin, end); });
-    smooth(light.all, kernel, context.pool, room);
-    smooth(light.colour, kernel, context.pool, room);
-    const float ratio = dull_ratio(skin_of(pair, right, part), light, options_.dull, &context.scratch);
-    if (!(ratio > 0)) continue;
-    context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
-      find_excess(part, ratio, static_cast<float>(options_.least), light, begin, end);
-    });
-    weigh(light, 2 * kernel.reach / 3, context.pool, room);
-    context.pool.for_each_band(part.height * kCell, kRowsOfABand, [&](int begin, int end, int) {
-      subtract(light.all, part, pair.width_px, view.grey, begin, end);
-    });
+    clean(pair, right, options_, gaussian, context);
   }
   return {};
 }

@@ -7,9 +7,9 @@
 // Skin's own colour is reddish and what it mirrors has the lamp's colour (dichromatic reflection, Shafer 1985), white
 // after the camera's white balance. R - (G + B) / 2 of linear light does not see white (after Mallick, Zickler,
 // Kriegman, Belhumeur 2005); times what it is short of the brightness where the skin is dull, it says how bright
-// the skin would be without. What is brighter than that, over `radius_px` and by more than `least`, is subtracted;
-// pores and freckles, finer than that, stay, and so does all that is dull, bit by bit. `least` stands above what
-// compressed pictures get wrong in colours. What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays.
+// the skin would be without; lips, blemishes and noses that are redder than the rest go by the least white nearby.
+// What is brighter than that, over `radius_px`, is subtracted: little of what is less than `least`, which stands above what
+// compressed pictures get wrong in colours, most of what is twice that. Pores and freckles, finer than that, stay. What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays.
 // Looks only where a face may be, where a region is marked. Pictures without colour stay as they are.
 // The pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels), OutOfMemory,
 // Cancelled.
@@ -23,7 +23,7 @@ namespace relievo::pipeline {
 struct HighlightRemoverOptions {
   double radius_px = 2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
   double dull = 0.5;
-  double least = 8;
+  double least = 10;
   Result<void> check() const;
 };
 
@@ -31,7 +31,7 @@ template <typename Field>
 void describe(HighlightRemoverOptions& o, Field&& field) {
   field("radius_px", o.radius_px, OptionRange{0.5, 10}, "what is finer than this stays, pixels of the picture");
   field("dull", o.dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
-  field("least", o.least, OptionRange{0, 64}, "grey levels of brightness that are no highlight yet");
+  field("least", o.least, OptionRange{0, 64}, "grey levels of brightness of which half is taken for a highlight's");
 }
 
 class HighlightRemover final : public Preprocessor {

@@ -46,16 +46,36 @@ TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
   ASSERT_TRUE(bench.remove(done));
   const double added = rms_apart(shining.left, dull.left, dull.width_px, kLeftLamp, 2);
   EXPECT_GT(added, 18);
-  // What `least` leaves of it, eight levels.
+  // What `least` leaves of it.
   EXPECT_LT(rms_apart(done.left, dull.left, dull.width_px, kLeftLamp, 2), 0.6 * added);
   EXPECT_LT(rms_apart(done.right, dull.right, dull.width_px, kRightLamp, 2), 0.6 * added);
   std::size_t far = 0;
   for (std::size_t k = 0; k < dull.left.grey.size(); ++k) {
     if (std::hypot(static_cast<double>(k % 200) - kLeftLamp.x_px, static_cast<double>(k / 200) - kLeftLamp.y_px) < 5 * kLeftLamp.radius_px) continue;
-    ASSERT_EQ(done.left.grey[k], shining.left.grey[k]) << k;
+    ASSERT_NEAR(done.left.grey[k], shining.left.grey[k], 0.5) << k;
     ++far;
   }
   EXPECT_GT(far, 10'000U);
+}
+
+// Against the ratio of the whole face a lamp upon red lips would be no brighter than dull skin.
+TEST(HighlightRemover, RedLipsAreAskedByTheirOwnColour) {
+  Bench bench;
+  constexpr test::Lips kLips{90, 80, 40, 14};
+  constexpr Lamp kLamp{90, 80, 5, 0.12};
+  const auto painted = [&](double light) {
+    RectifiedPair pair = kScene.render(&bench.output);
+    for (RectifiedView* view : {&pair.left, &pair.right}) paint_skin(*view, pair.width_px, {kLamp.x_px, kLamp.y_px, kLamp.radius_px, light}, kLips);
+    pair.face_centre_px = {90, 80};
+    pair.face_width_px = 300;  // lips of 28 px, a lamp's image of 20
+    return pair;
+  };
+  const RectifiedPair dull = painted(0), shining = painted(kLamp.light);
+  RectifiedPair done = painted(kLamp.light);
+  ASSERT_TRUE(bench.remove(done));
+  const double added = rms_apart(shining.left, dull.left, dull.width_px, kLamp, 2);
+  EXPECT_GT(added, 9);
+  EXPECT_LT(rms_apart(done.left, dull.left, dull.width_px, kLamp, 2), 0.7 * added);
 }
 
 TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
@@ -71,7 +91,7 @@ TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
   }
 }
 
-// The white of an eye, teeth: no skin. Right beside them a level or two may go.
+// The white of an eye, teeth: no skin. Right beside them two or three levels may go.
 TEST(HighlightRemover, WhiteThingsStay) {
   Bench bench;
   RectifiedPair pair = bench.skin(0);
@@ -83,7 +103,7 @@ TEST(HighlightRemover, WhiteThingsStay) {
     }
   const auto before = pair.left.grey;
   ASSERT_TRUE(bench.remove(pair));
-  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 2) << "x " << k % 200 << " y " << k / 200;
+  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 3) << "x " << k % 200 << " y " << k / 200;
 }
 
 TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "tests/support/bump_scene.h"
 
@@ -16,8 +17,10 @@ namespace relievo::test {
 // A lamp that skin mirrors: where its image stands in this view, its radius (one standard deviation), how bright (1: full light).
 struct Lamp { double x_px, y_px, radius_px, light; };
 
-// The view as skin of one reddish colour, lit well, and the lamp's white light upon it; sRGB as a camera gives it.
-inline void paint_skin(pipeline::RectifiedView& view, int width_px, const Lamp& lamp) {
+// The view as skin of one reddish colour, lit well, lips about (x, y) redder still, and the lamp's white light upon it all;
+// sRGB as a camera gives it.
+struct Lips { double x_px = 0, y_px = 0, half_width_px = 0, half_height_px = 0; };
+inline void paint_skin(pipeline::RectifiedView& view, int width_px, const Lamp& lamp, const Lips& lips = {}) {
   const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
   const auto encoded = [](double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
   for (std::size_t k = 0; k < view.grey.size(); ++k) {
@@ -27,8 +30,9 @@ inline void paint_skin(pipeline::RectifiedView& view, int width_px, const Lamp& 
     const double white = lamp.light * std::exp(-0.5 * (dx * dx + dy * dy) / (lamp.radius_px * lamp.radius_px));
     double sum = 0;
     std::size_t channel = 3 * k;
-    for (const double share : {1.4, 0.9, 0.7}) {
-      const double value = 255 * std::clamp(encoded(share * skin + white), 0.0, 1.0);
+    const bool lip = std::abs(dx + lamp.x_px - lips.x_px) < lips.half_width_px && std::abs(dy + lamp.y_px - lips.y_px) < lips.half_height_px;
+    for (const auto& [skins, lipss] : {std::pair{1.4, 1.5}, {0.9, 0.75}, {0.7, 0.6}}) {
+      const double value = 255 * std::clamp(encoded((lip ? lipss : skins) * skin + white), 0.0, 1.0);
       view.rgb[channel++] = static_cast<std::uint8_t>(std::lround(value));
       sum += value;
     }
