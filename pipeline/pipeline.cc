@@ -146,9 +146,15 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
     const double* x_axis = pair.rectified_from_left.m;
     const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
-    RELIEVO_TRY_ASSIGN(const HeadFrame frame, find_head_frame(mesh, HeadFrameOptions{}, c, across));
+    const auto head = find_head_frame(mesh, HeadFrameOptions{}, c, across);
+    // Who asks for all that is seen, or not to be told what is no face, gets it also where no head is found in it.
+    const bool need_be_head = region_ != Region::All && relief_ != std::nullopt;
+    if (!head && (need_be_head || head.error().code != Errc::PoorGeometry)) return head.error();
+    const HeadFrame frame = head ? *head : frame_as_seen(mesh, c);
     model.head_from_camera = frame.head_from_camera;
-    RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
+    if (head) {
+      RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
+    }
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;
     model.quality.texture_sharpness = texture_sharpness(model.texture, c);

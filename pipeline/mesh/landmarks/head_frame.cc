@@ -212,6 +212,15 @@ Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, Sta
   return {};
 }
 
+// `points` in the frame already.
+HeadFrame measured(const Points& points, const Frame& frame, StageContext& context) {
+  HeadFrame head;
+  head.head_from_camera = to_transform(frame);
+  head.width_mm = extent(points, 0, context.scratch);
+  head.height_mm = extent(points, 1, context.scratch);
+  return head;
+}
+
 }  // namespace
 
 Result<void> HeadFrameOptions::check() const {
@@ -234,14 +243,21 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
 
   RELIEVO_TRY(set_upright(mesh, frame, points, context));
 
-  HeadFrame head;
-  head.head_from_camera = to_transform(frame);
-  head.width_mm = extent(points, 0, context.scratch);
-  head.height_mm = extent(points, 1, context.scratch);
+  HeadFrame head = measured(points, frame, context);
   head.nose_relief_mm = relief_of(points);
   head.asymmetry_mm = plane.residual_mm;
   head.overlap = plane.overlap;
   return head;
+}
+
+HeadFrame frame_as_seen(const FaceMesh& mesh, StageContext& context) {
+  Frame frame;
+  frame.rows = Vector3d(1, -1, -1).asDiagonal();
+  Points points = sample(mesh, HeadFrameOptions{}.sample_points, context.scratch);
+  if (points.empty()) return {to_transform(frame)};
+  for (const SurfacePoint& p : points) frame.origin += p.at_mm / static_cast<double>(points.size());
+  move_into(points, frame);
+  return measured(points, frame, context);
 }
 
 }  // namespace relievo::pipeline
