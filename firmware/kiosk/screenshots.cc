@@ -21,7 +21,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{1280, 800}, {1920, 1080}, {1080, 1920}};
 constexpr std::size_t kTexts[] = {0, 2};  // 100 and 150 %
-constexpr int kThumbAcross = 6, kMostRows = 16, kThumbWidthPx = 480;
+constexpr int kThumbAcross = 6, kMostRows = 10, kThumbWidthPx = 480;
 
 void tap(Kiosk& kiosk, std::string_view id) {
   const ui::Node* node = kiosk.ui().tree().find(id);

@@ -4,8 +4,6 @@
 // Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
 #include "ui/records_view.h"
 
-#include <cstdio>
-
 #include "ui/screens/service/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
 
@@ -50,9 +48,10 @@ void working(StaffFrame& page) {
 }
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
-  char share[32];
-  std::snprintf(share, sizeof share, "\u2066%d\u00a0/\u00a0%d\u2069", seen.whole, seen.asked);  // figures alone take the direction around them
-  Node line = page.text(page.filled(page.tr("Whole on the stick: {}. Nothing else on it counts."), share), type::kSmall, Weight::Regular, page.palette.ink);
+  const auto figure = [&](int value) { return page.number(value); };
+  const std::string_view first = page.filled(page.tr("Whole on the stick: {} of {}. Nothing else on it counts."), figure(seen.whole));
+  page.tree.keep({"", 1});  // its end, for the second figure
+  Node line = page.text(page.filled(first.data(), figure(seen.asked)), type::kSmall, Weight::Regular, page.palette.ink);
   line.id = "whole";
   line.role = Role::Status;
   page.tree.leaf(line);
