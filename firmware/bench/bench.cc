@@ -28,7 +28,7 @@ Bench::Bench(Parts parts)
     : parts_(std::move(parts)), session_(parts_.appliance.session()), shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
       run_(session_, parts_.pool, parts_.board.clock()), watch_(parts_.appliance.grabber(), session_, parts_.board),
       calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool, std::move(parts_.show_boards)),
-      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, std::move(parts_.in_use)}) {
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, std::move(parts_.in_use)}), recording_(parts_.errands, parts_.board) {
   algorithms_.begin(parts_.stages.algorithms());
 }
 
@@ -37,10 +37,6 @@ Bench::~Bench() {
   parts_.errands.cancel();
   for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper}) parts_.appliance.end_side_job(place);
 }
-
-Products* Bench::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
-
-BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.calibration()}; }
 
 // What is measured with a calibration waits for one; the pages say so.
 bool Bench::is_calibrated() {
@@ -106,6 +102,8 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Square:
     case BenchAct::Charuco:
     case BenchAct::Activate: return calibrations_.act(order);
+    case BenchAct::Record: return record();
+    case BenchAct::StopRecording: return recording_.stop();
     case BenchAct::ChooseKind:
     case BenchAct::ChooseName:
     case BenchAct::EditOption:
@@ -128,12 +126,26 @@ void Bench::keep_result() {
   kept_pictures_.copy_from(run_.pictures());
 }
 
+void Bench::record() {
+  const Products* made = products();
+  if (made == nullptr || !made->frame) return;
+  const bool set_by_hand = !parts_.errands.busy(JobPlace::Capture) && watch_.light().time.count() > 0;
+  const hal::Exposure light = set_by_hand ? watch_.light() : hal::Exposure{parts_.board.preferred_mode().exposure, 1};
+  hal::RecordedPair as_taken;
+  as_taken.exposure_us = light.time.count();
+  as_taken.gain = light.gain;
+  as_taken.left_serial = shot_.serials().left;
+  as_taken.right_serial = shot_.serials().right;
+  recording_.record(*made->frame, std::move(as_taken));
+}
+
 // What fills the slot of the test capture waits until nobody else is at the cameras.
 void Bench::begin_next() {
   if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker)) return;
   const Next what = std::exchange(next_, Next::None);
   problem_.clear();
   point_ = {};
+  recording_.capture_gone();
   tables_.forget();
   run_.pictures().wipe();
   run_.figures().forget();
@@ -251,40 +263,11 @@ void Bench::leave() {
   kept_.forget();
   tables_.forget();
   calibrations_.forget();
+  recording_.forget();
   point_ = {};
   phase_ = BenchPhase::Empty;
   problem_.clear();
   algorithms_.begin(parts_.stages.algorithms());
-}
-
-void Bench::look() {
-  view_ = {};
-  view_.phase = phase_;
-  view_.calibrated = parts_.stages.calibration() != nullptr;
-  view_.problem = problem_;
-  view_.stage = stage_;
-  view_.point = point_;
-  view_.by_hand = by_hand_;
-  view_.applied = applied_;
-  view_.choice = algorithms_.view();
-  view_.calibration = calibrations_.view();
-  view_.rows = tables_.view();
-  if (watching_) view_.cameras = watch_.newest();
-  view_.kept = kept_.view();
-  view_.compared[0] = kept_pictures_.picture(stage_, 0);
-  if (phase_ == BenchPhase::Running) {
-    view_.working_on = static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
-    view_.progress = parts_.errands.progress(JobPlace::Worker);
-  }
-  const Products* made = products();
-  if (made == nullptr) return;
-  view_.result = run_.figures().view();
-  view_.choice.changed = changed_;
-  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
-  view_.compared[1] = run_.pictures().picture(stage_, 0);
-  if (made->model) view_.model = &*made->model;
-  if (made->cloud) view_.cloud = &*made->cloud;
-  view_.model_number = model_number_;
 }
 
 void Bench::turn() {
@@ -298,11 +281,6 @@ void Bench::turn() {
   // It took longer than the state may: what has been seen is not worked out.
   if (calibrations_.running() && state == State::Technician) parts_.errands.stop(JobPlace::Capture);
   begin_next();
-}
-
-const ui::BenchView& Bench::view() {
-  look();
-  return view_;
 }
 
 }  // namespace relievo::firmware

@@ -19,6 +19,7 @@
 #include "firmware/bench/show/bench_tables.h"
 #include "firmware/bench/calibration_desk.h"
 #include "firmware/bench/camera_watch.h"
+#include "firmware/bench/recording_desk.h"
 #include "firmware/bench/run_job.h"
 #include "firmware/service/errands.h"
 #include "ui/bench/bench_view.h"
@@ -70,6 +71,7 @@ class Bench {
   void watch_cameras(bool on);
   void choose(ui::BenchOrder order);
   void keep_result();
+  void record();
   bool is_calibrated();
   void say(const Error& error);
   void look();
@@ -81,6 +83,7 @@ class Bench {
   CameraWatchJob watch_;
   CalibrateJob calibrate_;
   CalibrationDesk calibrations_;
+  RecordingDesk recording_;
   AlgorithmDesk algorithms_;
   BenchTables tables_;
   BenchPictures kept_pictures_;

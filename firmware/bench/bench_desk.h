@@ -16,6 +16,7 @@ class BenchDesk final : public DeskPage {
   void ask(const ui::StaffWish& wish) override { bench_.act({static_cast<ui::BenchAct>(wish.verb), wish.number}); }
   void show(ui::ServiceView& view) override {
     view.bench = &bench_.view();
+    if (page_ == ui::BenchPage::Stages) view.work = {view.bench->recording.running, view.bench->recording.progress, view.bench->recording.outcome, {}};
     view.inner = page_ == ui::BenchPage::Algorithms && view.bench->choice.edited != nullptr;
   }
   void closed() override { bench_.closed(page_); }

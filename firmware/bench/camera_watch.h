@@ -29,6 +29,8 @@ class CameraWatchJob final : public Job {
   // The newest pair and its figures; `watched` false before the first one.
   ui::BenchCameras newest();
   const Result<void>& outcome() const { return outcome_; }  // while it does not run
+  // As asked for last; no time: it never watched. While it does not run.
+  const hal::Exposure& light() const { return light_; }
   void wipe();
 
  private:

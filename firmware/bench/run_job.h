@@ -49,17 +49,25 @@ class RunJob final : public Job {
 class TestShotJob final : public Job {
  public:
   TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool)
-      : nobody_(grabber, session, board, pool, nullptr), grab_(grabber, session, board, nobody_) {}
+      : board_(board), nobody_(grabber, session, board, pool, nullptr), grab_(grabber, session, board, nobody_) {}
   Result<void> run(JobControl& control) override {
     outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
-    return outcome_ = grab_.run(control);
+    outcome_ = grab_.run(control);
+    serials_ = {std::string(board_.left().serial()), std::string(board_.right().serial())};
+    return outcome_;
   }
   const Result<void>& outcome() const { return outcome_; }
+  struct Serials {
+    std::string left, right;
+  };
+  const Serials& serials() const { return serials_; }
 
  private:
+  hal::Board& board_;
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
   Result<void> outcome_;
+  Serials serials_;
 };
 
 }  // namespace relievo::firmware

@@ -162,6 +162,12 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
   view = ready(review);
   view.point = touched();
   add("bench_rectified", StaffPage::Stages, view);
+  view.can_record = true;
+  view.recording = {true, 0.6F, ui::Outcome::None, {}};
+  add("bench_recording", StaffPage::Stages, view);
+  view.recording = {false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  add("bench_recorded", StaffPage::Stages, view);
+  view.recording = {};
   for (const auto& [name, stage] : {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches}, std::pair{"bench_surface", BenchStage::Mesh}}) {
     lend(review, stage, view);
     add(name, StaffPage::Stages, view);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // FaultyStick: a folder that plays a USB stick on which something goes wrong while a record is being read
-// back, in the middle of an export. A stick that is pulled takes its folder along, as an unmounted one does.
+// back, in the middle of an export or a recording. A stick that is pulled takes its folder along, as an unmounted one does.
 // Thread: any; a fault is chosen before the export begins.
 #pragma once
 
@@ -65,10 +65,13 @@ class FaultyStick final : public hal::RemovableMedia {
         std::filesystem::rename(folder_, pulled_folder());
         return;
       case Fault::Forgets: {
-        std::fstream file(folder / "model.ply", std::ios::in | std::ios::out | std::ios::binary);
-        file.seekg(-1, std::ios::end);
+        const bool model = std::filesystem::exists(folder / "model.ply");
+        const std::filesystem::path damaged = folder / (model ? "model.ply" : "right_000001.png");
+        const std::streamoff back = model ? 1 : static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2);
+        std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekg(-back, std::ios::end);
         const char last = static_cast<char>(file.get());
-        file.seekp(-1, std::ios::end);
+        file.seekp(-back, std::ios::end);
         file.put(static_cast<char>(last ^ 1));
         return;
       }

@@ -32,7 +32,8 @@ enum class BenchAct : std::uint8_t {
   BrighterShot, DarkerShot,
   BeginCalibration, StopCalibration, CancelCalibration, StoreCalibration,
   Columns, Rows, Square, Charuco,  // of the board: one more or less; a tenth of a millimetre times the value; other kind
-  Activate                         // a stored calibration: its row
+  Activate,                        // a stored calibration: its row
+  Record, StopRecording            // the test capture, on the stick
 };
 
 // What a wish of the staff's side (ui/service.h) says, once it has come to the workbench.

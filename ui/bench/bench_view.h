@@ -14,11 +14,20 @@
 #include "ui/bench/bench_cameras.h"
 #include "ui/bench/bench_choice.h"
 #include "ui/bench/bench_result.h"
+#include "ui/service_view.h"
 
 namespace relievo::ui {
 
 // The pages that have something under way only while they are open.
 enum class BenchPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
+
+// The test capture on its way to the stick.
+struct BenchRecording {
+  bool running = false;
+  float progress = 0;
+  Outcome outcome = Outcome::None;
+  std::string_view where;                 // the folder on the stick; empty: nothing is there
+};
 
 struct BenchView {
   BenchPhase phase = BenchPhase::Empty;
@@ -31,6 +40,8 @@ struct BenchView {
   std::array<BenchPicture, 2> compared{}; // the same stage of the result put aside, and of the present one
   BenchPoint point;
   bool by_hand = false;                   // touches make a match
+  bool can_record = false;                // there is a capture, and nobody is at work on it
+  BenchRecording recording;
   BenchResult result, kept;               // the present one, and the one put aside
   bool applied = false;                   // visitors are measured with the chosen algorithms now
   const pipeline::FaceModel* model = nullptr;

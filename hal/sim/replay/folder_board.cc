@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "hal/sim/board.h"
-#include "hal/sim/replay/capture_file.h"
+#include "hal/recording/capture_file.h"
 #include "hal/sim/replay/picture_pairs.h"
 #include "hal/sim/replay/replay_board.h"
 

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "hal/sim/replay/capture_file.h"
+#include "hal/recording/capture_file.h"
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/replay/manual_clock.h"
 #include "hal/sim/replay/picture_pairs.h"

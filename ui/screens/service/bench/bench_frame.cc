@@ -155,7 +155,7 @@ bool BenchFrame::capture_state() {
   return false;
 }
 
-void BenchFrame::capture_buttons(bool with_run) {
+void BenchFrame::capture_buttons(bool with_run, bool with_record) {
   if (!view.calibrated) return;
   const bool busy = view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running;
   page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
@@ -165,6 +165,8 @@ void BenchFrame::capture_buttons(bool with_run) {
   } else {
     const bool there = view.result.there;
     page.small_button("capture", tr("New test capture"), icon::kCamera, there ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::Capture), grow);
+    if (with_record && view.recording.running) page.small_button("stop recording", tr("Stop recording"), icon::kClose, ButtonLook::Main, bench(BenchAct::StopRecording), grow);
+    else if (with_record && view.can_record) page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Record), grow);
     if (with_run && there) page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, bench(BenchAct::Run), grow);
   }
   page.tree.close();

@@ -47,7 +47,7 @@ class BenchFrame {
   // In their place while there is no calibration: what to do first.
   void uncalibrated();
   // The buttons under the pages of the test capture.
-  void capture_buttons(bool with_run);
+  void capture_buttons(bool with_run, bool with_record = false);
   void problem(std::string_view words);
 };
 

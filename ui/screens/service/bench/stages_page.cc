@@ -144,6 +144,20 @@ void time_rows(BenchFrame& b) {
   }
 }
 
+// What becomes of a recording, above the buttons that lead on.
+void recording_state(BenchFrame& b) {
+  const BenchRecording& r = b.view.recording;
+  if (r.running) return b.page.progress("record progress", r.progress);
+  if (r.outcome == Outcome::Done) {
+    Node done = b.page.text(b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)), type::kSmall, Weight::Medium, b.page.palette.good);
+    done.id = "recorded";
+    done.role = Role::Status;
+    b.page.tree.leaf(done);
+    return;
+  }
+  b.page.outcome();
+}
+
 void side_rows(BenchFrame& b) {
   if (!b.view.result.failure.empty()) b.problem(b.view.result.failure);
   if (b.view.stage == BenchStage::Rectified) return point_rows(b);
@@ -170,8 +184,9 @@ void bench_stages_page(StaffFrame& page) {
     if (b.view.stage == BenchStage::Rectified) b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
     page.tree.close();
     page.tree.close();
+    recording_state(b);
   }
-  b.capture_buttons(false);
+  b.capture_buttons(false, true);
 }
 
 }  // namespace relievo::ui

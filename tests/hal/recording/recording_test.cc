@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/replay/recording.h"
+#include "hal/recording/recording.h"
 
 #include <cstring>
 #include <gtest/gtest.h>

@@ -1,24 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/replay/recording.h"
+#include "hal/recording/recording.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <system_error>
 
 #include "hal/picture_file.h"
-#include "hal/sim/replay/capture_file.h"
+#include "hal/recording/capture_file.h"
 
 namespace relievo::hal {
-namespace {
-
-std::filesystem::path picture_of(const std::filesystem::path& folder, const char* side, std::int64_t number) {
+std::string recorded_name(const char* side, std::int64_t number) {
   char name[40];
   std::snprintf(name, sizeof name, "%s_%06lld.png", side, static_cast<long long>(number));
-  return folder / name;
+  return name;
 }
-
-}  // namespace
 
 Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair) {
   if (pair.left.empty() || pair.right.empty()) return Error{Errc::InvalidInput, "a pair without pixels cannot be recorded"}.at(folder.string());
@@ -26,7 +22,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
     return Error{Errc::InvalidInput, "the two views differ in size or format: they are no pair"}.at(folder.string());
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) return Error{Errc::IoFailed, "the folder for recordings cannot be made"}.at(folder.string());
+  if (failed) return Error{Errc::IoFailed, "the folder for recordings cannot be made", failed.value()}.at(folder.string());
   const std::filesystem::path index = folder / "capture.json";
   CaptureFile capture;
   if (std::filesystem::exists(index, failed)) {
@@ -34,8 +30,8 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   }
   std::int64_t number = 1;
   for (const CaptureRecord& frame : capture.frames) number = std::max(number, frame.number + 1);
-  RELIEVO_TRY(write_picture(picture_of(folder, "left", number), pair.left));
-  RELIEVO_TRY(write_picture(picture_of(folder, "right", number), pair.right));
+  RELIEVO_TRY(write_picture(folder / recorded_name("left", number), pair.left));
+  RELIEVO_TRY(write_picture(folder / recorded_name("right", number), pair.right));
   capture.left_serial = pair.left_serial;
   capture.right_serial = pair.right_serial;
   capture.frames.push_back({number, pair.left_ns, pair.right_ns, pair.exposure_us, pair.gain});

@@ -25,6 +25,9 @@ struct RecordedPair {
   std::string left_serial, right_serial;
 };
 
+// "left_NNNNNN.png"; `side` is left or right.
+std::string recorded_name(const char* side, std::int64_t number);
+
 // The folder is made when it is not there. The number under which the pair stands: left_NNNNNN.png.
 Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair);
 

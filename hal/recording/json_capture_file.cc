@@ -5,7 +5,7 @@
 #include <new>
 #include <span>
 
-#include "hal/sim/replay/capture_file.h"
+#include "hal/recording/capture_file.h"
 #include "hal/whole_file.h"
 
 namespace relievo::hal {

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the workbench shows: borrowed from its parts, and from the session only while nobody works on it.
+#include "firmware/bench/bench.h"
+
+namespace relievo::firmware {
+
+Products* Bench::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
+
+BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.calibration()}; }
+
+void Bench::look() {
+  view_ = {};
+  view_.phase = phase_;
+  view_.calibrated = parts_.stages.calibration() != nullptr;
+  view_.problem = problem_;
+  view_.stage = stage_;
+  view_.point = point_;
+  view_.by_hand = by_hand_;
+  view_.recording = recording_.view();
+  view_.applied = applied_;
+  view_.choice = algorithms_.view();
+  view_.calibration = calibrations_.view();
+  view_.rows = tables_.view();
+  if (watching_) view_.cameras = watch_.newest();
+  view_.kept = kept_.view();
+  view_.compared[0] = kept_pictures_.picture(stage_, 0);
+  if (phase_ == ui::BenchPhase::Running) {
+    view_.working_on = static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
+    view_.progress = parts_.errands.progress(JobPlace::Worker);
+  }
+  const Products* made = products();
+  if (made == nullptr) return;
+  view_.can_record = made->frame.has_value();
+  view_.result = run_.figures().view();
+  view_.choice.changed = changed_;
+  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
+  view_.compared[1] = run_.pictures().picture(stage_, 0);
+  if (made->model) view_.model = &*made->model;
+  if (made->cloud) view_.cloud = &*made->cloud;
+  view_.model_number = model_number_;
+}
+
+const ui::BenchView& Bench::view() {
+  look();
+  return view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's test capture, recorded on a stick through its page: folder:DIR gives back every bit of it, and
+// what goes wrong has words, a way on, and leaves no half folder.
+#include <cstring>
+#include <random>
+
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_stick.h"
+
+namespace relievo::firmware {
+namespace {
+
+using test::FaultyStick;
+using ui::Outcome;
+
+class StaffRecordTest : public StaffHands {
+ protected:
+  StaffRecordTest() {
+    changes.media = &faulty;
+    std::mt19937 random(7);
+    for (std::size_t side = 0; side < 2; ++side) {
+      hal::Picture& noise = taken[side];
+      noise.width_px = tiny_rig().width_px;
+      noise.height_px = tiny_rig().height_px;
+      noise.bytes.resize(std::size_t{3} * static_cast<std::size_t>(noise.width_px) * static_cast<std::size_t>(noise.height_px));
+      for (std::byte& byte : noise.bytes) byte = static_cast<std::byte>(random());
+      EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / (side == 0 ? "left_000000.png" : "right_000000.png"), noise.view()).has_value());
+    }
+  }
+  const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
+  void capture() {
+    start();
+    if (!signed_in_before) first_start();
+    signed_in_before = true;
+    sign_in("4711", StaffRole::Technician);
+    tap("open stages");
+    EXPECT_EQ(find("record"), nullptr) << "nothing to be recorded yet";
+    tap("capture");
+    ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << bench().problem;
+  }
+  Outcome record() {
+    tap("record");
+    until([this] { return bench().recording.outcome != Outcome::None; });
+    kiosk->turn();
+    EXPECT_NE(find("record"), nullptr) << "the way on";
+    return bench().recording.outcome;
+  }
+  static std::vector<std::string> recordings_on(const Path& root) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "captures", none)) names.push_back(entry.path().filename().string());
+    return names;
+  }
+  // By the board that folder:DIR is.
+  void is_replayed_bit_for_bit(const Path& recording) {
+    auto made = hal::make_folder_board(recording);
+    ASSERT_TRUE(made.has_value()) << made.error().what.view();
+    hal::Board& board = **made;
+    hal::Camera* const cameras[] = {&board.left(), &board.right()};
+    for (hal::Camera* camera : cameras) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)).has_value());
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto frame = cameras[side]->next_frame(board.clock().now() + std::chrono::seconds(5));
+      ASSERT_TRUE(frame.has_value());
+      const ImageView& seen = frame->image();
+      const ImageView wanted = taken[side].view();
+      ASSERT_EQ(seen.width_px, wanted.width_px);
+      ASSERT_EQ(seen.height_px, wanted.height_px);
+      ASSERT_EQ(seen.format, wanted.format);
+      for (int y = 0; y < seen.height_px; ++y) ASSERT_EQ(std::memcmp(seen.row(y), wanted.row(y), static_cast<std::size_t>(3 * seen.width_px)), 0) << side << ' ' << y;
+    }
+  }
+  FaultyStick faulty{stick()};
+  std::unique_ptr<test::TinyDisk> disk;
+  std::unique_ptr<FaultyStick> on_disk;
+  std::array<hal::Picture, 2> taken;
+  bool signed_in_before = false;
+};
+
+TEST_F(StaffRecordTest, WhatWasCapturedIsReplayedBitForBit) {
+  capture();
+  EXPECT_EQ(record(), Outcome::Done);
+  const auto names = recordings_on(stick());
+  ASSERT_EQ(names.size(), 1U);
+  EXPECT_TRUE(says("captures/" + names.front())) << "where it lies";
+  is_replayed_bit_for_bit(stick() / "captures" / names.front());
+  EXPECT_EQ(record(), Outcome::NoStick) << "it was let go";
+  EXPECT_TRUE(says("There is no stick"));
+}
+
+TEST_F(StaffRecordTest, AStickThatIsPulledOutHasNoHalfRecording) {
+  capture();
+  faulty.fail(FaultyStick::Fault::Pulled);
+  EXPECT_EQ(record(), Outcome::StickGone);
+  EXPECT_TRUE(says("pulled out too early"));
+  for (const std::string& name : recordings_on(stick().string() + " in a hand")) EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a recording";
+  faulty.fail(FaultyStick::Fault::None);
+  faulty.plug_in_again();
+  EXPECT_EQ(record(), Outcome::Done);
+  const auto names = recordings_on(stick());
+  ASSERT_EQ(names.size(), 1U) << "what the pulled stick had kept is cleared away";
+  is_replayed_bit_for_bit(stick() / "captures" / names.front());
+}
+
+TEST_F(StaffRecordTest, AStickThatGivesBackOtherBitsIsFoundOut) {
+  capture();
+  faulty.fail(FaultyStick::Fault::Forgets);
+  EXPECT_EQ(record(), Outcome::StickBad);
+  EXPECT_TRUE(says("does not keep"));
+  EXPECT_TRUE(recordings_on(stick()).empty());
+}
+
+TEST_F(StaffRecordTest, WhoStopsItOrLeavesLeavesNothingHalfWritten) {
+  capture();
+  faulty.fail(FaultyStick::Fault::Waits);
+  tap("record");
+  ASSERT_TRUE(until([this] { return faulty.waits() && find("stop recording") != nullptr; }));
+  tap("stop recording");
+  faulty.let_go_on();
+  ASSERT_TRUE(until([this] { return bench().recording.outcome != Outcome::None; }));
+  EXPECT_EQ(bench().recording.outcome, Outcome::Cancelled);
+  EXPECT_TRUE(recordings_on(stick()).empty());
+  faulty.fail(FaultyStick::Fault::Waits);
+  tap("record");
+  ASSERT_TRUE(until([this] { return faulty.waits(); }));
+  tap("sign out");
+  ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; })) << "a slow stick holds nobody";
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+  faulty.let_go_on();
+  kiosk.reset();
+  EXPECT_TRUE(recordings_on(stick()).empty());
+}
+
+TEST_F(StaffRecordTest, AFullStickAndAWriteProtectedOneAreNamedSo) {
+  disk = std::make_unique<test::TinyDisk>(std::size_t{150} << 10);  // less than one picture of noise and its partner
+  if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
+  on_disk = std::make_unique<FaultyStick>(disk->path());
+  changes.media = on_disk.get();
+  capture();
+  EXPECT_EQ(record(), Outcome::StickFull);
+  EXPECT_TRUE(says("no room left"));
+  EXPECT_TRUE(recordings_on(disk->path()).empty());
+  ASSERT_TRUE(disk->protect(true));
+  EXPECT_EQ(record(), Outcome::StickLocked);
+  EXPECT_TRUE(says("write-protected"));
+  ASSERT_TRUE(disk->protect(false));
+}
+
+}  // namespace
+}  // namespace relievo::firmware
