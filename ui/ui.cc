@@ -169,7 +169,7 @@ void Ui::frame(const ViewState& view) {
     key_held_ = false;
     hands_.show_focus = false;
   }
-  if ((visit_.step == Step::Attract && last_step_ != Step::Attract) || page != last_page_) {
+  if (((visit_.step == Step::Attract || visit_.step == Step::Trouble) && last_step_ != visit_.step) || page != last_page_) {
     forgotten_ = true;
     visit_.look = {};
     text_->forget();

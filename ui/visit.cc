@@ -32,6 +32,11 @@ void Visit::touched(hal::Instant now) {
 }
 
 void Visit::forget() {
+  forget_person();
+  look_as_set();
+}
+
+void Visit::forget_person() {
   wipe_name();
   errand_ = Errand::New;
   quotes_code_ = looking_up_ = false;
@@ -43,7 +48,6 @@ void Visit::forget() {
   overlay = Overlay::None;
   capitals = true;
   accents = false;
-  look_as_set();
 }
 
 void Visit::wipe_name() {
@@ -56,6 +60,7 @@ void Visit::go(Step to, hal::Instant now) {
   entered_ = now;
   overlay = Overlay::None;
   if (to == Step::Attract) forget();
+  if (to == Step::Trouble) forget_person();  // who reads it reads it in their language
 }
 
 void Visit::type(std::string_view letter) {
@@ -251,7 +256,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     if (view.screen == Screen::Position) { go(Step::Position, view.now); last_touch_ = view.now; shot_ = false; }
     else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
     else if (view.screen == Screen::Review) { go(Step::Review, view.now); last_touch_ = view.now; }
-    else if (view.screen == Screen::Fault) { forget(); go(Step::Trouble, view.now); }
+    else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
     else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working && view.trouble == Trouble::None) go(Step::Thanks, view.now);
     else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known && step != Step::Attract) {
       const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
@@ -272,7 +277,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       return Intent::Cancel;
     }
     if (silent > patience()) overlay = Overlay::StillThere;
-  } else if ((step == Step::Attract || barred) && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
+  } else if ((step == Step::Attract || step == Step::Trouble) && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
     forget();
   }
   if (const auto intent = follow_look_up(view)) return intent;

@@ -73,6 +73,7 @@ class Visit {
 
  private:
   void go(Step to, hal::Instant now);
+  void forget_person();   // not how they like to read
   std::optional<Intent> act_on_path(ActionKind kind, const ViewState& view);
   std::optional<Intent> back(const ViewState& view);
   void look_at(ActionKind kind);

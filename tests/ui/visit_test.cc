@@ -171,10 +171,15 @@ TEST_F(VisitTest, ARefusalLeadsBackToThePlaceThenOut) {
 
 TEST_F(VisitTest, AFaultForgetsThePersonAtOnce) {
   to_review();
+  visit.language = Language::Arabic;
   view.trouble = Trouble::Camera;
   machine(Screen::Fault);
   EXPECT_EQ(visit.step, Step::Trouble);
   EXPECT_EQ(visit.name(), "");
+  EXPECT_EQ(visit.language, Language::Arabic) << "it is told in their language";
+  pass(kPatience + seconds(1));
+  EXPECT_EQ(visit.step, Step::Trouble);
+  EXPECT_EQ(visit.language, Language::English) << "who comes next reads the device's";
   machine(Screen::SelfTest);
   view.trouble = Trouble::None;
   machine(Screen::Idle);
