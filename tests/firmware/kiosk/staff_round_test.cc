@@ -178,5 +178,22 @@ TEST_F(StaffRoundTest, AWrongPinOpensNothingAndIsCountedOverARestart) {
   EXPECT_NE(kept.find(" 1 "), std::string::npos) << kept;
 }
 
+// A line of the log is English everywhere: in Arabic, too, its date stands before its words.
+TEST_F(StaffRoundTest, TheLogReadsFromTheLeftInArabicToo) {
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open log");
+  kiosk->ui().visit().language = ui::Language::Arabic;
+  kiosk->turn();
+  int lines = 0;
+  for (const ui::Node& node : kiosk->ui().tree().nodes()) {
+    if (node.text.find("signed in") == std::string_view::npos) continue;
+    ++lines;
+    EXPECT_TRUE(node.text.starts_with("\u2068") && node.text.ends_with("\u2069")) << node.text;
+  }
+  EXPECT_GT(lines, 0);
+}
+
 }  // namespace
 }  // namespace relievo::firmware

@@ -108,7 +108,8 @@ void StaffFrame::section(std::string_view words) {
 }
 
 void StaffFrame::line(std::string_view words, Mood mood) {
-  Node said = text(words, 18, Weight::Regular, ink_of(mood));
+  // A log's English begins with a date: apart from the page's direction, or the date comes last.
+  Node said = text(filled("{}", words), 18, Weight::Regular, ink_of(mood));
   said.box.pad_y = px(4);
   tree.leaf(said);
 }
