@@ -67,7 +67,8 @@ int run(int count, char** folders) {
       std::fprintf(stderr, "%s: %.*s\n", folders[i], static_cast<int>(photo.error().what.view().size()), photo.error().what.view().data());
       return 1;
     }
-    people[photo->person].push_back(*std::move(photo));
+    auto& of_person = people[photo->person];
+    of_person.push_back(*std::move(photo));
   }
   Tally tally;
   for (const auto& [person, photos] : people) compare(photos, tally);

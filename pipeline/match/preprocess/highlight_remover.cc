@@ -43,7 +43,7 @@ struct Curves {
     for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<float>(grey_of(std::pow(static_cast<double>(i) / kSteps, 2)));
   }
   float to_grey(float light) const {
-    return grey[static_cast<std::size_t>(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * static_cast<float>(kSteps) + 0.5F)];
+    return grey[static_cast<std::size_t>(std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * static_cast<float>(kSteps)))];
   }
 };
 
