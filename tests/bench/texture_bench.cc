@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   const auto right = need(hal::read_picture(argv[2]));
   const auto calibration = need(pipeline::read_calibration(argv[3], {left.width_px, left.height_px, 0}));
   const auto stages = need(pipeline::Pipeline::make({}, calibration));
-  const auto pair = need(stages.rectify({left.view(), right.view(), 0, 0}, c));
+  auto pair = need(stages.rectify({left.view(), right.view(), 0, 0}, c));
   const auto matches = need(stages.match(pair, c));
   const auto cloud = need(stages.reconstruct(pair, matches, c));
   auto mesh = need(stages.mesh(cloud, c));
