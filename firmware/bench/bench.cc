@@ -89,6 +89,7 @@ void Bench::act(ui::BenchOrder order) {
       return;
     case BenchAct::TurnPage: return tables_.turn(order.argument, source());
     case BenchAct::WatchCameras: return watch_cameras(!watching_);
+    case BenchAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
     case BenchAct::BrighterShot: return watch_.change_light(1);
     case BenchAct::DarkerShot: return watch_.change_light(-1);
     case BenchAct::BeginCalibration:
@@ -241,7 +242,7 @@ void Bench::watch_cameras(bool on) {
   if (parts_.errands.busy(JobPlace::Capture) || phase_ == BenchPhase::Capturing) return;
   if (!session_.is_open() && !session_.open("")) return;
   problem_.clear();
-  watch_.prepare();
+  watch_.prepare(parts_.stages.calibration());
   watching_ = true;
   parts_.errands.send(
       JobPlace::Capture, [this](JobControl& control) { return watch_.run(control); },
@@ -254,6 +255,7 @@ void Bench::watch_cameras(bool on) {
 
 // The appliance has stopped the work and closed the session on its way to another state.
 void Bench::leave() {
+  watch_.show_relief(false);
   watching_ = by_hand_ = changed_ = applied_ = applying_ = false;
   next_ = Next::None;
   watch_.wipe();

@@ -11,6 +11,7 @@
 namespace relievo::firmware {
 namespace {
 
+constexpr std::uint32_t kReliefVersion = 0x80000000;   // it takes turns with the right picture: no version of the one is the other's
 constexpr double kThirdOfAStop = 1.2599210498948732;  // cube root of 2
 
 void count(const CameraCounts& from, ui::BenchCamera& to) {
@@ -21,7 +22,8 @@ void count(const CameraCounts& from, ui::BenchCamera& to) {
 
 }  // namespace
 
-void CameraWatchJob::prepare() {
+void CameraWatchJob::prepare(const pipeline::StereoCalibration* calibration) {
+  relief_.use(calibration);
   steps_.store(0, std::memory_order_relaxed);
   for (FocusHelp& focus : focus_) focus.reset();
   last_pair_.reset();
@@ -40,7 +42,7 @@ Result<void> CameraWatchJob::watch(JobControl& control) {
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     if (steps_.load(std::memory_order_relaxed) != 0) set_light();
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.free_slot(), control.cancelled));
-    RELIEVO_TRY(look(frame));
+    RELIEVO_TRY(look(frame, control));
     std::this_thread::sleep_for(budget::kLivePause);
   }
   return Error{Errc::Cancelled, "nobody watches the cameras any more"};
@@ -57,7 +59,20 @@ void CameraWatchJob::set_light() {
   if (board_.left().set_exposure(next) && board_.right().set_exposure(next)) light_ = next;
 }
 
-Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame) {
+// Pictures of another size than the calibrated one have no relief; they are watched all the same.
+void CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now) {
+  now.relief_shown = shows_relief();
+  if (!now.relief_shown) return;
+  const Result<ImageView> relief = relief_.look(frame, control);
+  if (relief) {
+    (void)feeds_[2].fill(*relief);
+    feeds_[2].publish({});
+  } else if (relief.error().code != Errc::Cancelled) {
+    now.problem = relief.error().what.view();
+  }
+}
+
+Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl& control) {
   ui::BenchCameras now;
   now.watched = true;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -69,6 +84,7 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame) {
     (void)feeds_[i].fill(view);
     feeds_[i].publish({});
   }
+  draw_relief(frame, control, now);
   const GrabCounts& counts = grabber_.counts();
   count(counts.left, now.camera[0]);
   count(counts.right, now.camera[1]);
@@ -96,11 +112,16 @@ ui::BenchCameras CameraWatchJob::newest() {
     const LivePicture live = feeds_[i].newest();
     now.camera[i].picture = {live.picture, live.number};
   }
+  if (now.relief_shown && now.problem.empty()) {
+    const LivePicture live = feeds_[2].newest();
+    now.relief = {live.picture, live.number == 0 ? 0 : live.number | kReliefVersion};
+  }
   return now;
 }
 
 void CameraWatchJob::wipe() {
   for (LiveFeed& feed : feeds_) feed.wipe();
+  relief_.forget();
   const std::lock_guard lock(mutex_);
   figures_ = {};
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
-// focus of the middle of each, how far apart the two were exposed, what the grabber has counted. It watches in
+// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the relief when asked. It watches in
 // the session's free slot, beside the test capture, until it is cancelled.
 // Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
 #pragma once
@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 
+#include "firmware/bench/relief_watch.h"
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/work/jobs.h"
@@ -21,8 +22,11 @@ namespace relievo::firmware {
 class CameraWatchJob final : public Job {
  public:
   CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board) : grabber_(grabber), session_(session), board_(board) {}
-  // While the job does not run.
-  void prepare();
+  // With the calibration in use; null: there is none, and no relief. While the job does not run.
+  void prepare(const pipeline::StereoCalibration* calibration);
+  // With every pair its relief, from the next one on.
+  void show_relief(bool on) { relief_shown_.store(on, std::memory_order_relaxed); }
+  bool shows_relief() const { return relief_shown_.load(std::memory_order_relaxed); }
   // A third stop brighter (1) or darker (-1) from the next pair on.
   void change_light(int steps) { steps_.fetch_add(steps, std::memory_order_relaxed); }
   Result<void> run(JobControl& control) override;
@@ -35,15 +39,18 @@ class CameraWatchJob final : public Job {
 
  private:
   Result<void> watch(JobControl& control);
-  Result<void> look(const pipeline::StereoFrame& frame);
+  Result<void> look(const pipeline::StereoFrame& frame, JobControl& control);
+  void draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now);
   void set_light();
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Board& board_;
-  std::array<LiveFeed, 2> feeds_;
+  std::array<LiveFeed, 3> feeds_;   // left, right, relief
   std::array<FocusHelp, 2> focus_;
+  ReliefWatch relief_;
   std::atomic<int> steps_{0};
+  std::atomic<bool> relief_shown_{false};
   hal::Exposure light_;
   std::optional<hal::Instant> last_pair_;
   std::mutex mutex_;

@@ -35,6 +35,8 @@ FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration, const pipel
   return {box_at(calibration.left, in_left), box_at(calibration.right, apply(calibration.right_from_left, in_left))};
 }
 
+int judged_reduction(int width_px) { return std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx))); }
+
 Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration) {
   RELIEVO_TRY_ASSIGN(LiveJudge judge, open(calibration.left.width_px));
   judge.use(calibration);
@@ -43,7 +45,7 @@ Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration
 
 Result<LiveJudge> LiveJudge::open(int width_px) {
   pipeline::CaptureGateOptions options;
-  options.relief.reduction = std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx)));
+  options.relief.reduction = judged_reduction(width_px);
   RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(options));
   return LiveJudge(std::move(gate));
 }

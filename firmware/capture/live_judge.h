@@ -46,6 +46,9 @@ class LiveJudge {
   pipeline::GateHistory history_;
 };
 
+// How often its pictures are made smaller before they are judged.
+int judged_reduction(int width_px);
+
 // Where somebody stands, as the screen shows it. Who is too near or too far for the relief is placed by the picture alone.
 Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration, const pipeline::Relief& relief);
 

@@ -189,6 +189,9 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
   add("bench_compare", StaffPage::Compare, view);
   view.cameras = watched(review);
   add("bench_cameras", StaffPage::Cameras, view);
+  view.cameras.relief_shown = true;
+  view.cameras.relief = {review.stages[0].picture, 900022};
+  add("bench_relief", StaffPage::Cameras, view);
   view.calibration = calibrated(review, true);
   add("bench_calibrating", StaffPage::Calibrate, view);
   view.calibration = calibrated(review, false);

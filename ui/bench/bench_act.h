@@ -29,6 +29,7 @@ enum class BenchAct : std::uint8_t {
   ShowTable,     // BenchTable
   TurnPage,      // by so many pages
   WatchCameras,
+  ShowRelief,    // beside the left picture, in place of the right one; again: no longer
   BrighterShot, DarkerShot,
   BeginCalibration, StopCalibration, CancelCalibration, StoreCalibration,
   Columns, Rows, Square, Charuco,  // of the board: one more or less; a tenth of a millimetre times the value; other kind

@@ -27,7 +27,9 @@ struct BenchCameras {
   std::uint64_t pairs = 0, apart = 0;
   float exposure_us = 0, gain = 0;        // as asked for last
   bool can_be_set = false;
-  std::string_view problem;
+  bool relief_shown = false;
+  BenchPicture relief;                    // near is bright, black is unknown
+  std::string_view problem;               // why there is no relief
 };
 
 inline constexpr std::size_t kCalibrationRows = 6, kCoverageCells = 8;

@@ -191,6 +191,34 @@ TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
   EXPECT_TRUE(rig().now().cameras.camera[0].picture.pixels.empty());
 }
 
+// The person is nearer than the room: of the middle of the relief most is known, and bright.
+TEST_F(BenchTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
+  rig().open(StaffPage::Cameras);
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched; })) << rig().now().problem;
+  EXPECT_FALSE(rig().shows("relief"));
+  rig().tap("show relief");
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); })) << rig().now().cameras.problem;
+  rig().turn();
+  EXPECT_TRUE(rig().shows("relief") && rig().shows("left live"));
+  EXPECT_FALSE(rig().shows("right live"));
+  const ImageView relief = rig().now().cameras.relief.pixels;
+  int bright = 0, all = 0;
+  for (int y = 2 * relief.height_px / 5; y < 3 * relief.height_px / 5; ++y)
+    for (int x = 9 * relief.width_px / 20; x < 11 * relief.width_px / 20; ++x, ++all) bright += relief.row(y)[3 * x] > 100 ? 1 : 0;
+  EXPECT_GT(bright, all / 2);
+  const auto& drawn = rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchRight)];
+  EXPECT_EQ(drawn.pixels.width_px, relief.width_px);
+  EXPECT_EQ(drawn.version & 0x80000000U, 0x80000000U) << "the relief, not the right picture";
+  const std::uint32_t first = rig().now().cameras.relief.version;
+  ASSERT_TRUE(rig().until([first] { return rig().now().cameras.relief.version > first; })) << "drawn with every pair";
+  rig().tap("show relief");
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief_shown; }));
+  rig().turn();
+  EXPECT_TRUE(rig().shows("right live"));
+  rig().open(StaffPage::Stages);
+  ASSERT_TRUE(rig().until([] { return !rig().errands->busy(JobPlace::Capture); }));
+}
+
 TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   rig().open(StaffPage::Calibrate);
   rig().tap("columns 0");

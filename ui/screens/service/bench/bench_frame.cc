@@ -96,7 +96,7 @@ bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& vis
   list.face_version = 0;
   if (page == StaffPage::Stages) show(view.shown[0], view.shown[1]);
   if (page == StaffPage::Compare) show(view.compared[0], view.compared[1]);
-  if (page == StaffPage::Cameras) show(view.cameras.camera[0].picture, view.cameras.camera[1].picture);
+  if (page == StaffPage::Cameras) show(view.cameras.camera[0].picture, view.cameras.relief_shown ? view.cameras.relief : view.cameras.camera[1].picture);
   if (page == StaffPage::Calibrate) show(view.calibration.pictures[0], view.calibration.pictures[1]);
   if (page == StaffPage::Model && view.model != nullptr) {
     list.face = view.model;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Both cameras, live, side by side: light, focus, and whether they expose at the same instant.
+// Both cameras, live, side by side, or the left one and its relief: light, focus, and whether they expose at the same instant.
 #include <cstdlib>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -11,11 +11,10 @@ namespace {
 
 constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 
-void camera(BenchFrame& b, std::size_t side) {
-  const BenchCamera& camera = b.view.cameras.camera[side];
+void live(BenchFrame& b, std::string_view id, const char* title, const BenchPicture& picture, PictureSlot slot) {
   b.page.tree.open(b.page.grown(b.page.box(Flow::Column, 6)));
-  b.page.tree.leaf(b.page.text(side == 0 ? b.tr("Left camera") : b.tr("Right camera"), type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
-  b.open_picture(side == 0 ? "left live" : "right live", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), camera.picture, side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
+  b.page.tree.leaf(b.page.text(title, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
+  b.open_picture(id, title, picture, slot);
   b.close_picture();
   b.page.tree.close();
 }
@@ -73,13 +72,15 @@ void figures(BenchFrame& b) {
 void bench_cameras_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
-  b.problem(b.view.problem);
+  b.problem(b.view.problem.empty() ? b.view.cameras.problem : b.view.problem);
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   Node pair = page.grown(page.box(Flow::Row, space::kS), page.portrait ? 1.0F : 1.5F);
   pair.box.left_to_right = true;
   page.tree.open(pair);
-  camera(b, 0);
-  camera(b, 1);
+  const BenchCameras& cameras = b.view.cameras;
+  live(b, "left live", b.tr("Left camera"), cameras.camera[0].picture, PictureSlot::BenchLeft);
+  if (cameras.relief_shown) live(b, "relief", b.tr("Relief: near is bright"), cameras.relief, PictureSlot::BenchRight);
+  else live(b, "right live", b.tr("Right camera"), cameras.camera[1].picture, PictureSlot::BenchRight);
   page.tree.close();
   page.tree.open(page.grown(page.box(Flow::Column)));
   page.begin_list("camera figures");
@@ -94,6 +95,7 @@ void bench_cameras_page(StaffFrame& page) {
     page.small_button("darker", b.tr("Darker"), icon::kDark, ButtonLook::Quiet, bench(BenchAct::DarkerShot), grow);
     page.small_button("brighter", b.tr("Brighter"), icon::kSun, ButtonLook::Quiet, bench(BenchAct::BrighterShot), grow);
   }
+  if (b.view.cameras.watched) b.choice("show relief", b.tr("Relief"), b.view.cameras.relief_shown, bench(BenchAct::ShowRelief), grow);
   page.small_button("watch", b.view.cameras.watched ? b.tr("Stop") : b.tr("Watch"), b.view.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main, bench(BenchAct::WatchCameras), grow);
   page.tree.close();
 }
