@@ -230,7 +230,7 @@ void Bench::apply_set() {
       [this, made](const std::optional<Error>& error) {
         applying_ = false;
         if (error) return say(*error);
-        parts_.stages.replace(**std::move(made));
+        parts_.stages.replace(*std::move(*made));
         applied_ = true;
         problem_.clear();
       });
