@@ -9,7 +9,6 @@ namespace relievo::firmware {
 namespace {
 
 using pipeline::Advice;
-using ui::ActionKind;
 using ui::Overlay;
 using ui::Screen;
 using ui::Step;

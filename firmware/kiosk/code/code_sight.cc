@@ -42,7 +42,7 @@ std::optional<std::string> CodeSight::turn(const ui::Visit& visit, hal::Instant 
     if (!running_) look_.ended.store(true);
   }
   if (text && !wants) {  // read in the moment the page was left
-    explicit_bzero(text->data(), text->size());
+    explicit_bzero(text->data(), text->size());  // NOLINT(clang-analyzer-cplusplus.InnerPointer): the string is whole until reset()
     text.reset();
   }
   return text;
