@@ -30,9 +30,9 @@ enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
 
 // Lengths of a button, in dp; of the letters, as they are at 100 %.
 struct ButtonSize {
-  float height, width;   // at least
-  float pad_x, pad_y, gap, radius;
-  float sign, text;
+  float height = 0, width = 0;   // at least
+  float pad_x = 0, pad_y = 0, gap = 0, radius = 0;
+  float sign = 0, text = 0;
   bool shadow = false;
 };
 namespace size {
