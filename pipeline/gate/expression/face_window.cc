@@ -3,10 +3,10 @@
 #include "pipeline/gate/expression/face_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/region/three_terms.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -20,27 +20,11 @@ double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z 
 // How far the part of the face lies behind the tip of the nose: level + across * right + slope * down.
 struct Plane { double level = 0, across = 0, slope = 0; bool known = false; };
 
-bool solve(std::array<std::array<double, 4>, 3>& m) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::size_t pivot = i;
-    for (std::size_t r = i + 1; r < 3; ++r)
-      if (std::abs(m[r][i]) > std::abs(m[pivot][i])) pivot = r;
-    std::swap(m[i], m[pivot]);
-    if (std::abs(m[i][i]) < 1e-9) return false;
-    for (std::size_t r = 0; r < 3; ++r) {
-      if (r == i) continue;
-      const double by = m[r][i] / m[i][i];
-      for (std::size_t c = i; c < 4; ++c) m[r][c] -= by * m[i][c];
-    }
-  }
-  return true;
-}
-
 Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& box) {
   Plane plane;
   const double step = std::max(2.0, head.tip_mm.z / relief.focal_px);
   for (int round = 0; round < 3; ++round) {
-    std::array<std::array<double, 4>, 3> m{};
+    ThreeTerms terms;
     int count = 0;
     for (double down = box.down0_mm; down <= box.down1_mm; down += step)
       for (double right = box.right0_mm; right <= box.right1_mm; right += step) {
@@ -49,13 +33,12 @@ Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& bo
         const Vec3d p = relief.point(place.x, place.y), d{p.x - head.tip_mm.x, p.y - head.tip_mm.y, p.z - head.tip_mm.z};
         const double behind = dot(d, head.away);
         if (plane.known ? std::abs(behind - plane.level - plane.across * right - plane.slope * down) > kStrangeMm : behind < -20 || behind > 60) continue;
-        const std::array<double, 4> row{1, right, down, behind};
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 4; ++j) m[i][j] += row[i] * row[j];
+        terms.add({1, right, down}, behind);
         ++count;
       }
-    if (count < kLeastPoints || !solve(m)) return plane;
-    plane = {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2], true};
+    const auto k = terms.solve();
+    if (count < kLeastPoints || !k) return plane;
+    plane = {(*k)[0], (*k)[1], (*k)[2], true};
   }
   return plane;
 }

@@ -10,6 +10,7 @@
 
 #include "pipeline/gate/head/mirror_plane.h"
 #include "pipeline/match/region/face_reach.h"
+#include "pipeline/match/region/three_terms.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -83,37 +84,20 @@ struct FaceForm {
   double behind(double right, double down) const { return level + slope * down + bend * right * right; }
 };
 
-bool solve3(std::array<std::array<double, 4>, 3>& m) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::size_t pivot = i;
-    for (std::size_t r = i + 1; r < 3; ++r)
-      if (std::abs(m[r][i]) > std::abs(m[pivot][i])) pivot = r;
-    std::swap(m[i], m[pivot]);
-    if (std::abs(m[i][i]) < 1e-9) return false;
-    for (std::size_t r = 0; r < 3; ++r) {
-      if (r == i) continue;
-      const double by = m[r][i] / m[i][i];
-      for (std::size_t c = i; c < 4; ++c) m[r][c] -= by * m[i][c];
-    }
-  }
-  return true;
-}
-
 FaceForm fit_form(std::span<const Vec3d> points, const HeadSight& head) {
   FaceForm form;
   for (int round = 0; round < 3; ++round) {
-    std::array<std::array<double, 4>, 3> m{};
+    ThreeTerms terms;
     for (const Vec3d& p : points) {
       const Vec3d d = minus(p, head.tip_mm);
       const double right = dot(d, head.right), down = dot(d, head.down), behind = dot(d, head.away);
       if (right * right + down * down < kNoseReachMm * kNoseReachMm) continue;
       if (form.known && std::abs(behind - form.behind(right, down)) > 15) continue;
-      const std::array<double, 4> row{1, down, right * right, behind};
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) m[i][j] += row[i] * row[j];
+      terms.add({1, down, right * right}, behind);
     }
-    if (!solve3(m)) return {};
-    form = {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2], true};
+    const auto k = terms.solve();
+    if (!k) return {};
+    form = {(*k)[0], (*k)[1], (*k)[2], true};
   }
   return form;
 }

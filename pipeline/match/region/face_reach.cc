@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "pipeline/match/region/three_terms.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -31,19 +31,16 @@ Plane3 plane_of(std::span<const Vec3d> points) {
   const auto count = static_cast<double>(points.size());
   plane.mean.x /= count, plane.mean.y /= count, plane.mean.z /= count;
   for (int round = 0; round < 6; ++round) {
-    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    ThreeTerms terms;
     for (const Vec3d& p : points) {
       const double e = round == 0 ? 0 : plane.before(p) / kScale;
-      const double weight = 1 / ((1 + e * e) * (1 + e * e));
-      const Eigen::Vector3d row(1, p.x - plane.mean.x, p.y - plane.mean.y);
-      a += weight * row * row.transpose();
-      b += weight * (p.z - plane.mean.z) * row;
+      terms.add({1, p.x - plane.mean.x, p.y - plane.mean.y}, p.z - plane.mean.z, 1 / ((1 + e * e) * (1 + e * e)));
     }
-    const Eigen::Vector3d k = a.ldlt().solve(b);
-    plane.level = k[0];
-    plane.right = std::clamp(k[1], -kSteepest, kSteepest);
-    plane.down = std::clamp(k[2], -kSteepest, kSteepest);
+    const auto k = terms.solve();
+    if (!k) break;  // all on a line: what is nearest, then
+    plane.level = (*k)[0];
+    plane.right = std::clamp((*k)[1], -kSteepest, kSteepest);
+    plane.down = std::clamp((*k)[2], -kSteepest, kSteepest);
   }
   return plane;
 }
