@@ -24,10 +24,7 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
     if (!changes.live) return;
     kiosk->turn();
     ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
-    tap("go on");
-    tap("clock right");
-    for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
-    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+    choose_pins();
     tap("sign out");
     ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
   }

@@ -15,12 +15,7 @@ class StaffEraseTest : public StaffHands {
  protected:
   StaffEraseTest() { changes.clock = &time; }
   void ask_to_erase() {
-    enrol("Ada Lovelace");
-    start();
-    first_start();
-    sign_in("80526", StaffRole::Operator);
-    tap("open records");
-    ASSERT_TRUE(until([this] { return find("record " + code_of(1)) != nullptr; }));
+    open_records({"Ada Lovelace"});
     tap("record " + code_of(1));
     ASSERT_TRUE(until([this] { return find("erase") != nullptr; }));
     tap("erase");

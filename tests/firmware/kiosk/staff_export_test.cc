@@ -16,15 +16,6 @@ using ui::Outcome;
 class StaffExportTest : public StaffHands {
  protected:
   StaffExportTest() { changes.media = &faulty; }
-  void open_records() {
-    enrol("Ada Lovelace");
-    enrol("Grace Hopper");
-    start();
-    first_start();
-    sign_in("80526", StaffRole::Operator);
-    tap("open records");
-    ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
-  }
   Outcome outcome() const { return kiosk->view().service->work.outcome; }
   bool ended() {
     return until([this] { return outcome() != Outcome::None; });
@@ -79,7 +70,7 @@ class StaffExportTest : public StaffHands {
 };
 
 TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedToAgain) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   faulty.fail(FaultyStick::Fault::Pulled, 2);
   EXPECT_EQ(export_all(), Outcome::StickGone);
   EXPECT_NE(said().find("pulled out too early"), std::string::npos) << said();
@@ -89,7 +80,7 @@ TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedTo
 }
 
 TEST_F(StaffExportTest, WhatAnEarlierExportLeftIsReplacedAsAWholeOrStays) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   ASSERT_EQ(export_all(), Outcome::Done);
   faulty.plug_in_again();
   const std::string before = text_of_file(stick() / "relievo" / code_of(1) / "record.txt");
@@ -107,7 +98,7 @@ TEST_F(StaffExportTest, WhatAnEarlierExportLeftIsReplacedAsAWholeOrStays) {
 }
 
 TEST_F(StaffExportTest, AStickThatGivesBackOtherBytesIsFoundOut) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   faulty.fail(FaultyStick::Fault::Forgets, 2);
   EXPECT_EQ(export_all(), Outcome::StickBad);
   EXPECT_NE(said().find("does not keep"), std::string::npos) << said();
@@ -118,7 +109,7 @@ TEST_F(StaffExportTest, AStickThatGivesBackOtherBytesIsFoundOut) {
 }
 
 TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   faulty.fail(FaultyStick::Fault::Waits, 2);
   tap("export all");
   ASSERT_TRUE(until([this] { return faulty.waits() && find("stop export") != nullptr; }));
@@ -135,7 +126,7 @@ TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
 }
 
 TEST_F(StaffExportTest, OfAStickThatIsNotLetGoItIsSaidThatAllIsThere) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   faulty.fail(FaultyStick::Fault::Held);
   EXPECT_EQ(export_all(), Outcome::StickHeld);
   EXPECT_NE(said().find("all there and read back"), std::string::npos) << said();
@@ -144,7 +135,7 @@ TEST_F(StaffExportTest, OfAStickThatIsNotLetGoItIsSaidThatAllIsThere) {
 }
 
 TEST_F(StaffExportTest, AFullStickKeepsWhatWasWholeAndSaysHowMany) {
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   ASSERT_EQ(export_all(), Outcome::Done);
   constexpr std::uintmax_t kPage = 4096;
   std::uintmax_t one = 0;
@@ -171,7 +162,7 @@ TEST_F(StaffExportTest, AWriteProtectedStickIsNamedSo) {
   if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
   on_disk = std::make_unique<FaultyStick>(disk->path());
   changes.media = on_disk.get();
-  open_records();
+  open_records({"Ada Lovelace", "Grace Hopper"});
   ASSERT_TRUE(disk->protect(true));
   EXPECT_EQ(export_all(), Outcome::StickLocked);
   EXPECT_NE(said().find("write-protected"), std::string::npos) << said();

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -139,13 +140,16 @@ class StaffHands : public KioskHands {
     tap("pin done");
     ASSERT_TRUE(until([this] { return !kiosk->view().service->access.checking; }));
   }
-  void first_start() {
-    knock();
-    ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
+  void choose_pins() {
     tap("go on");
     tap("clock right");
     for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
     ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+  }
+  void first_start() {
+    knock();
+    ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
+    choose_pins();
   }
   void sign_in(const char* pin, StaffRole role) {
     if (!kiosk->ui().service().open) knock();
@@ -153,6 +157,16 @@ class StaffHands : public KioskHands {
     ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Menu; }));
     EXPECT_EQ(kiosk->view().service->role, role);
     EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  }
+  // The operator before the list of those who were enrolled just now.
+  void open_records(std::initializer_list<const char*> names) {
+    for (const char* name : names) enrol(name);
+    start();
+    first_start();
+    sign_in("80526", StaffRole::Operator);
+    tap("open records");
+    const auto newest = "record " + code_of(static_cast<std::int64_t>(names.size()));
+    ASSERT_TRUE(until([&] { return find(newest) != nullptr; }));
   }
   // A finger comes and stays.
   void rest_on(std::string_view id) {

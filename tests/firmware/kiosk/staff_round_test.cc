@@ -48,10 +48,7 @@ TEST_F(StaffRoundTest, WhereRealPeopleStandNobodyGetsPastTheFirstStart) {
   kiosk->turn();
   EXPECT_EQ(kiosk->ui().service().page, StaffPage::FirstStart) << "leaving leads back here";
   ASSERT_TRUE(kiosk->ui().service().open);
-  tap("go on");
-  tap("clock right");
-  for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
-  ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+  choose_pins();
   tap("sign out");
   ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
   EXPECT_NE(find("start"), nullptr);
@@ -92,15 +89,9 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
   EXPECT_EQ(access.attempt("2718")->role, StaffRole::Operator);
 }
 
-// Search, look, export, erase: on the store and on a stick that is a folder.
 // A stick that is not there, and one that nothing can be written to: told, and nothing half-written.
 TEST_F(StaffRoundTest, AnExportThatCannotEndWellSaysSoAndTheNextOneDoes) {
-  enrol("Ada Lovelace");
-  start();
-  first_start();
-  sign_in("80526", StaffRole::Operator);
-  tap("open records");
-  ASSERT_TRUE(until([this] { return find("record " + code_of(1)) != nullptr; }));
+  open_records({"Ada Lovelace"});
   const auto outcome = [this] {
     tap("export all");
     until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; });
@@ -117,14 +108,9 @@ TEST_F(StaffRoundTest, AnExportThatCannotEndWellSaysSoAndTheNextOneDoes) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick()), {}), 1);
 }
 
+// Search, look, export, erase: on the store and on a stick that is a folder.
 TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
-  enrol("Ada Lovelace");
-  enrol("Grace Hopper");
-  start();
-  first_start();
-  sign_in("80526", StaffRole::Operator);
-  tap("open records");
-  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
+  open_records({"Ada Lovelace", "Grace Hopper"});
   tap("search");
   for (const char* key : {"key a", "key d", "key a"}) tap(key);
   tap("done");
