@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/gate/head/beside_head.h"
 #include "pipeline/gate/head/face_cover.h"
@@ -16,6 +17,7 @@ constexpr double kFaceWidthMm = 150;   // what a cascade's box stands for
 constexpr double kSecondFaceShare = 0.4;   // smaller ones are passers-by far away
 constexpr int kSecondFaceVotes = 8;
 constexpr double kTurnSmoothing = 0.5;
+constexpr double kNeckMm = 60;   // a head turns about an axis so far behind the tip of its nose, or farther
 
 // A second face must be as wide as one at its own distance, where that is known.
 bool is_face(const Relief& relief, const FaceHit& hit) {
@@ -57,8 +59,9 @@ void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasu
 
 // Where the head was a moment ago, as a face to look for.
 HeadHint expected(const Relief& relief, const GateHistory& history) {
-  const Vec2d at = relief.pixel(history.tip_mm);
-  const double width = kFaceWidthMm * relief.focal_px / history.tip_mm.z;
+  const Vec3d& tip = history.last.tip_mm;
+  const Vec2d at = relief.pixel(tip);
+  const double width = kFaceWidthMm * relief.focal_px / tip.z;
   return {{at.x, at.y - 0.08 * width}, width};
 }
 
@@ -66,33 +69,38 @@ double apart(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y 
 
 // The tip of a nose that is hardly seen wanders over the face, and so does the cascade's box, but not together: across the picture the
 // lesser of both counts, in depth the tip.
-double moved_mm(const Relief& relief, const GateHistory& history, const GateMeasures& m) {
-  const Vec3d &a = history.tip_mm, &b = m.head.tip_mm;
+double moved_mm(const Relief& relief, const SeenHead& from, const SeenHead& to) {
+  const Vec3d &a = from.tip_mm, &b = to.tip_mm;
   double across = apart({a.x, a.y}, {b.x, b.y});
-  if (!m.tracked && history.last_by_cascade == history.last) across = std::min(across, apart(history.face.centre_px, m.face.centre_px) * b.z / relief.focal_px);
+  if (to.by_cascade && from.by_cascade) across = std::min(across, apart(from.face.centre_px, to.face.centre_px) * b.z / relief.focal_px);
   return std::hypot(across, b.z - a.z);
 }
 
-void measure_motion(const Relief& relief, GateTime now, const GateHistory& history, GateMeasures& m) {
-  if (!history.seen || now <= history.last) return;
-  const double seconds = std::chrono::duration<double>(now - history.last).count();
-  const double speed = moved_mm(relief, history, m) / seconds;
+// However fast the pictures come: a head at rest must not seem to hurry because two of them are taken within a blink.
+void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest, const GateHistory& history, GateMeasures& m) {
+  m.speed_mm_s = history.speed_mm_s;
+  m.turn_deg_s = history.turn_deg_s;
+  if (now.at - history.from.at < shortest) return;
+  const double seconds = std::chrono::duration<double>(now.at - history.from.at).count();
+  const double moved = moved_mm(relief, history.from, now), speed = moved / seconds;
   // The tip of a nose at rest wanders by a millimetre from picture to picture: two pictures speak together.
   m.speed_mm_s = kTurnSmoothing * speed + (1 - kTurnSmoothing) * std::min(history.speed_mm_s, 2 * speed);
-  const double turn = std::abs(m.head.yaw_deg - history.yaw_deg) / seconds;
+  // Where the tip stays, it is not the head that turns but the mirror plane of a poor relief.
+  const double turn = std::min(std::abs(now.yaw_deg - history.from.yaw_deg), moved / kNeckMm * 180 / std::numbers::pi) / seconds;
   m.turn_deg_s = kTurnSmoothing * turn + (1 - kTurnSmoothing) * std::min(history.turn_deg_s, 2 * turn);
 }
 
-void remember(GateTime now, const GateMeasures& m, GateHistory& history) {
-  history.seen = m.head.known;
+void remember(const SeenHead& now, GateTime shortest, const GateMeasures& m, GateHistory& history) {
+  if (!m.head.known) {
+    history.seen = false;
+    return;
+  }
+  if (!history.seen || now.at - history.from.at >= shortest) history.from = now;
+  history.seen = true;
+  if (now.by_cascade) history.last_by_cascade = now.at;
   history.last = now;
-  if (!m.head.known) return;
-  if (!m.tracked) history.last_by_cascade = now;
-  history.tip_mm = m.head.tip_mm;
-  history.yaw_deg = m.head.yaw_deg;
   history.speed_mm_s = m.speed_mm_s;
   history.turn_deg_s = m.turn_deg_s;
-  history.face = m.face;
 }
 
 // What is said changes when two pictures in a row say otherwise; that all is well, only when both say so.
@@ -135,18 +143,20 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.faces = std::max(m.faces, m.tracked ? 1 : 0);
   }
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
+  const SeenHead seen{now, m.head.known && !m.tracked, m.head.tip_mm, m.head.yaw_deg, m.face};
   if (m.head.known) {
     m.off_right_mm = m.head.tip_mm.x - relief.baseline_mm / 2;
     m.off_down_mm = m.head.tip_mm.y;
     m.light = measure_light(relief, m.head);
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
-    if (m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean) measure_motion(relief, now, history, m);
+    const bool lit = m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean;
+    if (lit && history.seen) measure_motion(relief, seen, options_.shortest_motion, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
     m.beside_share = beside_share(relief, m.head);
     measure_expression({frame, calibration, relief, m.head}, context, m);
   }
   answer.reason = judge(m, options_.limits, history.said);
-  remember(now, m, history);
+  remember(seen, options_.shortest_motion, m, history);
   settle(now, answer, history);
   return GateLook{answer, std::move(relief)};
 }

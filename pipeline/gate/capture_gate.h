@@ -27,14 +27,23 @@ struct CaptureGateOptions {
   FaceWatchOptions faces;
   GateLimits limits;
   GateTime keeps_track = std::chrono::milliseconds{1500};  // of a head that no cascade sees any more
+  GateTime shortest_motion = std::chrono::milliseconds{50};  // what is measured wanders by a millimetre: over less time that would look like haste
+};
+
+// A head as one picture showed it.
+struct SeenHead {
+  GateTime at{};
+  bool by_cascade = false;
+  Vec3d tip_mm;
+  double yaw_deg = 0;
+  HeadHint face;
 };
 
 struct GateHistory {
   bool seen = false;               // a head, in the picture before
-  GateTime last{}, last_by_cascade{};
-  Vec3d tip_mm;
-  double yaw_deg = 0, speed_mm_s = 0, turn_deg_s = 0;
-  HeadHint face;
+  GateTime last_by_cascade{};
+  SeenHead last, from;             // from: what motion is measured against, shortest_motion ago or more
+  double speed_mm_s = 0, turn_deg_s = 0;
   Advice said = Advice::NoFace;    // to the person
   Advice heard = Advice::NoFace;   // the reason of the picture before
   bool good = false;

@@ -43,7 +43,7 @@ struct Rig {
     work.output.reset();
     const auto look = run_stage(work.context, [&](StageContext& c) { return gate.look({pair.left.view(), pair.right.view()}, album().calibration(), now, history, c); });
     EXPECT_TRUE(look);
-    now += kFrame;
+    now += every;
     if (!look) return {};
     truth = test::true_head(shot, look->relief);
     return look->answer;
@@ -51,7 +51,7 @@ struct Rig {
   Workspace work;
   CaptureGate gate;
   GateHistory history;
-  GateTime now{};
+  GateTime now{}, every = kFrame;
   test::TrueHead truth{};
 };
 
@@ -179,6 +179,25 @@ TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
     EXPECT_EQ(one.measures.head.yaw_deg, two.measures.head.yaw_deg);
     EXPECT_EQ(one.measures.blur_mm, two.measures.blur_mm);
   }
+}
+
+// What is measured of a head at rest differs a little from picture to picture, however fast these come.
+TEST(CaptureGate, FastPicturesDoNotMakeARestingHeadHurry) {
+  Rig rig;
+  rig.every = std::chrono::milliseconds(5);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const GateAnswer answer = rig.look(album().shoot(kPerson, standing(560)), {.noise_seed = seed});
+    EXPECT_EQ(answer.reason, Advice::None) << "picture " << seed << ": speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
+  }
+}
+
+TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
+  Rig rig;
+  rig.every = std::chrono::milliseconds(10);
+  GateAnswer answer;
+  for (int i = 0; i < 12; ++i) answer = rig.look(album().shoot(kPerson, standing(560, -12 + 2.0 * i)), {.noise_seed = static_cast<std::uint64_t>(i + 1)});
+  EXPECT_EQ(answer.advice, Advice::Moved);
+  EXPECT_NEAR(answer.measures.speed_mm_s, 200, 60) << "a cascade's box moves in steps";
 }
 
 TEST(CaptureGate, WithoutItsCascadesItDoesNotOpen) {
