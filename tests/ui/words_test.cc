@@ -43,10 +43,26 @@ std::set<std::string> texts_in_the_screens(bool of_the_staff) {
   return texts;
 }
 
-std::size_t holes(const std::string& text) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find("{}"); at != std::string::npos; at = text.find("{}", at + 2)) ++count;
-  return count;
+std::size_t count(const std::string& text, const std::string& sought) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(sought); at != std::string::npos; at = text.find(sought, at + sought.size())) ++found;
+  return found;
+}
+
+std::size_t holes(const std::string& text) { return count(text, "{}"); }
+
+bool ends_with(const std::string& text, const std::string& end) { return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0; }
+
+// What a catalogue says, its header left out.
+std::vector<std::string> translations(const std::string& code) {
+  std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / "ui" / "language" / (code + ".po"));
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t quote = line.find('"');
+    if (line.rfind("msgstr", 0) == 0 && line.size() > quote + 2) all.push_back(line.substr(quote + 1, line.size() - quote - 2));
+  }
+  EXPECT_GT(all.size(), 500U) << code << ".po was not read";
+  return all;
 }
 
 class WordsTest : public testing::Test {
@@ -90,7 +106,7 @@ TEST_F(WordsTest, EveryTextOfTheStaffIsInTheLanguagesTheyAreOffered) {
   for (const Language language : kStaffLanguages) {
     if (language != Language::English) every_text_is_known(language, texts);
   }
-  EXPECT_EQ(staff_language(Language::Arabic), Language::Arabic);
+  for (const Language offered : {Language::German, Language::French, Language::Spanish, Language::Arabic}) EXPECT_EQ(staff_language(offered), offered);
   EXPECT_EQ(staff_language(Language::Japanese), Language::English);
 }
 
@@ -106,6 +122,29 @@ TEST_F(WordsTest, ArabicHasItsSixForms) {
   EXPECT_EQ(forms.size(), 4U);
   EXPECT_EQ(words.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", 103),
             std::string(words.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", 3)));
+}
+
+TEST_F(WordsTest, NothingIsOneInFrenchAndManyInSpanish) {
+  const auto days = [](Language language, unsigned long n) { return std::string(Words(language).plural("{} day", "{} days", n)); };
+  EXPECT_EQ(days(Language::French, 0), days(Language::French, 1));
+  EXPECT_NE(days(Language::French, 2), days(Language::French, 1));
+  EXPECT_EQ(days(Language::Spanish, 0), days(Language::Spanish, 2));
+  EXPECT_NE(days(Language::Spanish, 2), days(Language::Spanish, 1));
+}
+
+// What stands behind a breakable space, or behind none, in French; what opens and what closes in Spanish.
+TEST_F(WordsTest, FrenchAndSpanishPunctuateAsTheirReadersDo) {
+  for (const std::string& said : translations("fr")) {
+    for (std::size_t at = said.find_first_of(":;?!"); at != std::string::npos; at = said.find_first_of(":;?!", at + 1)) {
+      const bool inside_a_name = at + 1 < said.size() && said[at] == ':' && said[at + 1] != ' ';
+      EXPECT_TRUE(inside_a_name || ends_with(said.substr(0, at), "\u00a0") || ends_with(said.substr(0, at), "\u202f")) << said;
+    }
+    EXPECT_EQ(said.find('\''), std::string::npos) << said;
+  }
+  for (const std::string& said : translations("es")) {
+    EXPECT_EQ(count(said, "?"), count(said, "¿")) << said;
+    EXPECT_EQ(count(said, "!"), count(said, "¡")) << said;
+  }
 }
 
 TEST_F(WordsTest, LanguagesChangeFromOneWordToTheNext) {

@@ -19,7 +19,7 @@ enum class Language : std::uint8_t { English, German, French, Spanish, Arabic, H
 inline constexpr std::size_t kLanguages = static_cast<std::size_t>(Language::Count);
 
 // The staff's pages exist in these alone; a visitor's page exists in every one.
-inline constexpr std::array kStaffLanguages{Language::English, Language::German, Language::Arabic};
+inline constexpr std::array kStaffLanguages{Language::English, Language::German, Language::French, Language::Spanish, Language::Arabic};
 // The language itself where the staff's pages have it, else English.
 Language staff_language(Language language);
 
