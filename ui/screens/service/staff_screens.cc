@@ -15,7 +15,7 @@ constexpr const char* mark_tr(const char* english) { return english; }
 
 constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b";
 
-constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a", *kCog = "\uf493", *kFinger = "\uf4ff";
+constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe";
 
 // In the order of the menu.
 constexpr std::array kPages{
@@ -23,7 +23,7 @@ constexpr std::array kPages{
     StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true, statistics_page},
     StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false, self_test_page},
     StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false, trigger_page},
-    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kFinger, true, false, touch_page},
+    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
     StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
     StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page},
     StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page},
