@@ -132,8 +132,8 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   barred.out_of_order = Trouble::Restarted;
   g.add("trouble_restarted", barred, g.at(Step::Trouble));
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
-  if (ui::staff_language(language) == language) add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
-  if (ui::staff_language(language) == language) add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
+  add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
+  add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
   return std::move(g.exhibits);
 }
 

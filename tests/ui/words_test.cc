@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -30,13 +31,11 @@ void collect(const std::string& source, std::set<std::string>& texts) {
   }
 }
 
-// Of the staff's pages (screens/service/), or of all others.
-std::set<std::string> texts_in_the_screens(bool of_the_staff) {
+std::set<std::string> texts_in_the_screens() {
   std::set<std::string> texts;
   const std::filesystem::path screens = std::filesystem::path(RELIEVO_SOURCE_DIR) / "ui" / "screens";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(screens)) {
-    const bool staff = *entry.path().lexically_relative(screens).begin() == "service";
-    if (entry.path().extension() != ".cc" || staff != of_the_staff) continue;
+    if (entry.path().extension() != ".cc") continue;
     std::ifstream in(entry.path());
     collect({(std::istreambuf_iterator<char>(in)), {}}, texts);
   }
@@ -53,17 +52,32 @@ std::size_t holes(const std::string& text) { return count(text, "{}"); }
 
 bool ends_with(const std::string& text, const std::string& end) { return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0; }
 
-// What a catalogue says, its header left out.
-std::vector<std::string> translations(const std::string& code) {
+// What stands in a catalogue behind "msgid" or "msgstr", its header left out.
+std::vector<std::string> entries(const std::string& code, const std::string& keyword) {
   std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / "ui" / "language" / (code + ".po"));
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) {
     const std::size_t quote = line.find('"');
-    if (line.rfind("msgstr", 0) == 0 && line.size() > quote + 2) all.push_back(line.substr(quote + 1, line.size() - quote - 2));
+    if (line.rfind(keyword, 0) == 0 && line.size() > quote + 2) all.push_back(line.substr(quote + 1, line.size() - quote - 2));
   }
   EXPECT_GT(all.size(), 500U) << code << ".po was not read";
   return all;
 }
+
+std::vector<std::string> translations(const std::string& code) { return entries(code, "msgstr"); }
+
+// Whole letters of a text, none of them taken for a part of another.
+std::vector<std::string> letters(const std::string& text) {
+  std::vector<std::string> all;
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) all.emplace_back();
+    all.back() += c;
+  }
+  return all;
+}
+
+bool is_kana(const std::string& letter) { return letter >= "\u3041" && letter <= "\u30fe"; }
+bool is_east_asian(const std::string& letter) { return is_kana(letter) || (letter >= "\u4e00" && letter <= "\u9fff"); }
 
 class WordsTest : public testing::Test {
  protected:
@@ -87,27 +101,29 @@ void every_text_is_known(Language language, const std::set<std::string>& texts) 
   const std::string po{std::istreambuf_iterator<char>(in), {}};
   for (const std::string& text : texts) {
     EXPECT_TRUE(has_entry(po, text)) << code << ".po lacks: " << text;
-    const bool counts = text.find("{} second") != std::string::npos;
+    const bool counts = text.find("{} second") != std::string::npos || text.find("{} day") != std::string::npos;
     const std::string said = counts ? words.plural(text.c_str(), "", 5) : words(text.c_str());
     EXPECT_EQ(holes(said), holes(text)) << said;
   }
 }
 
-TEST_F(WordsTest, EveryTextOfAVisitorIsInEveryLanguage) {
-  const auto texts = texts_in_the_screens(false);
-  ASSERT_GT(texts.size(), 80U) << "the screens' sources were not found";
+TEST_F(WordsTest, EveryTextOfVisitorsAndStaffIsInEveryLanguage) {
+  const auto texts = texts_in_the_screens();
+  ASSERT_GT(texts.size(), 400U) << "the screens' sources were not found";
   for (std::size_t i = 0; i < kLanguages; ++i) {
     if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
   }
 }
 
-TEST_F(WordsTest, EveryTextOfTheStaffIsInTheLanguagesTheyAreOffered) {
-  const auto texts = texts_in_the_screens(true);
-  for (const Language language : kStaffLanguages) {
-    if (language != Language::English) every_text_is_known(language, texts);
-  }
-  for (const Language offered : {Language::German, Language::French, Language::Spanish, Language::Arabic}) EXPECT_EQ(staff_language(offered), offered);
-  EXPECT_EQ(staff_language(Language::Japanese), Language::English);
+TEST_F(WordsTest, EveryCatalogueHasTheSameTexts) {
+  const auto keys = [](const std::string& code) {
+    const auto all = entries(code, "msgid ");
+    const std::set<std::string> once(all.begin(), all.end());
+    EXPECT_EQ(once.size(), all.size()) << code;
+    return once;
+  };
+  const auto german = keys("de");
+  for (const char* code : {"fr", "es", "ar", "he", "zh", "ja"}) EXPECT_EQ(keys(code), german) << code;
 }
 
 TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {
@@ -144,6 +160,45 @@ TEST_F(WordsTest, FrenchAndSpanishPunctuateAsTheirReadersDo) {
   for (const std::string& said : translations("es")) {
     EXPECT_EQ(count(said, "?"), count(said, "¿")) << said;
     EXPECT_EQ(count(said, "!"), count(said, "¡")) << said;
+  }
+}
+
+TEST_F(WordsTest, HebrewCountsOneTwoAndManyChineseAndJapaneseDoNot) {
+  const auto days = [](Language language, unsigned long n) { return std::string(Words(language).plural("{} day", "{} days", n)); };
+  EXPECT_NE(days(Language::Hebrew, 1), days(Language::Hebrew, 2));
+  EXPECT_NE(days(Language::Hebrew, 2), days(Language::Hebrew, 3));
+  EXPECT_EQ(days(Language::Hebrew, 0), days(Language::Hebrew, 3));
+  for (const Language language : {Language::Chinese, Language::Japanese}) EXPECT_EQ(days(language, 1), days(language, 365));
+}
+
+// Behind their letters no mark of half a width stands, and no letter of the one in the other.
+TEST_F(WordsTest, ChineseAndJapanesePunctuateInFullWidth) {
+  for (const char* code : {"zh", "ja"}) {
+    for (const std::string& said : translations(code)) {
+      const auto all = letters(said);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i + 1 < all.size() && is_east_asian(all[i])) {
+          EXPECT_EQ(std::string(",.;:?!()").find(all[i + 1]), std::string::npos) << said;
+        }
+        if (std::string(code) == "zh") {
+          EXPECT_FALSE(is_kana(all[i])) << said;
+        }
+      }
+    }
+  }
+}
+
+// Where words run to the left, a text that begins with a figure or a name says so, and what is read as one from
+// the left is isolated.
+TEST_F(WordsTest, FiguresAndNamesDoNotTurnArabicAndHebrewRound) {
+  for (const char* code : {"ar", "he"}) {
+    for (const std::string& said : translations(code)) {
+      EXPECT_EQ(std::isalnum(static_cast<unsigned char>(said.front())), 0) << said;
+      EXPECT_EQ(count(said, "\u2066"), count(said, "\u2069")) << said;
+      for (std::size_t at = said.find('^'); at != std::string::npos; at = said.find('^', at + 1)) {
+        EXPECT_GT(count(said.substr(0, at), "\u2066"), count(said.substr(0, at), "\u2069")) << said;
+      }
+    }
   }
 }
 

@@ -29,13 +29,6 @@ const char* domain_of(Language language) { return kDomains[static_cast<std::size
 
 }  // namespace
 
-Language staff_language(Language language) {
-  for (const Language known : kStaffLanguages) {
-    if (known == language) return language;
-  }
-  return Language::English;
-}
-
 const LanguageInfo& info_of(Language language) { return kInfo[static_cast<std::size_t>(language)]; }
 
 Result<void> prepare_languages() {

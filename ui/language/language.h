@@ -18,11 +18,6 @@ namespace relievo::ui {
 enum class Language : std::uint8_t { English, German, French, Spanish, Arabic, Hebrew, Chinese, Japanese, Count };
 inline constexpr std::size_t kLanguages = static_cast<std::size_t>(Language::Count);
 
-// The staff's pages exist in these alone; a visitor's page exists in every one.
-inline constexpr std::array kStaffLanguages{Language::English, Language::German, Language::French, Language::Spanish, Language::Arabic};
-// The language itself where the staff's pages have it, else English.
-Language staff_language(Language language);
-
 struct LanguageInfo {
   const char* code;       // BCP 47
   const char* own_name;   // as its speakers write it

@@ -19,9 +19,13 @@ void welcome(StaffFrame& page) {
   list.id = "languages";
   list.box.scroll = true;
   page.tree.open(list);
-  for (const Language language : kStaffLanguages) {
+  const std::size_t abreast = page.portrait ? 1 : 2;
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
     const bool now = language == page.visit.language;
-    page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(language)});
+    if (i % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
+    page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(i)}, 1);
+    if (i % abreast == abreast - 1 || i + 1 == kLanguages) page.tree.close();
   }
   page.tree.close();
   page.button("go on", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffMode, kClock});

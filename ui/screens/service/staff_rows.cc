@@ -88,6 +88,10 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   end.box.across = Across::Centre;
   end.box.along = Along::End;
   tree.open(end);
+  Node scale = box(Flow::Row, space::kS);
+  scale.box.across = Across::Centre;
+  scale.box.left_to_right = true;  // less, then more, as on every page that counts
+  tree.open(scale);
   step_button(id, "less", tr("Less"), label, less_letter, less);
   Node middle = box(Flow::Column);
   middle.box.width = px(150 * std::min(1.3F, text_share));
@@ -95,6 +99,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   tree.leaf(text(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre));
   tree.close();
   step_button(id, "more", tr("More"), label, more_letter, more);
+  tree.close();
   tree.close();
   tree.close();
   rule();

@@ -59,10 +59,8 @@ bool may_open(StaffRole role, const StaffPageInfo& info) {
 
 const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit, const Service& service, const Rect& screen) {
   const Palette& palette = visit.high_contrast ? kHighContrast : kLight;
-  Visit spoken = visit;
-  spoken.language = staff_language(visit.language);
-  tree.begin(info_of(spoken.language).right_to_left);
-  StaffFrame page(tree, view, spoken, service, palette, screen);
+  tree.begin(info_of(visit.language).right_to_left);
+  StaffFrame page(tree, view, visit, service, palette, screen);
   Node root = page.box(Flow::Stack);
   root.id = "screen";
   tree.open(root);
