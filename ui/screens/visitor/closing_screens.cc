@@ -7,14 +7,32 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kCorner = 16;   // as the staff's way in has it (staff_entrance)
+
+// What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads it in
+// their language, and as large as they need it.
+void tools(Page& page) {
+  Node row = page.box(Flow::Row, space::kS);
+  row.box.along = Along::End;
+  page.tree.open(row);
+  page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  page.square_button("contrast", page.tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  if (page.view.service != nullptr && page.visit.step == Step::Trouble) page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
+  page.tree.close();
+}
+
 // One column in the middle of the page, with a sign on top.
-void begin_message(Page& page, const char* letter, Colour colour) {
-  Node root = page.box(Flow::Column, space::kM, 40, 40);
+void begin_message(Page& page, const char* letter, Colour colour, bool with_tools) {
+  Node root = page.box(Flow::Column, space::kM, kCorner, kCorner);
   root.id = "page";
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;
-  root.box.across = Across::Centre;
   page.tree.open(root);
+  if (with_tools) tools(page);
+  Node middle = page.grown(page.box(Flow::Column, 0, 24, with_tools ? 0 : 24));
+  middle.box.across = Across::Centre;
+  page.tree.open(middle);
   Node column = page.grown(page.box(Flow::Column, space::kM));
   column.box.max_width = page.px(860);
   column.box.width = page.px(std::min(860.0F, page.width_dp - 80));
@@ -26,6 +44,7 @@ void begin_message(Page& page, const char* letter, Colour colour) {
 }
 
 void end_message(Page& page) {
+  page.tree.close();
   page.tree.close();
   page.tree.close();
 }
@@ -67,7 +86,7 @@ Words4 words_of(const Page& page) {
 
 void thanks_screen(Page& page) {
   const auto& tr = page.tr;
-  begin_message(page, icon::kGood, page.palette.good);
+  begin_message(page, icon::kGood, page.palette.good, true);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
   page.body("what", tr("To have it erased, quote this code to the staff. You may take a photograph of it."), TextAlign::Centre);
   Node row = page.box(Flow::Row);
@@ -93,7 +112,7 @@ void thanks_screen(Page& page) {
 
 void trouble_screen(Page& page) {
   const Words4 said = words_of(page);
-  begin_message(page, said.letter, page.palette.warn);
+  begin_message(page, said.letter, page.palette.warn, true);
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
@@ -102,7 +121,7 @@ void trouble_screen(Page& page) {
 }
 
 void starting_screen(Page& page) {
-  begin_message(page, icon::kWait, page.palette.good);
+  begin_message(page, icon::kWait, page.palette.good, false);
   page.heading("title", page.tr("One moment, please"), type::kTitle, TextAlign::Centre);
   page.body("what", page.tr("This device is starting and tests itself."), TextAlign::Centre);
   end_message(page);
