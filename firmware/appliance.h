@@ -65,6 +65,8 @@ class Appliance {
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
   // How many faces on end have said that they have moved too far to be measured with. Kept over visits.
   int moved_in_a_row() const { return moved_in_a_row_; }
+  // What an earlier run of the device knew of the calibration in use; before anything runs.
+  void remember_moved(int faces) { moved_in_a_row_ = faces; }
   // Another calibration is in use: what was said against the one before counts no more.
   void calibrated_anew();
   // For the technician: what the last face that could tell said against the calibration; else empty.

@@ -15,11 +15,13 @@ namespace relievo::ui {
 
 struct ConsentPoint {
   std::string title, words;
+  bool operator==(const ConsentPoint&) const = default;
 };
 
 struct ConsentText {
   std::string title;
   std::vector<ConsentPoint> points;
+  bool operator==(const ConsentText&) const = default;
 };
 
 struct ConsentTexts {
@@ -29,6 +31,7 @@ struct ConsentTexts {
     const auto& text = in[static_cast<std::size_t>(language)];
     return text ? &*text : nullptr;
   }
+  bool operator==(const ConsentTexts&) const = default;
 };
 
 }  // namespace relievo::ui

@@ -19,7 +19,7 @@ enum class StaffRole : std::uint8_t { None, Technician, Operator };
 // Every page of the staff's side. Pin and FirstStart need no role; the rest are rows of kStaffPages.
 enum class StaffPage : std::uint8_t {
   Pin, FirstStart, Menu,
-  Records, Statistics,                             // operator's
+  Records, Statistics, Consent,                    // operator's
   Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate,  // technician's, on the workbench
   SelfTest, Trigger, Touch, Health, Log,  // technician's
   Settings, Pins,                                  // everybody's
@@ -55,6 +55,7 @@ struct AccessView {
   bool checking = false;
   bool wrong = false;           // the last one was
   int wait_s = 0;               // until the next try
+  bool consent_right = false;   // somebody has seen which consent text is in force, and goes on with it
   bool forgotten = false;       // not set up, because one of the two is to be chosen anew
 };
 
@@ -76,6 +77,7 @@ struct ServiceView {
   const struct TriggerView* trigger = nullptr;
   const struct HealthView* health = nullptr;
   const struct LogView* log = nullptr;
+  const struct ConsentShelfView* consent = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
   const struct BenchView* bench = nullptr;   // of all pages on the workbench

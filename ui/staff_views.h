@@ -45,6 +45,16 @@ struct LogView {
   std::span<const std::string_view> lines;   // newest first
 };
 
+// --- consent text: which is in force, ViewState::consent says --------------------------------------
+inline constexpr std::uint8_t kConsentTake = 5;   // from the stick; also on the page of the first start
+
+struct ConsentShelfView {
+  bool taking = false;
+  Outcome outcome = Outcome::None;   // of the last try; Done: it is in force. NotFound: the stick has no such folder
+  std::string_view file;          // what is wrong, by its name
+  std::string_view fault;         // and why: English, the key of its words
+};
+
 // --- self-test --------------------------------------------------------------------------------------
 inline constexpr std::uint8_t kSelfTestBegin = 1;
 enum class Check : std::uint8_t { Memory, Store, Calibration, Disk, Cameras, Count };

@@ -35,21 +35,8 @@ bool is_text(const std::string& text) {
   return true;
 }
 
-Result<std::string> read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(kMostConsentBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (!in.eof() && in.fail())) return Error{Errc::IoFailed, "cannot be read"}.at(file.string());
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostConsentBytes) return wrong(file, "is longer than 20000 bytes: a visitor would not read it");
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  std::erase(text, '\r');
-  if (!is_text(text)) return wrong(file, "is not UTF-8 text: save it as UTF-8");
-  return text;
-}
-
 Result<ui::ConsentText> parse(const fs::path& file) {
-  RELIEVO_TRY_ASSIGN(const std::string text, read_text(file));
+  RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(file));
   std::istringstream lines(text);
   ui::ConsentText consent;
   bool in_block = false;
@@ -82,28 +69,54 @@ std::optional<std::size_t> language_of(const fs::path& file) {
 
 }  // namespace
 
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+Result<std::string> read_consent_text(const fs::path& file) {
+  std::error_code error;
+  // A link on a stick would lead to a file of the device.
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return wrong(file, "is no file: a text in a language is a file of its own");
+  std::ifstream in(file, std::ios::binary);
+  std::string text(kMostConsentBytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (!in.eof() && in.fail())) return Error{Errc::IoFailed, "cannot be read"}.at(file.string());
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kMostConsentBytes) return wrong(file, "is longer than 20000 bytes: a visitor would not read it");
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  std::erase(text, '\r');
+  if (!is_text(text)) return wrong(file, "is not UTF-8 text: save it as UTF-8");
+  return text;
+}
+
+Result<ui::ConsentTexts> read_consent_version(const fs::path& folder, const std::string& version) {
+  std::error_code error;
+  ui::ConsentTexts texts;
+  texts.version = version;
+  bool any = false;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_hidden(entry->path())) continue;
+    const auto language = language_of(entry->path());
+    if (!language) return wrong(entry->path(), "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt");
+    RELIEVO_TRY_ASSIGN(texts.in[*language], parse(entry->path()));
+    any = true;
+  }
+  if (error) return Error{Errc::IoFailed, "cannot be read"}.at(folder.string());
+  if (!any) return wrong(folder, "has no text in it: LANGUAGE.txt is missing");
+  return texts;
+}
+
 Result<std::optional<ui::ConsentTexts>> read_consent(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return std::optional<ui::ConsentTexts>{};
   fs::path newest;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (!is_version(entry.path().filename().string()) || !entry.is_directory(error))
-      return wrong(entry.path(), "is no version of a consent text: a folder, named with letters, digits, dot, dash and underscore");
-    newest = std::max(newest, entry.path());
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_hidden(entry->path())) continue;
+    if (!is_version(entry->path().filename().string()) || !entry->is_directory(error))
+      return wrong(entry->path(), "is no version of a consent text: a folder, named with letters, digits, dot, dash and underscore");
+    newest = std::max(newest, entry->path());
   }
   if (error) return Error{Errc::IoFailed, "cannot be read"}.at(folder.string());
   if (newest.empty()) return wrong(folder, "has no version in it: make VERSION/LANGUAGE.txt, or remove it to show the sample");
-  ui::ConsentTexts texts;
-  texts.version = newest.filename().string();
-  bool any = false;
-  for (const auto& entry : fs::directory_iterator(newest, error)) {
-    const auto language = language_of(entry.path());
-    if (!language) return wrong(entry.path(), "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt");
-    RELIEVO_TRY_ASSIGN(texts.in[*language], parse(entry.path()));
-    any = true;
-  }
-  if (error) return Error{Errc::IoFailed, "cannot be read"}.at(newest.string());
-  if (!any) return wrong(newest, "has no text in it: LANGUAGE.txt is missing");
+  RELIEVO_TRY_ASSIGN(auto texts, read_consent_version(newest, newest.filename().string()));
   return std::optional(std::move(texts));
 }
 

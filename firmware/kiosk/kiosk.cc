@@ -9,7 +9,6 @@
 #include "firmware/command/line/algorithm_choice.h"
 #include "firmware/command/reconstruct/report.h"
 #include "firmware/kiosk/code/code_guard.h"
-#include "firmware/kiosk/consent_files.h"
 #include "firmware/kiosk/receipt.h"
 #include "firmware/service/device/disk_room.h"
 #include "firmware/view/view_of.h"
@@ -88,8 +87,6 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
-  RELIEVO_TRY_ASSIGN(consent_, read_consent(store_folder(args.store) / "consent"));
-  for (std::size_t i = 0; i < ui::kLanguages; ++i) languages_[i] = !consent_ || consent_->in[i].has_value();
   may_tell_known_ = args.tells_known;
   folder_ = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
@@ -109,6 +106,9 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     if (!asked) found_.store(quoted_.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode);
     return asked;
   }});
+  moved_faces_ = std::make_unique<MovedFaces>(*store_);
+  RELIEVO_TRY_ASSIGN(const int moved, moved_faces_->read(revision_));
+  appliance_->remember_moved(moved);
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   desk_->set_bench(make_bench(args, services));
   code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
@@ -193,12 +193,15 @@ void Kiosk::look() {
   view_.now = board_->clock().now();
   view_.wall_now = board_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
-  view_.languages = languages_;
+  if (ui_->service().open || ui_->visit().step == ui::Step::Attract) desk_->consent().adopt();
+  view_.consent = desk_->consent().now();
+  for (std::size_t i = 0; i < ui::kLanguages; ++i) languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
+  // The staff read their pages in languages of their own; a visitor what can be consented to.
+  view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
   view_.settings = desk_->settings();
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
-  while (!languages_[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
-  view_.consent = consent_ ? &*consent_ : nullptr;
+  while (!view_.languages[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = found_.load(std::memory_order_acquire);
   view_.out_of_order = out_of_order();
   if (showpiece_) view_.showpiece = &showpiece_->model();
@@ -223,7 +226,7 @@ void Kiosk::ask(ui::Intent intent) {
   if (!measures && appliance_->state() == State::Idle && (intent == ui::Intent::Pose || intent == ui::Intent::Begin)) return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
-    consented_ = {consent_ ? consent_->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand, view_.settings.of(ui::Setting::LeastRoomMib)};
+    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand, view_.settings.of(ui::Setting::LeastRoomMib)};
     appliance_->set_subject(wish.errand == ui::Errand::New ? wish.name : std::string_view(claimed_));
   }
   if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
@@ -249,6 +252,7 @@ void Kiosk::forget_asked() {
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
   desk_->turn();
+  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician) moved_faces_->keep(revision_, appliance_->moved_in_a_row(), desk_->errands(), desk_->log());
   if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there
   look();
   if (auto shown = code_sight_->turn(ui_->visit(), view_.now)) {

@@ -19,6 +19,7 @@
 #include "firmware/appliance.h"
 #include "firmware/command/services.h"
 #include "firmware/kiosk/code/code_sight.h"
+#include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/showpiece.h"
 #include "firmware/service/desk.h"
@@ -78,7 +79,6 @@ class Kiosk {
   std::unique_ptr<ui::Ui> ui_;
   std::uint32_t revision_ = 0;
   Consented consented_;
-  std::optional<ui::ConsentTexts> consent_;
   std::bitset<ui::kLanguages> languages_;
   // A name that is asked about, a code that is quoted, and the record both belong to. Main's, but while
   // the keeper looks up: then Asking is to be seen, and found_ is written last.
@@ -88,6 +88,7 @@ class Kiosk {
   bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;
   Path folder_;                 // of the store
   std::unique_ptr<RunMark> run_mark_;
+  std::unique_ptr<MovedFaces> moved_faces_;
   bool restarted_ = false, told_ = false;
   storage::WallTime newest_record_{};
   std::string receipt_;         // written by the keeper while the state is Store

@@ -55,6 +55,19 @@ ui::Settings kept_for_a_year() {
   return settings;
 }
 
+const ui::ConsentTexts& own_text() {
+  static const ui::ConsentTexts kOwn = [] {
+    ui::ConsentTexts own;
+    own.version = "2026-03";
+    const auto say = [&](ui::Language language, const char* title) { own.in[static_cast<std::size_t>(language)] = ui::ConsentText{title, {{"1", "2"}}}; };
+    say(ui::Language::English, "What we do with your portrait");
+    say(ui::Language::German, "Was mit Ihrem Bildnis geschieht, wie lange es aufbewahrt wird und wie Sie es löschen lassen");
+    say(ui::Language::Arabic, "ماذا يحدث لصورتك");
+    return own;
+  }();
+  return kOwn;
+}
+
 ServiceView at(StaffRole role) {
   ServiceView view;
   view.role = role;
@@ -103,6 +116,12 @@ std::deque<Shown> make_shown() {
   all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
   all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
   fresh.access.clock_right = true;
+  static const ui::ConsentShelfView kUntouched{}, kWrong{false, ui::Outcome::Refused, "zh.txt", "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
+  fresh.consent = &kUntouched;
+  all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
+  fresh.consent = &kWrong;
+  all.push_back({"staff_first_consent_wrong", StaffPage::FirstStart, 1, fresh});
+  fresh.access.consent_right = true;
   fresh.access.fault = ui::PinFault::Simple;
   all.push_back({"staff_first_pin", StaffPage::FirstStart, 1, fresh});
   fresh.access.forgotten = true;
@@ -152,6 +171,9 @@ std::deque<Shown> make_shown() {
   settings.settings = &kJumped;
   settings.work.outcome = ui::Outcome::Done;
   all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
+  static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, {}, {}};
+  settings.consent = &kInForce;
+  all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
   add_touch(all);
   ServiceView pins = at(StaffRole::Operator);
   pins.access.step = ui::PinStep::Own;
@@ -170,6 +192,7 @@ void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idl
     Exhibit exhibit{shown.name, idle, visit, {}};
     exhibit.view.screen = ui::Screen::Technician;
     exhibit.view.service = &shown.view;
+    if (shown.page == StaffPage::Consent) exhibit.view.consent = &own_text();
     exhibit.service.show(shown.page, shown.mode);
     exhibits.push_back(exhibit);
   }

@@ -50,8 +50,9 @@ Desk::Desk(Parts parts)
     : parts_(std::move(parts)), log_(parts_.board.clock(), parts_.folder / kLogFile), errands_(parts_.appliance),
       settings_(parts_.store, errands_, log_, parts_.board.clock()), retention_(parts_.store, errands_, log_, parts_.board.clock()),
       touch_(parts_.store, errands_, log_, parts_.board.clock()),
-      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, parts_.folder},
-      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, parts_.board.is_live()}) {
+      consent_(parts_.folder, parts_.board.media(), errands_, log_),
+      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, consent_, parts_.folder},
+      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, consent_, parts_.board.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });
 }
@@ -67,6 +68,7 @@ Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
   RELIEVO_TRY(desk->door_.look());
   RELIEVO_TRY(desk->settings_.look());
   RELIEVO_TRY(desk->touch_.look());
+  RELIEVO_TRY(desk->consent_.look());
   const Result<std::string> kept = desk->parts_.store.setting(kStatisticsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !desk->statistics_.read(*kept))
@@ -176,6 +178,8 @@ const ui::ServiceView& Desk::view() {
   view_.role = role_;
   if (inside() && parts_.appliance.state() == State::Technician && seconds_left() <= kWarning.count()) view_.leaves_in_s = seconds_left();
   door_.show(view_.access);
+  consent_.show(consent_view_);
+  view_.consent = &consent_view_;
   if (page_ != nullptr) page_->show(view_);
   return view_;
 }

@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "firmware/bench/bench.h"
+#include "firmware/service/consent_shelf.h"
 #include "firmware/service/desk_page.h"
 #include "firmware/service/device/device_settings.h"
 #include "firmware/service/device/retention.h"
@@ -42,6 +43,7 @@ class Desk {
   // The technician's picture pages. Once, before anybody signs in.
   void set_bench(std::unique_ptr<Bench> bench);
   Errands& errands() { return errands_; }
+  const Errands& errands() const { return errands_; }
 
   void ask(const ui::StaffWish& wish);
   void touched();
@@ -55,6 +57,7 @@ class Desk {
   const Statistics& statistics() const { return statistics_; }
   const ui::Settings& settings() const { return settings_.now(); }
   TouchTrial& touch() { return touch_; }
+  ConsentShelf& consent() { return consent_; }
 
  private:
   explicit Desk(Parts parts);
@@ -73,6 +76,8 @@ class Desk {
   DeviceSettings settings_;
   RetentionWatch retention_;
   TouchTrial touch_;
+  ConsentShelf consent_;
+  ui::ConsentShelfView consent_view_;
   DeskTools tools_;
   Door door_;
   std::uint64_t saved_statistics_ = 0;

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "firmware/service/consent_shelf.h"
 #include "firmware/service/device/device_settings.h"
 #include "firmware/service/device/retention.h"
 #include "firmware/service/device/touch_trial.h"
@@ -38,6 +39,7 @@ struct DeskTools {
   DeviceSettings& settings;
   RetentionWatch& retention;
   TouchTrial& touch;
+  ConsentShelf& consent;
   std::filesystem::path folder;   // of the store
   ui::StaffRole role = ui::StaffRole::None;   // of who is signed in
 };

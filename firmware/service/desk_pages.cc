@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/desk_pages.h"
 
+#include "firmware/service/page/consent_desk.h"
 #include "firmware/service/page/health_desk.h"
 #include "firmware/service/page/records_desk.h"
 #include "firmware/service/page/settings_desk.h"
@@ -16,6 +17,7 @@ void fill_desk_pages(DeskTools& tools, std::span<std::unique_ptr<DeskPage>> page
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<DeskPage>& { return pages[static_cast<std::size_t>(page)]; };
   at(ui::StaffPage::Records) = std::make_unique<RecordsDesk>(tools);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsDesk>(tools);
+  at(ui::StaffPage::Consent) = std::make_unique<ConsentDesk>(tools);
   at(ui::StaffPage::SelfTest) = std::make_unique<SelfTestDesk>(tools);
   at(ui::StaffPage::Trigger) = std::make_unique<TriggerDesk>(tools);
   at(ui::StaffPage::Log) = std::make_unique<LogDesk>(tools);

@@ -7,6 +7,7 @@
 #include "firmware/command/wall_time.h"
 #include "firmware/service/pin_hash.h"
 #include "ui/screens/service/pin_verbs.h"
+#include "ui/staff_views.h"
 
 namespace relievo::firmware {
 namespace {
@@ -21,7 +22,7 @@ const char* word_of(StaffRole role) { return role == StaffRole::Technician ? "te
 }  // namespace
 
 Door::Door(Parts parts)
-    : store_(parts.store), clock_(parts.clock), errands_(parts.errands), log_(parts.log), set_clock_(std::move(parts.set_clock)),
+    : store_(parts.store), clock_(parts.clock), errands_(parts.errands), log_(parts.log), set_clock_(std::move(parts.set_clock)), consent_(parts.consent),
       access_(store_, clock_), demands_set_up_(parts.demands_set_up) {}
 
 Result<void> Door::look() {
@@ -34,7 +35,8 @@ Result<void> Door::look() {
 
 void Door::opened(StaffPage page) {
   forget();
-  wrong_ = clock_right_ = clock_refused_ = false;
+  wrong_ = clock_right_ = clock_refused_ = consent_right_ = false;
+  if (page == StaffPage::FirstStart) consent_.opened();
   clock_moved_ = std::chrono::minutes(0);
   fault_ = PinFault::None;
   step_ = page == StaffPage::Pins ? PinStep::Own : forgotten_ == StaffRole::Operator ? PinStep::Operator : PinStep::Technician;
@@ -52,6 +54,8 @@ void Door::ask(const ui::StaffWish& wish, StaffRole role) {
   if (wish.verb == ui::kPinOffer && (first || (wish.page == StaffPage::Pins && role != StaffRole::None))) return offer(wish.text(), role);
   if (first && wish.verb == ui::kClockMove) clock_moved_ += std::chrono::minutes(wish.number);
   if (first && wish.verb == ui::kClockSet) set_clock();
+  if (first && wish.verb == ui::kConsentTake) consent_.take();
+  if (first && wish.verb == ui::kConsentRight) consent_right_ = true;
 }
 
 void Door::set_clock() {
@@ -119,9 +123,12 @@ void Door::offered_again(std::string_view pin, StaffRole role) {
     step_ = before;
     return wipe_text(first_);
   }
-  if (before == PinStep::Own) return save_own(std::exchange(first_, {}), role);
-  if (forgotten_ != StaffRole::None) return save_again(std::exchange(first_, {}), forgotten_);
-  if (before == PinStep::Operator) return save_first(std::exchange(technician_, {}), std::exchange(first_, {}));
+  if (before == PinStep::Own)
+    return save({std::exchange(first_, {}), {}}, before, [this, role](const Pins& pins) { return access_.set(role, pins.one); }, std::string(word_of(role)) + " changed their PIN");
+  if (forgotten_ != StaffRole::None)
+    return save({std::exchange(first_, {}), {}}, before, [this, whose = forgotten_](const Pins& pins) { return access_.choose_again(whose, pins.one); }, "the " + std::string(word_of(forgotten_)) + "'s PIN was chosen anew");
+  if (before == PinStep::Operator)
+    return save({std::exchange(technician_, {}), std::exchange(first_, {})}, PinStep::Technician, [this](const Pins& pins) { return access_.set_up(pins.one, pins.clerk); }, "both PINs were chosen");
   technician_ = std::exchange(first_, {});
   step_ = PinStep::Operator;
 }
@@ -149,64 +156,28 @@ void Door::refuse(const Error& error, PinStep again) {
   if (error.code != Errc::InvalidState && error.code != Errc::InvalidInput) log_.fault(error);
 }
 
-void Door::save_first(std::string technician, std::string clerk) {
-  const auto pins = std::make_shared<std::pair<std::string, std::string>>(std::move(technician), std::move(clerk));
+// A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a device that
+// is new has both at once or none.
+void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins&)> write, std::string said) {
+  const auto kept = std::make_shared<Pins>(std::move(pins));
   checking_ = true;
   errands_.send(
       JobPlace::Keeper,
-      [this, pins](JobControl&) {
-        const Result<void> saved = access_.set_up(pins->first, pins->second);
-        wipe_text(pins->first);
-        wipe_text(pins->second);
+      [kept, write = std::move(write)](JobControl&) {
+        const Result<void> saved = write(*kept);
+        wipe_text(kept->one);
+        wipe_text(kept->clerk);
         return saved;
       },
-      [this](const std::optional<Error>& error) {
+      [this, begins, said = std::move(said)](const std::optional<Error>& error) {
         checking_ = false;
-        if (error) return refuse(*error, PinStep::Technician);
-        set_up_ = true;
+        if (error) return refuse(*error, begins);
+        if (begins != PinStep::Own) {
+          forgotten_ = StaffRole::None;
+          set_up_ = true;
+        }
         step_ = PinStep::Done;
-        log_.say("both PINs were chosen");
-      },
-      Errands::Whose::Device);
-}
-
-// One of the two was forgotten: only that one is chosen.
-void Door::save_again(std::string pin, StaffRole role) {
-  const auto kept = std::make_shared<std::string>(std::move(pin));
-  checking_ = true;
-  errands_.send(
-      JobPlace::Keeper,
-      [this, kept, role](JobControl&) {
-        const Result<void> saved = access_.choose_again(role, *kept);
-        wipe_text(*kept);
-        return saved;
-      },
-      [this, role](const std::optional<Error>& error) {
-        checking_ = false;
-        if (error) return refuse(*error, role == StaffRole::Technician ? PinStep::Technician : PinStep::Operator);
-        forgotten_ = StaffRole::None;
-        set_up_ = true;
-        step_ = PinStep::Done;
-        log_.say("the " + std::string(word_of(role)) + "'s PIN was chosen anew");
-      },
-      Errands::Whose::Device);
-}
-
-void Door::save_own(std::string pin, StaffRole role) {
-  const auto kept = std::make_shared<std::string>(std::move(pin));
-  checking_ = true;
-  errands_.send(
-      JobPlace::Keeper,
-      [this, kept, role](JobControl&) {
-        const Result<void> saved = access_.set(role, *kept);
-        wipe_text(*kept);
-        return saved;
-      },
-      [this, role](const std::optional<Error>& error) {
-        checking_ = false;
-        if (error) return refuse(*error, PinStep::Own);
-        step_ = PinStep::Done;
-        log_.say(std::string(word_of(role)) + " changed their PIN");
+        log_.say(said);
       },
       Errands::Whose::Device);
 }
@@ -216,7 +187,7 @@ void Door::show(ui::AccessView& view) const {
   const auto minute = std::chrono::floor<std::chrono::minutes>(clock_.wall_now() + clock_moved_);
   if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
   clock_text_at_ = minute;
-  view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count())), forgotten_ != StaffRole::None};
+  view = {set_up_, demands_set_up_, step_, fault_, clock_text_, clock_right_, clock_refused_, checking_, wrong_, static_cast<int>(std::max<std::int64_t>(0, wait.count())), consent_right_, forgotten_ != StaffRole::None};
 }
 
 }  // namespace relievo::firmware

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "firmware/service/access.h"
+#include "firmware/service/consent_shelf.h"
 #include "firmware/service/errands.h"
 #include "firmware/service/event_log.h"
 #include "ui/service.h"
@@ -28,6 +29,7 @@ class Door {
     Errands& errands;
     EventLog& log;
     SetClock set_clock;
+    ConsentShelf& consent;
     bool demands_set_up = false;   // see ui::AccessView::demanded
   };
   explicit Door(Parts parts);
@@ -46,13 +48,15 @@ class Door {
   bool is_set_up() const { return set_up_; }
 
  private:
+  struct Pins {
+    std::string one, clerk;   // the operator's, where both are chosen
+  };
   void check(std::string_view pin);
   void offer(std::string_view pin, ui::StaffRole role);
   void offered_again(std::string_view pin, ui::StaffRole role);
-  void save_first(std::string technician, std::string clerk);
   void judge(std::string pin, ui::StaffRole role, ui::PinStep next);
-  void save_again(std::string pin, ui::StaffRole role);
-  void save_own(std::string pin, ui::StaffRole role);
+  // `begins` is where who is refused begins again; `said` goes to the log.
+  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write, std::string said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
 
@@ -61,9 +65,10 @@ class Door {
   Errands& errands_;
   EventLog& log_;
   SetClock set_clock_;
+  ConsentShelf& consent_;
   Access access_;
   const bool demands_set_up_;
-  bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false;
+  bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false, consent_right_ = false;
   ui::StaffRole forgotten_ = ui::StaffRole::None;   // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
   ui::PinStep step_ = ui::PinStep::Technician;

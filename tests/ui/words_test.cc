@@ -8,6 +8,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -124,6 +125,21 @@ TEST_F(WordsTest, EveryCatalogueHasTheSameTexts) {
   };
   const auto german = keys("de");
   for (const char* code : {"fr", "es", "ar", "he", "zh", "ja"}) EXPECT_EQ(keys(code), german) << code;
+}
+
+// What is wrong with a consent text is said by whom reads it: the sentences of its errors are keys, too.
+TEST_F(WordsTest, EveryFaultOfAConsentTextIsInTheLanguagesOfTheStaff) {
+  std::set<std::string> texts;
+  for (const char* file : {"firmware/kiosk/consent_files.cc", "firmware/service/consent_shelf.cc"}) {
+    std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / file);
+    const std::string source{std::istreambuf_iterator<char>(in), {}};
+    static const std::regex fault(R"rx((?:Errc::(?:InvalidInput|IoFailed), |wrong\([^"]*)"([^"]+)")rx");
+    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) texts.insert((*at)[1]);
+  }
+  ASSERT_EQ(texts.size(), 15U);
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
+  }
 }
 
 TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {

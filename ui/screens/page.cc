@@ -130,16 +130,18 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   tree.close();
 }
 
-std::string_view Page::filled(const char* words, std::string_view value) {
-  const std::string_view all(words);
-  const std::size_t at = all.find("{}");
-  if (at == std::string_view::npos) return all;
-  // First strong isolate … pop: a name or number keeps its own direction.
-  const std::string_view before = all.substr(0, at), after = all.substr(at + 2);
-  const std::string_view first = tree.keep(before);
-  std::size_t length = first.size();
-  for (const std::string_view part : {std::string_view("\u2068"), value, std::string_view("\u2069"), after}) length += tree.keep(part).size();
-  return {first.data(), length};
+std::string_view Page::filled(const char* words, std::initializer_list<std::string_view> values) {
+  std::string_view rest(words);
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const std::string_view value : values) {
+    const std::size_t at = rest.find("{}");
+    if (at == std::string_view::npos) break;
+    // First strong isolate … pop: a name or number keeps its own direction.
+    for (const std::string_view part : {rest.substr(0, at), std::string_view("\u2068"), value, std::string_view("\u2069")}) length += tree.keep(part).size();
+    rest.remove_prefix(at + 2);
+  }
+  return {first.data(), length + tree.keep(rest).size()};
 }
 
 void Page::begin(bool with_back) {

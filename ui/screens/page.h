@@ -6,6 +6,7 @@
 // Thread: main. Errors: none.
 #pragma once
 
+#include <initializer_list>
 #include <string_view>
 
 #include "ui/language/language.h"
@@ -75,7 +76,9 @@ class Page {
   }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
-  std::string_view filled(const char* words, std::string_view value);
+  std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
+  // The same for several, in the order of their places.
+  std::string_view filled(const char* words, std::initializer_list<std::string_view> values);
 
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);

@@ -17,10 +17,7 @@ class StaffCaptureTest : public StaffHands, public testing::WithParamInterface<b
     start();
     if (changes.live) {
       kiosk->turn();
-      tap("go on");
-      tap("clock right");
-      for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
-      ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+      choose_pins();
     } else {
       first_start();
     }

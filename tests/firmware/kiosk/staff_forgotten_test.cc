@@ -31,10 +31,7 @@ class StaffForgottenTest : public StaffHands, public testing::WithParamInterface
   void set_up() {
     changes.live = GetParam();
     begin_anew();
-    tap("go on");
-    tap("clock right");
-    for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
-    ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
+    choose_pins();
   }
   hal::ManualClock time;
 };
@@ -47,6 +44,7 @@ TEST_P(StaffForgottenTest, OneRoleChoosesItsPinAnewAndTheOthersStays) {
   begin_anew();
   ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
   EXPECT_EQ(find("clock right"), nullptr) << "nothing else is asked";
+  EXPECT_EQ(find("consent right"), nullptr);
   type_pin("4711");
   EXPECT_EQ(kiosk->view().service->access.fault, ui::PinFault::Taken) << "the technician's is still there";
   type_pin("60915");

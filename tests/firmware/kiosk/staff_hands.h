@@ -143,6 +143,7 @@ class StaffHands : public KioskHands {
   void choose_pins() {
     tap("go on");
     tap("clock right");
+    tap("consent right");
     for (const char* pin : {"4711", "4711", "80526", "80526"}) type_pin(pin);
     ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
   }

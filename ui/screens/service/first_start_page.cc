@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The first start: language, clock, both PINs; and the page on which somebody changes their own.
+// The first start: language, clock, consent text, both PINs; and the page on which somebody changes their own.
 #include "ui/screens/service/pin_verbs.h"
 #include "ui/screens/service/staff_screens.h"
+#include "ui/staff_views.h"
 
 namespace relievo::ui {
 namespace {
@@ -14,7 +15,7 @@ constexpr const char* kClockSign = "\uf0f0";
 void welcome(StaffFrame& page) {
   const auto& tr = page.tr;
   page.heading("welcome", tr("This device is new"), type::kHeading);
-  page.body("what", tr("Choose a language, look at the clock, and choose two PINs: one for the technician, one for the operator."));
+  page.body("what", tr("Choose a language, look at the clock and at the consent text, and choose two PINs: one for the technician, one for the operator."));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "languages";
   list.box.scroll = true;
@@ -75,6 +76,14 @@ void clock(StaffFrame& page) {
   page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffDo, kClockSet});
 }
 
+void consent(StaffFrame& page) {
+  const auto& tr = page.tr;
+  const bool own = page.view.consent != nullptr, busy = page.staff.consent == nullptr || page.staff.consent->taking;
+  page.heading("consent title", tr("What do visitors consent to?"), type::kHeading);
+  consent_in_force(page);
+  page.button("consent right", own ? tr("Go on with this text") : tr("Go on with the sample"), page.onward(), ButtonLook::Main, busy ? Action{} : Action{ActionKind::StaffDo, kConsentRight});
+}
+
 const char* title_of(const Words& tr, PinStep step) {
   switch (step) {
     case PinStep::Technician: return tr("Choose the technician's PIN");
@@ -118,6 +127,7 @@ void first_start_page(StaffFrame& page) {
   page.begin(page.tr("First start"), kClockSign);
   if (page.service.mode == kWelcome) welcome(page);
   else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);
+  else if (page.service.mode == kClock && !page.staff.access.consent_right) consent(page);
   else new_pin(page);
   page.end();
 }

@@ -16,6 +16,8 @@ inline constexpr std::uint8_t kPinOffer = 2;
 inline constexpr std::uint8_t kClockMove = 3;  // FirstStart: number: minutes to add to the shown time
 inline constexpr std::uint8_t kClockSet = 4;   // FirstStart: the shown time is right
 
+inline constexpr std::uint8_t kConsentRight = 6;  // FirstStart: the consent text in force is meant to be (5: kConsentTake)
+
 // Words at the start, dots and digits.
 void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood mood, Action done);
 

@@ -49,9 +49,7 @@ void working(StaffFrame& page) {
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
   const auto figure = [&](int value) { return page.number(value); };
-  const std::string_view first = page.filled(page.tr("Whole on the stick: {} of {}. Nothing else on it counts."), figure(seen.whole));
-  page.tree.keep({"", 1});  // its end, for the second figure
-  Node line = page.text(page.filled(first.data(), figure(seen.asked)), type::kSmall, Weight::Regular, page.palette.ink);
+  Node line = page.text(page.filled(page.tr("Whole on the stick: {} of {}. Nothing else on it counts."), {figure(seen.whole), figure(seen.asked)}), type::kSmall, Weight::Regular, page.palette.ink);
   line.id = "whole";
   line.role = Role::Status;
   page.tree.leaf(line);

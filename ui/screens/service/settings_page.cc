@@ -99,6 +99,11 @@ void settings_page(StaffFrame& page) {
   group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr("Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
+  if (page.staff.role == StaffRole::Operator) {
+    page.section(tr("Consent"));
+    const ConsentTexts* own = page.view.consent;
+    page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"), own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
+  }
   if (page.staff.settings->clock_jumped) page.line(tr("The clock has jumped ahead: nothing is erased. Look at the clock, then choose the time again."), Mood::Warn);
   page.tree.close();
 }

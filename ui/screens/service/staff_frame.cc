@@ -116,7 +116,7 @@ void StaffFrame::outcome() {
   status("outcome", words, mood);
 }
 
-void StaffFrame::status(std::string_view id, const char* words, Mood mood) {
+void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) {
   Node row = box(Flow::Row, space::kS, 0, 4);
   row.id = id;
   row.role = Role::Status;

@@ -46,7 +46,7 @@ class StaffFrame : public Page {
   }
   void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
-  void status(std::string_view id, const char* words, Mood mood);
+  void status(std::string_view id, std::string_view words, Mood mood);
   // How the page's work ended, with a sign; nothing where nothing has.
   void outcome();
   // A big question in place of the page: two answers.

@@ -13,7 +13,7 @@ namespace {
 // Marks words for the catalogues; the frame translates them when it draws.
 constexpr const char* mark_tr(const char* english) { return english; }
 
-constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b";
+constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016", *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kDocument = "\uf219";
 
 constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe";
 
@@ -21,6 +21,7 @@ constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb",
 constexpr std::array kPages{
     StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page},
     StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true, statistics_page},
+    StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true, consent_text_page},
     StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false, self_test_page},
     StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false, trigger_page},
     StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},

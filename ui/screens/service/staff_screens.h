@@ -40,6 +40,9 @@ void trigger_page(StaffFrame& page);
 void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
 void settings_page(StaffFrame& page);
+void consent_text_page(StaffFrame& page);
+// What it shows: what is in force, how another comes from a stick, how the last try ended; then the button that asks for it.
+void consent_in_force(StaffFrame& page);
 void touch_page(StaffFrame& page);
 void pins_page(StaffFrame& page);
 

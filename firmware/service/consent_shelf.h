@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ConsentShelf: the consent text that is in force, and how the operator's own comes from a stick:
+//
+//   stick: consent/VERSION/LANGUAGE.txt --take()--> the store's consent/VERSION/ --adopt()--> in force
+//
+// It is checked on the stick (kiosk/consent_files.h), written beside what is in force, read back, and
+// gets its name then: whatever goes wrong, the text before stays. A version never changes its words,
+// because records name it.
+// Thread: main; the stick is read on the keeper. Errors of look(): see consent_files.h.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware/service/errands.h"
+#include "firmware/service/event_log.h"
+#include "hal/removable_media.h"
+#include "ui/consent_text.h"
+#include "ui/staff_views.h"
+
+namespace relievo::firmware {
+
+class ConsentShelf {
+ public:
+  // `folder` is the store's.
+  ConsentShelf(const std::filesystem::path& folder, hal::RemovableMedia& media, Errands& errands, EventLog& log)
+      : folder_(folder / "consent"), media_(media), errands_(errands), log_(log) {}
+
+  // Before any thread uses it.
+  Result<void> look();
+  // None: our sample, which nobody has reviewed. Valid until adopt().
+  const ui::ConsentTexts* now() const { return now_ ? &*now_ : nullptr; }
+  // Takes over what the stick has; show() tells how it ended.
+  void take();
+  // What was taken is in force from here on: while no visitor is in the middle of reading the one before.
+  void adopt();
+  // The last try is no news to who comes now.
+  void opened();
+  void show(ui::ConsentShelfView& view) const;
+
+ private:
+  void ended(const std::optional<Error>& error);
+
+  std::filesystem::path folder_;
+  hal::RemovableMedia& media_;
+  Errands& errands_;
+  EventLog& log_;
+  std::optional<ui::ConsentTexts> now_, next_;
+  bool taking_ = false;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  std::string file_;             // that is wrong, its name alone
+  std::string_view fault_;       // what is wrong with it; a literal, the key of its words
+};
+
+}  // namespace relievo::firmware
