@@ -72,13 +72,19 @@ struct Judge {
                         above(h.asymmetry_mm, l.asymmetry_mm, Advice::FaceHidden);
     return hidden ? Advice::FaceHidden : Advice::None;
   }
+  // Light from one side takes most of one iris's contrast, not of both: one eye alone is closed only where hardly anything is left.
+  bool closed() const {
+    double better = -1, worse = 1;
+    for (const EyeSight& eye : m.eyes)
+      if (eye.known) better = std::max(better, eye.contrast), worse = std::min(worse, eye.contrast);
+    return better > -1 && (below(better, l.iris_contrast, Advice::EyesClosed) || below(worse, l.one_eye_share * better, Advice::EyesClosed));
+  }
   // Of an eye that something hides nobody can tell whether it is open.
   Advice eyes() const {
     for (const EyeSight& eye : m.eyes)
       if (eye.known && below(eye.brightness, l.eye_brightness, Advice::EyesHidden)) return Advice::EyesHidden;
     const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeSight& eye) { return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare); });
-    for (const EyeSight& eye : m.eyes)
-      if (!glare && eye.known && below(eye.contrast, l.iris_contrast, Advice::EyesClosed)) return Advice::EyesClosed;
+    if (!glare && closed()) return Advice::EyesClosed;
     return glare ? Advice::GlassesGlare : Advice::None;
   }
   Advice mouth() const {
@@ -98,7 +104,7 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
   for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
-                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness, iris_contrast,
+                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness, iris_contrast, one_eye_share,
                          glare_mm2, dark_mm2, steps_mm, before_mm, rise_mm, beside_share, leave, leave_sides})
     if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
   if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");

@@ -49,11 +49,11 @@ struct GateLimits {
   double covered_share = 0.06, in_front_share = 0.05, unknown_share = 0.45;
   double asymmetry_mm = 5.5;
   double relief_mm = 8;                            // a nose stands out further: else something flat is before it
-  double eye_brightness = 0.55;                    // least: darker is behind dark glass
-  double iris_contrast = 0.10;                     // least: an eye is open
+  double eye_brightness = 0.62;                    // least: darker is behind dark glass
+  double iris_contrast = 0.09, one_eye_share = 0.2; // least: of the better seen eye, and of the other one as a share of that: open
   double glare_mm2 = 14;                           // of an eye, behind a lamp mirrored in glasses
-  double dark_mm2 = 18, steps_mm = 4.8, before_mm = 4;  // of closed lips
-  double rise_mm = 1.7;                            // of the mouth's corners: a smile
+  double dark_mm2 = 18, steps_mm = 2, before_mm = 4;  // of closed lips
+  double rise_mm = 2.0;                            // of the mouth's corners: a smile
   double beside_share = 0.20;
   // Beyond these the relief itself is not to be trusted, and what it says of pose and motion: light and sharpness are asked first.
   double lost_dark_mean = 0.10, lost_bright_share = 0.30, lost_blur_mm = 1.4, lost_below_mm_s = 190;

@@ -11,7 +11,8 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kHalfWidthMm = 42, kTopMm = 12, kBottomMm = 74;
+constexpr double kHalfWidthMm = 42, kTopMm = 12;
+constexpr std::array kBottomsMm{74.0, 67.0, 60.0};   // the lowest that the picture still shows: a chin may reach out of it
 constexpr double kHighestLineMm = 18, kLowestLineMm = 54;
 constexpr std::array kLineStripsMm{-18.0, -13.5, -9.0, -4.5, 0.0, 4.5, 9.0, 13.5, 18.0};   // longer than nostrils and their shade
 constexpr std::array kStripsMm{-12.0, -8.0, -4.0, 0.0, 4.0, 8.0, 12.0};  // middles of strips 4 mm wide
@@ -20,10 +21,15 @@ constexpr double kBendMm = 2;                          // of the line, from stri
 constexpr double kBesideLineMm = 2.5;                  // a line is darker than what lies so far above and below
 constexpr double kAboveMm = 9, kBelowMm = 17;          // the line: parted lips and what shows between them
 constexpr double kDetailMm = 1.5;
-constexpr double kStrongShare = 0.6;                   // of the strongest detail
+constexpr double kLipsMm = 3;                          // about the lips' line
+constexpr double kLeastTeethMm = 4;
+constexpr double kStrongShare = 0.55;                  // of the darkest line
+constexpr double kInsideShare = 0.25, kEvenShare = 0.8;
+constexpr double kCornersBehindMm = 10;                // the corners of a mouth lie so far behind its middle
 constexpr double kDarkShare = 0.40;                    // of the skin
 constexpr double kHalfMouthMm = 24;
 constexpr double kThickMm = 2.5;                       // thicker than the line of closed lips
+constexpr double kLostMm = 9;                          // so wide the middle of the line may be too faint to be followed
 constexpr double kCornerShare = 0.3;                   // of the line in the middle
 constexpr std::size_t kRows = 128;
 
@@ -84,15 +90,30 @@ Line find_line(const FaceWindow& w, double skin) {
   return {middle.strength > 0 ? middle.down : best.down, best.strength};
 }
 
-// Between the first and the last detail, finer than the shade below a lip, at least half as strong as the strongest.
-double extent_of_detail(const Profile& p, const FaceWindow& w, double line) {
-  const auto detail = [&](double down) { return std::abs(value(p, w, down) - (value(p, w, down - kDetailMm) + value(p, w, down + kDetailMm)) / 2); };
+double darker(const Profile& p, const FaceWindow& w, double down) {
+  return (value(p, w, down - kDetailMm) + value(p, w, down + kDetailMm)) / 2 - value(p, w, down);
+}
+
+// Is what lies between two dark lines about as bright near both as anywhere? A lip fades into the shade below it, teeth do not.
+bool even(const Profile& p, const FaceWindow& w, double from, double to) {
   double most = 0;
-  for (double down = line - kAboveMm; down <= line + kBelowMm; down += FaceWindow::kStepMm) most = std::max(most, detail(down));
-  double first = line + kBelowMm, last = line - kAboveMm;
-  for (double down = line - kAboveMm; down <= line + kBelowMm; down += FaceWindow::kStepMm)
-    if (detail(down) >= kStrongShare * most) first = std::min(first, down), last = std::max(last, down);
-  return std::max(0.0, last - first);
+  for (double down = from + kDetailMm; down <= to - kDetailMm; down += FaceWindow::kStepMm) most = std::max(most, value(p, w, down));
+  const double inside = kInsideShare * (to - from);
+  return std::min(value(p, w, from + inside), value(p, w, to - inside)) >= kEvenShare * most;
+}
+
+// Between two thin dark lines with teeth between them, the first of which is the lips' or lies above it: the furthest apart, 0 where there are none.
+double teeth_between(const Profile& p, const FaceWindow& w, double line) {
+  const double top = line - kAboveMm, bottom = line + kBelowMm, step = FaceWindow::kStepMm;
+  double most = 0, before = bottom, apart = 0;
+  for (double down = top; down <= bottom; down += step) most = std::max(most, darker(p, w, down));
+  for (double down = top; down <= bottom; down += step) {
+    const double here = darker(p, w, down);
+    if (here < kStrongShare * most || here < darker(p, w, down - step) || here <= darker(p, w, down + step)) continue;
+    if (before <= line + kLipsMm && down - before >= kLeastTeethMm && even(p, w, before, down)) apart = std::max(apart, down - before);
+    before = down;
+  }
+  return apart;
 }
 
 // Darker than skin in the shade, and thicker than a line, column by column.
@@ -119,7 +140,7 @@ Vec2d corner(const FaceWindow& w, const Line& middle, double side, double skin) 
   for (double out = 2; out <= kHalfWidthMm - 2; out += 1) {
     const Line here = strongest_line(profile_of(w, side * out, 0.5, skin), w, down - 1.5, down + 1.5);
     if (here.strength > kCornerShare * middle.strength) end = {side * out, here.down}, down = here.down;
-    else if (out - std::abs(end.x) > 3) break;
+    else if (out - std::abs(end.x) > (end.x == 0 ? kLostMm : 3)) break;
   }
   return end;
 }
@@ -141,14 +162,14 @@ bool behind(const FacePhoto& photo, double down_mm, double& mm) {
 
 // The middle of what is known just below the line; 0 where too little is.
 double stands_before(const FacePhoto& photo, double line_mm) {
-  constexpr std::array kBelowLineMm{4.0, 6.0, 8.0, 10.0, 12.0, 14.0};   // further down the chin begins
+  constexpr std::array kDownMm{4.0, 6.0, 8.0, 10.0, 12.0, 14.0};   // further down the chin begins
   double lip = 0;
   if (!behind(photo, line_mm - 6, lip)) return 0;
   const double slope = std::tan(photo.head.pitch_deg * std::numbers::pi / 180);
-  std::array<double, kBelowLineMm.size()> before{};
+  std::array<double, kDownMm.size()> before{};
   before.fill(-1e9);
   std::size_t known = 0;
-  for (const double below : kBelowLineMm)
+  for (const double below : kDownMm)
     if (double here = 0; behind(photo, line_mm + below, here)) before[known++] = lip - here + slope * (below + 6);
   if (known < 4) return 0;
   std::sort(before.begin(), before.end(), std::greater<>());   // what is not known stays behind
@@ -159,20 +180,23 @@ double stands_before(const FacePhoto& photo, double line_mm) {
 
 MouthSight measure_mouth(const FacePhoto& photo, StageContext& context) {
   MouthSight mouth;
-  const FaceWindow w = cut_window(photo, {-kHalfWidthMm, kHalfWidthMm, kTopMm, kBottomMm}, context);
+  const auto cut = [&](double bottom) { return cut_window(photo, {-kHalfWidthMm, kHalfWidthMm, kTopMm, bottom}, context); };
+  FaceWindow w = cut(kBottomsMm[0]);
+  for (std::size_t i = 1; i < kBottomsMm.size() && w.empty(); ++i) w = cut(kBottomsMm[i]);
   if (w.empty()) return mouth;
   mouth.known = true;
   const double skin = std::max(1.0, quantile(w, w.box, 0.6, context));
   const Line line = find_line(w, skin);
   mouth.line_down_mm = line.down;
   std::array<double, kStripsMm.size()> steps{};
-  for (std::size_t i = 0; i < kStripsMm.size(); ++i) steps[i] = extent_of_detail(profile_of(w, kStripsMm[i], kStripHalfMm, skin), w, line.down);
+  for (std::size_t i = 0; i < kStripsMm.size(); ++i) steps[i] = teeth_between(profile_of(w, kStripsMm[i], kStripHalfMm, skin), w, line.down);
   mouth.steps_mm = median(steps);
   mouth.dark_mm2 = dark_area(w, line.down, skin);
   mouth.before_mm = stands_before(photo, line.down);
   const Vec2d a = corner(w, line, -1, skin), b = corner(w, line, 1, skin);
   mouth.width_mm = b.x - a.x;
-  mouth.rise_mm = line.down - (a.y + b.y) / 2;
+  // Of a head that is bowed, what lies further behind seems lower.
+  mouth.rise_mm = line.down - (a.y + b.y) / 2 - kCornersBehindMm * std::tan(photo.head.pitch_deg * std::numbers::pi / 180);
   return mouth;
 }
 

@@ -3,9 +3,9 @@
 //
 // How the gate does with eyes, mouth and glasses of simulated people its limits were not set with: for every kind how often its advice
 // is given (hit), how often nothing is said (taken as good), and how often its advice is given to another kind (false alarm).
-//   expression_proof PEOPLE CASES [FIRST_SEED] [ALBUM]
+//   expression_proof PEOPLE CASES [FIRST_SEED] [ALBUM] [MEASURES]
 // Each person is photographed in two places and poses within the gate's limits a kind (kept in the folder ALBUM, when named); CASES of each photograph differ in
-// exposure and noise. Whether a lamp is mirrored before an eye is known from the geometry of lens and lamp.
+// exposure and noise; MEASURES is a file for what was measured of every case, a line each. Whether a lamp is mirrored before an eye is known from the geometry of lens and lamp.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -83,7 +83,7 @@ struct Proof {
     std::fprintf(stderr, "expression_proof: %s\n", std::string(error.what.view()).c_str());
     std::exit(1);
   }
-  Advice look(const Posed& posed, std::uint32_t seed, Random& random) {
+  pipeline::GateAnswer look(const Posed& posed, std::uint32_t seed, Random& random) {
     const test::Shot& shot = album.shoot(seed, posed.pose, test::Extra::None, posed.guise);
     test::Developing how;
     how.exposure = random.uniform(0.75, 1.4);
@@ -93,9 +93,16 @@ struct Proof {
     work.output.reset();
     auto made = pipeline::run_stage(work.context, [&](auto& c) { return gate->look({pair.left.view(), pair.right.view()}, album.calibration(), pipeline::GateTime{}, history, c); });
     if (!made) fail(made.error());
-    return made->answer.reason;
+    return made->answer;
   }
 };
+
+void print_measures(std::FILE* file, std::uint32_t seed, Kind kind, int place, const pipeline::GateAnswer& answer) {
+  const pipeline::GateMeasures& m = answer.measures;
+  std::fprintf(file, "%u,\"%s\",%d,%d,%.1f,%.1f,%.1f,%.3f", seed, kNames[static_cast<std::size_t>(kind)], place, static_cast<int>(answer.reason), m.head.yaw_deg, m.head.pitch_deg, m.head.roll_deg, m.light.side_ratio);
+  for (const pipeline::EyeSight& e : m.eyes) std::fprintf(file, ",%.3f,%.2f,%.2f,%.1f,%.1f,%.1f", e.contrast, e.brightness, e.iris, e.glare_mm2, e.right_mm, e.down_mm);
+  std::fprintf(file, ",%.1f,%.2f,%.2f,%.2f,%.1f,%.1f\n", m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm, m.mouth.rise_mm, m.mouth.width_mm, m.mouth.line_down_mm);
+}
 
 void print_table(const std::array<std::array<int, 32>, kKinds>& given, int cases) {
   std::printf("| case | cases | hit | taken as good | given to others |\n| --- | --- | --- | --- | --- |\n");
@@ -119,6 +126,8 @@ int run(int argc, char** argv) {
   const int people = std::max(1, std::atoi(argv[1])), cases = std::max(1, std::atoi(argv[2]));
   const auto first = static_cast<std::uint32_t>(argc > 3 ? std::atoi(argv[3]) : 71);
   Proof proof(argc > 4 ? argv[4] : "");
+  std::FILE* measures = argc > 5 ? std::fopen(argv[5], "w") : nullptr;
+  if (argc > 5 && measures == nullptr) Proof::fail(Error{Errc::InvalidInput, "the file for the measures cannot be written"});
   std::array<std::array<int, 32>, kKinds> given{};
   for (int person = 0; person < people; ++person) {
     const std::uint32_t seed = first + static_cast<std::uint32_t>(person);
@@ -128,11 +137,16 @@ int run(int argc, char** argv) {
       for (int place = 0; place < 2; ++place) {
         posed.pose = pose_of(random);
         if (posed.guise.wears_glasses) find_glasses(static_cast<Kind>(k), seed, posed, random);
-        for (int i = 0; i < cases; ++i) ++given[k][static_cast<std::size_t>(proof.look(posed, seed, random))];
+        for (int i = 0; i < cases; ++i) {
+          const pipeline::GateAnswer answer = proof.look(posed, seed, random);
+          ++given[k][static_cast<std::size_t>(answer.reason)];
+          if (measures != nullptr) print_measures(measures, seed, static_cast<Kind>(k), place, answer);
+        }
       }
     }
     std::fprintf(stderr, "%d of %d people\n", person + 1, people);
   }
+  if (measures != nullptr) std::fclose(measures);
   print_table(given, 2 * people * cases);
   return 0;
 }

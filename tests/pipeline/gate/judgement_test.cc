@@ -21,7 +21,7 @@ GateMeasures good() {
   m.light.luminance_mean = 0.5;
   m.blur_mm = 0.5;
   for (EyeSight& eye : m.eyes) eye.known = true, eye.contrast = 0.28, eye.aperture_mm = 9;
-  m.mouth.known = true, m.mouth.steps_mm = 2, m.mouth.before_mm = -2;
+  m.mouth.known = true, m.mouth.steps_mm = 0, m.mouth.before_mm = -2;
   return m;
 }
 
@@ -60,7 +60,8 @@ const std::vector<Row>& rows() {
       {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
       {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
       {"dark glasses", Advice::EyesHidden, [](GateMeasures& m) { m.eyes[0].brightness = l.eye_brightness - 0.01; }},
-      {"a wink", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[1].contrast = l.iris_contrast - 0.01; }},
+      {"eyes closed", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[0].contrast = m.eyes[1].contrast = l.iris_contrast - 0.01; }},
+      {"a wink", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[0].contrast = 0.3, m.eyes[1].contrast = 0.3 * l.one_eye_share - 0.01; }},
       {"a lamp in the glasses", Advice::GlassesGlare, [](GateMeasures& m) { m.eyes[0].glare_mm2 = l.glare_mm2 + 1; }},
       {"parted lips", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.dark_mm2 = l.dark_mm2 + 1; }},
       {"teeth", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.steps_mm = l.steps_mm + 0.1; }},
@@ -104,6 +105,16 @@ TEST(Judgement, WhatWasSaidIsNotTakenBackByNoise) {
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::TurnedAside);
   m.head.yaw_deg = l.leave * l.yaw_deg - 0.1;
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::None);
+}
+
+TEST(Judgement, AnEyeInTheShadeIsNoWink) {
+  const GateLimits l;
+  GateMeasures m = good();
+  m.eyes[1].contrast = l.iris_contrast - 0.01;
+  ASSERT_GT(m.eyes[1].contrast, l.one_eye_share * m.eyes[0].contrast);
+  EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::None);
+  m.eyes[0].known = false;   // alone it must be seen well
+  EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::EyesClosed);
 }
 
 TEST(Judgement, OfEyesThatCannotBeSeenNobodySaysTheyAreClosed) {
