@@ -38,7 +38,7 @@ ui::Settings settings_of(std::string_view text, std::vector<std::string>& compla
       const auto setting = static_cast<ui::Setting>(i);
       if (info_of(setting).key == key) taken = settings.set(setting, value);
     }
-    if (!taken) complaints.push_back("the setting \"" + line + "\" is not one: what is usual holds");
+    if (!taken) complaints.push_back(line);
   }
   return settings;
 }

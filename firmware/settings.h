@@ -20,7 +20,7 @@ std::filesystem::path default_store_folder();
 inline constexpr const char* kDeviceSetting = "device";   // the store's key of all of them
 
 std::string text_of(const ui::Settings& settings);
-// What is missing, or not one of a setting's values, stays as usual; of the latter `complaints` tells, a sentence each.
+// What is missing, or not one of a setting's values, stays as usual; `complaints` are the lines that say such a thing.
 ui::Settings settings_of(std::string_view text, std::vector<std::string>& complaints);
 
 }  // namespace relievo::firmware

@@ -25,6 +25,15 @@ struct StatisticsView {
   double median_s = 0, slow_s = 0;               // from the pictures to the model: half, nine of ten are faster
 };
 
+// What has been noted, to be said in the reader's language.
+struct LogLine {
+  std::string_view at;                       // date and time
+  bool fault = false;
+  std::string_view sentence;                 // English
+  std::string_view key;                      // of its words; empty: nobody knows it any more, the sentence is said as it is
+  std::array<std::string_view, 2> values{};  // for the places {} of the key
+};
+
 // --- health ---------------------------------------------------------------------------------------
 enum class Gauge : std::uint8_t { Stages, Process, Disk, Temperature };
 
@@ -37,12 +46,12 @@ struct GaugeRow {
 
 struct HealthView {
   std::span<const GaugeRow> gauges;
-  std::span<const std::string_view> faults;  // newest first
+  std::span<const LogLine> faults;           // newest first
 };
 
-// --- log: the newest lines, as they were written ---------------------------------------------------
+// --- log: the newest lines -------------------------------------------------------------------------
 struct LogView {
-  std::span<const std::string_view> lines;   // newest first
+  std::span<const LogLine> lines;            // newest first
 };
 
 // --- consent text: which is in force, ViewState::consent says --------------------------------------

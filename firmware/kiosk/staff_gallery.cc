@@ -25,8 +25,8 @@ constexpr std::array kGauges{
     ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn},
     ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 61, 0, Mood::Good},
 };
-constexpr std::array<std::string_view, 2> kFaults{"2026-03-14 10:21:09  fault: the camera is away: look at its cable",
-                                                  "2026-03-14 09:02:44  fault: took longer than its limit: try again"};
+constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself", kSlow = "took longer than its limit: try again";
+constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}}, ui::LogLine{"2026-03-14 09:02:44", true, kSlow, kSlow, {}}};
 constexpr ui::HealthView kHealth{kGauges, kFaults};
 
 constexpr std::array kPeople{
@@ -42,11 +42,15 @@ constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 
 constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true, 0, 0};
 
 constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running, ui::CheckState::NotTested},
-                                   {"", "", "the store has no calibration: run relievo calibrate first", "", ""}};
+                                   {"", "", "the store holds no calibration: calibrate first", "", ""}};
 constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
 constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
-constexpr std::array<std::string_view, 4> kLines{"2026-03-14 10:21:09  fault: the camera is away: look at its cable", "2026-03-14 10:20:31  technician signed in",
-                                                 "2026-03-14 10:20:20  a wrong PIN was typed", "2026-03-14 07:58:02  started"};
+constexpr std::array kLines{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
+                            ui::LogLine{"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}},
+                            ui::LogLine{"2026-03-14 10:20:31", false, "technician signed in", "technician signed in", {}},
+                            ui::LogLine{"2026-03-14 10:20:20", false, "a wrong PIN was typed", "a wrong PIN was typed", {}},
+                            ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}},
+                            ui::LogLine{"2026-03-13 07:58:02", false, "started", "started", {}}};
 constexpr ui::LogView kLog{kLines};
 
 ui::Settings kept_for_a_year() {

@@ -76,7 +76,7 @@ void ConsentShelf::take() {
       },
       [this, taken](const std::optional<Error>& error) {
         if (!error && *taken) {
-          log_.say("consent text " + (*taken)->version + " was taken over");
+          log_.say("consent text {} was taken over", {(*taken)->version});
           next_ = std::move(*taken);
         }
         ended(error);

@@ -17,7 +17,7 @@ using ui::PinStep;
 using ui::StaffPage;
 using ui::StaffRole;
 
-const char* word_of(StaffRole role) { return role == StaffRole::Technician ? "technician" : "operator"; }
+Literal by_role(StaffRole role, Literal technician, Literal clerk) { return role == StaffRole::Technician ? technician : clerk; }
 
 }  // namespace
 
@@ -92,7 +92,8 @@ void Door::check(std::string_view pin) {
         wait_until_ = clock_.now() + tried->attempt.wait;
         entered_ = error ? StaffRole::None : tried->attempt.role;
         if (tried->attempt.wrong) log_.say("a wrong PIN was typed");
-        if (entered_ != StaffRole::None) log_.say(std::string(word_of(entered_)) + " signed in");
+        if (entered_ == StaffRole::Technician) log_.say("technician signed in");
+        if (entered_ == StaffRole::Operator) log_.say("operator signed in");
       },
       Errands::Whose::Device);
 }
@@ -124,9 +125,9 @@ void Door::offered_again(std::string_view pin, StaffRole role) {
     return wipe_text(first_);
   }
   if (before == PinStep::Own)
-    return save({std::exchange(first_, {}), {}}, before, [this, role](const Pins& pins) { return access_.set(role, pins.one); }, std::string(word_of(role)) + " changed their PIN");
+    return save({std::exchange(first_, {}), {}}, before, [this, role](const Pins& pins) { return access_.set(role, pins.one); }, by_role(role, "technician changed their PIN", "operator changed their PIN"));
   if (forgotten_ != StaffRole::None)
-    return save({std::exchange(first_, {}), {}}, before, [this, whose = forgotten_](const Pins& pins) { return access_.choose_again(whose, pins.one); }, "the " + std::string(word_of(forgotten_)) + "'s PIN was chosen anew");
+    return save({std::exchange(first_, {}), {}}, before, [this, whose = forgotten_](const Pins& pins) { return access_.choose_again(whose, pins.one); }, by_role(forgotten_, "the technician's PIN was chosen anew", "the operator's PIN was chosen anew"));
   if (before == PinStep::Operator)
     return save({std::exchange(technician_, {}), std::exchange(first_, {})}, PinStep::Technician, [this](const Pins& pins) { return access_.set_up(pins.one, pins.clerk); }, "both PINs were chosen");
   technician_ = std::exchange(first_, {});
@@ -158,7 +159,7 @@ void Door::refuse(const Error& error, PinStep again) {
 
 // A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a device that
 // is new has both at once or none.
-void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins&)> write, std::string said) {
+void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins&)> write, Literal said) {
   const auto kept = std::make_shared<Pins>(std::move(pins));
   checking_ = true;
   errands_.send(
@@ -169,7 +170,7 @@ void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins
         wipe_text(kept->clerk);
         return saved;
       },
-      [this, begins, said = std::move(said)](const std::optional<Error>& error) {
+      [this, begins, said](const std::optional<Error>& error) {
         checking_ = false;
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {

@@ -56,7 +56,7 @@ class Door {
   void offered_again(std::string_view pin, ui::StaffRole role);
   void judge(std::string pin, ui::StaffRole role, ui::PinStep next);
   // `begins` is where who is refused begins again; `said` goes to the log.
-  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write, std::string said);
+  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write, Literal said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
 

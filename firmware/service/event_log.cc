@@ -10,6 +10,34 @@
 #include "hal/whole_file.h"
 
 namespace relievo::firmware {
+namespace {
+
+constexpr std::string_view kGap = "  ", kFault = "  fault: ", kHole = "{}";
+
+// Up to the next tab, and what is behind it.
+std::string_view cut(std::string_view& text) {
+  const std::size_t tab = std::min(text.find('\t'), text.size());
+  const std::string_view first = text.substr(0, tab);
+  text.remove_prefix(std::min(tab + 1, text.size()));
+  return first;
+}
+
+}  // namespace
+
+LogEntry entry_of(std::string_view line) {
+  LogEntry entry;
+  std::string_view rest = line;
+  std::string_view text = cut(rest);
+  if (const std::size_t gap = text.find(kGap); gap != std::string_view::npos) {
+    entry.at = text.substr(0, gap);
+    entry.fault = text.substr(gap).starts_with(kFault);
+    text.remove_prefix(gap + (entry.fault ? kFault : kGap).size());
+  }
+  entry.sentence = text;
+  entry.key = cut(rest);
+  while (!rest.empty()) entry.values.emplace_back(cut(rest));
+  return entry;
+}
 
 EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file) : clock_(clock), file_(std::move(file)) {
   std::ifstream in(file_);
@@ -22,42 +50,50 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file) : clock_
   }
 }
 
-void EventLog::say(std::string_view what) { put(what, false); }
+void EventLog::say(Literal key, std::initializer_list<std::string_view> values) { put(key.view(), values, false); }
 
-void EventLog::fault(const Error& error) { put(error.what.view(), true); }
+void EventLog::fault(const Error& error) { put(error.what.view(), {}, true); }
 
-void EventLog::put(std::string_view what, bool fault) {
-  const std::string at = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()));
+void EventLog::put(std::string_view key, std::initializer_list<std::string_view> values, bool fault) {
+  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) + std::string(fault ? kFault : kGap);
+  std::string apart = '\t' + std::string(key);
+  std::string_view rest = key;
+  for (std::string value : std::vector<std::string>(values.begin(), values.end())) {
+    std::replace_if(value.begin(), value.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
+    const std::size_t hole = rest.find(kHole);
+    if (hole == std::string_view::npos) break;
+    text.append(rest.substr(0, hole)).append(value);
+    rest.remove_prefix(hole + kHole.size());
+    apart.append(1, '\t').append(value);
+  }
+  text.append(rest);
+  if (text.size() > kTextBytes) text.resize(kTextBytes);
+  if (text.size() + apart.size() <= kLineBytes) text += apart;
   const std::lock_guard lock(mutex_);
   Line& next = ring_[(first_ + count_) % kLines];
   next.fault = fault;
-  next.length = 0;
-  for (const std::string_view part : {std::string_view(at), std::string_view(fault ? "  fault: " : "  "), what}) {
-    const std::string_view fits = part.substr(0, kLineBytes - next.length);
-    fits.copy(next.text.data() + next.length, fits.size());
-    next.length += fits.size();
-  }
+  next.length = text.copy(next.text.data(), kLineBytes);
   if (count_ < kLines) ++count_;
   else first_ = (first_ + 1) % kLines;
   ++said_;
 }
 
-std::vector<std::string> EventLog::lines() const {
+std::vector<LogEntry> EventLog::entries() const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> all;
+  std::vector<LogEntry> all;
   for (std::size_t i = 0; i < count_; ++i) {
     const Line& line = ring_[(first_ + i) % kLines];
-    all.emplace_back(line.text.data(), line.length);
+    all.push_back(entry_of({line.text.data(), line.length}));
   }
   return all;
 }
 
-std::vector<std::string> EventLog::faults() const {
+std::vector<LogEntry> EventLog::faults() const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> newest;
+  std::vector<LogEntry> newest;
   for (std::size_t i = count_; i-- > 0 && newest.size() < kFaults;) {
     const Line& line = ring_[(first_ + i) % kLines];
-    if (line.fault) newest.emplace_back(line.text.data(), line.length);
+    if (line.fault) newest.push_back(entry_of({line.text.data(), line.length}));
   }
   return newest;
 }

@@ -4,6 +4,9 @@
 // EventLog: the last lines of what has happened, for the technician: a ring of fixed size in memory,
 // and a file that keeps the newest lines over a restart. Nobody's name goes into it: of an error only
 // its sentence is written, never the place, which may be somebody's.
+//
+// A line is noted as the key of its words and what stands in them, so that the page can say it in the reader's
+// language. In the file, behind the English sentence and a tab: KEY, then a tab and a value for each.
 // Thread: any. Errors of save(): MediaFull, IoFailed.
 #pragma once
 
@@ -11,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -23,18 +27,29 @@ namespace relievo::firmware {
 
 inline constexpr const char* kLogFile = "relievo.log";  // in the folder of the store
 
+// A line, taken apart. A text that no key is known of (an older file's) has none: then `sentence` is all there is.
+struct LogEntry {
+  std::string at;                    // date and time
+  bool fault = false;
+  std::string sentence;              // English
+  std::string key;                   // of the catalogues, with {} for each value
+  std::vector<std::string> values;
+};
+LogEntry entry_of(std::string_view line);
+
 class EventLog {
  public:
-  static constexpr std::size_t kLines = 200, kLineBytes = 200, kFaults = 8;
+  static constexpr std::size_t kLines = 200, kLineBytes = 400, kTextBytes = 200, kFaults = 8;
 
   // `file` is read where it is there; empty: nothing is kept.
   EventLog(const hal::Clock& clock, std::filesystem::path file);
 
-  void say(std::string_view what);
+  // `key` has {} where a value stands; tabs and line ends in a value become blanks.
+  void say(Literal key, std::initializer_list<std::string_view> values = {});
   void fault(const Error& error);
 
-  std::vector<std::string> lines() const;    // oldest first
-  std::vector<std::string> faults() const;   // since the start, newest first
+  std::vector<LogEntry> entries() const;     // oldest first
+  std::vector<LogEntry> faults() const;      // since the start, newest first
   bool unsaved() const;
   Result<void> save();                       // on the keeper
 
@@ -44,7 +59,7 @@ class EventLog {
     std::size_t length = 0;
     bool fault = false;
   };
-  void put(std::string_view what, bool fault);
+  void put(std::string_view key, std::initializer_list<std::string_view> values, bool fault);
 
   const hal::Clock& clock_;
   std::filesystem::path file_;

@@ -142,6 +142,33 @@ TEST_F(WordsTest, EveryFaultOfAConsentTextIsInTheLanguagesOfTheStaff) {
   }
 }
 
+// The log's page says in the reader's language what firmware/ notes in English, and what goes wrong in the rooms that a capture
+// and the staff's work pass through. Left out: what the pages have words of their own for.
+TEST_F(WordsTest, WhatIsNotedInTheLogIsInEveryLanguage) {
+  static const std::regex noted(R"rx((?:log_?(?:\(\))?(?:\.|->)say|by_role\([a-z_]+|Literal)\((?:[^";]*, )?"((?:[^"\\]|\\.)+)")rx"), chosen(R"rx(by_role\([a-z_]+, "([^"]+)", "([^"]+)"\))rx");
+  static const std::regex fault(R"rx(Errc::(\w+),\s*"([^"]+)")rx");
+  const std::filesystem::path rooms = std::filesystem::path(RELIEVO_SOURCE_DIR) / "firmware";
+  std::set<std::string> texts, faults;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(rooms)) {
+    if (entry.path().extension() != ".cc") continue;
+    std::ifstream in(entry.path());
+    const std::string source{std::istreambuf_iterator<char>(in), {}};
+    for (std::sregex_iterator at(source.begin(), source.end(), noted), end; at != end; ++at) texts.insert((*at)[1]);
+    for (std::sregex_iterator at(source.begin(), source.end(), chosen), end; at != end; ++at) texts.insert({(*at)[1], (*at)[2]});
+    const std::string room = *entry.path().lexically_relative(rooms).begin();
+    if (room != "capture" && room != "work" && room != "service") continue;
+    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) {
+      if ((*at)[1] != "InvalidInput" && (*at)[1] != "InvalidState") faults.insert((*at)[2]);
+    }
+  }
+  EXPECT_GE(texts.size(), 20U);
+  EXPECT_GE(faults.size(), 30U);
+  texts.insert(faults.begin(), faults.end());
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
+  }
+}
+
 TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {
   EXPECT_FALSE(Words(Language::German).knows("This text is in no catalogue"));
   EXPECT_TRUE(Words(Language::German).knows("Back"));

@@ -89,7 +89,7 @@ void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
   errands_.send(
       JobPlace::Keeper, [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
       [this, before](const std::optional<Error>& error) {
-        if (!error) return log_.say(map_.is_plain() ? "the touch screen is taken as it is" : "the touch screen was corrected");
+        if (!error) return map_.is_plain() ? log_.say("the touch screen is taken as it is") : log_.say("the touch screen was corrected");
         log_.fault(*error);
         map_ = before;
         end(TouchVerdict::NotSaved);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "firmware/service/page/test_desks.h"
 #include "firmware/command/reconstruct/report.h"
 
 namespace relievo::firmware {
@@ -91,7 +92,7 @@ void HealthDesk::show(ui::ServiceView& view) {
   add_memory();
   add_seen();
   faults_ = tools().log.faults();
-  fault_lines_.assign(faults_.begin(), faults_.end());
+  show_lines(faults_, fault_lines_);
   view_ = {rows_, fault_lines_};
   view.health = &view_;
 }

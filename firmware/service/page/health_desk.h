@@ -42,8 +42,8 @@ class HealthDesk final : public DeskPage {
   Seen seen_;
   bool ready_ = false;
   std::vector<ui::GaugeRow> rows_;
-  std::vector<std::string> faults_;
-  std::vector<std::string_view> fault_lines_;
+  std::vector<LogEntry> faults_;
+  std::vector<ui::LogLine> fault_lines_;
   ui::HealthView view_;
 };
 

@@ -171,7 +171,7 @@ void RecordsDesk::erase(std::int64_t number) {
   tools().errands.send(
       JobPlace::Keeper, [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
       [this, number, visit = visit_](const std::optional<Error>& error) {
-        if (!error) tools().log.say("record #" + std::to_string(number) + " was erased");
+        if (!error) tools().log.say("record #{} was erased", {std::to_string(number)});
         if (visit != visit_) return;
         told(error);
         erased_ = !error;
@@ -192,7 +192,7 @@ void RecordsDesk::take_out(std::int64_t number) {
   tools().errands.send(
       JobPlace::Keeper, [this, subjects = std::move(subjects), trace](JobControl& control) { return export_records(tools().store, tools().board.media(), subjects, control, *trace); },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
-        if (trace->whole > 0) tools().log.say(std::to_string(trace->whole) + (trace->whole == 1 ? " record was exported" : " records were exported"));
+        if (trace->whole > 0) tools().log.say("records exported: {}", {std::to_string(trace->whole)});
         if (visit == visit_) exported(error, *trace);
       });
 }

@@ -30,6 +30,14 @@ Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
 
 }  // namespace
 
+void show_lines(const std::vector<LogEntry>& entries, std::vector<ui::LogLine>& lines) {
+  lines.clear();
+  for (const LogEntry& entry : entries) {
+    ui::LogLine& line = lines.emplace_back(ui::LogLine{entry.at, entry.fault, entry.sentence, entry.key, {}});
+    for (std::size_t i = 0; i < std::min(entry.values.size(), line.values.size()); ++i) line.values[i] = entry.values[i];
+  }
+}
+
 void SelfTestDesk::opened() {
   ++visit_;
   view_ = {};
@@ -130,10 +138,10 @@ void TriggerDesk::show(ui::ServiceView& view) {
 }
 
 void LogDesk::show(ui::ServiceView& view) {
-  lines_ = tools().log.lines();
+  lines_ = tools().log.entries();
   std::reverse(lines_.begin(), lines_.end());
   if (lines_.size() > kShown) lines_.resize(kShown);
-  shown_.assign(lines_.begin(), lines_.end());
+  show_lines(lines_, shown_);
   view_.lines = shown_;
   view.log = &view_;
 }

@@ -46,6 +46,9 @@ class TriggerDesk final : public DeskPage {
   ui::TriggerView view_;
 };
 
+// As a page draws them. Borrows the entries.
+void show_lines(const std::vector<LogEntry>& entries, std::vector<ui::LogLine>& lines);
+
 class LogDesk final : public DeskPage {
  public:
   using DeskPage::DeskPage;
@@ -53,8 +56,8 @@ class LogDesk final : public DeskPage {
 
  private:
   static constexpr std::size_t kShown = 60;
-  std::vector<std::string> lines_;
-  std::vector<std::string_view> shown_;
+  std::vector<LogEntry> lines_;
+  std::vector<ui::LogLine> shown_;
   ui::LogView view_;
 };
 

@@ -26,8 +26,8 @@ class StaffSettingsTest : public StaffHands {
     ASSERT_TRUE((*store)->set_setting(key, value).has_value());
   }
   bool logged(std::string_view words) const {
-    for (const std::string& line : kiosk->desk().log().lines()) {
-      if (line.find(words) != std::string::npos) return true;
+    for (const LogEntry& entry : kiosk->desk().log().entries()) {
+      if (entry.sentence.find(words) != std::string::npos) return true;
     }
     return false;
   }
@@ -79,7 +79,7 @@ TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   sign_in("4711", StaffRole::Technician);
   tap("open log");
   int told = 0;
-  for (const std::string_view line : kiosk->view().service->log->lines) told += line.find("what is usual holds") != std::string_view::npos ? 1 : 0;
+  for (const ui::LogLine& line : kiosk->view().service->log->lines) told += line.sentence.find("what is usual holds") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(told, 2);
 }
 
@@ -104,9 +104,9 @@ TEST_F(StaffSettingsTest, RecordsAreErasedWhenTheirTimeIsOver) {
   tap("open settings");
   EXPECT_TRUE(kiosk->view().service->settings->clock_jumped);
   choose("keep_days more", Setting::KeepDays, 1095);
-  EXPECT_FALSE(logged("for its age"));
+  EXPECT_FALSE(logged("erased for their age"));
   sign_out();
-  ASSERT_TRUE(until([this] { return logged("for its age"); }));
+  ASSERT_TRUE(until([this] { return logged("erased for their age"); }));
   kiosk.reset();
   EXPECT_EQ(records(), 0U);
 }

@@ -41,7 +41,7 @@ void health_page(StaffFrame& page) {
   std::size_t index = 0;
   for (const GaugeRow& row : page.staff.health->gauges) gauge_row(page, row, index++);
   page.section(tr("Last faults"));
-  for (const std::string_view fault : page.staff.health->faults) page.line(fault, Mood::Warn);
+  for (const LogLine& fault : page.staff.health->faults) page.logged(fault);
   if (page.staff.health->faults.empty()) page.line(tr("None since the start."), Mood::Good);
   page.tree.close();
 }

@@ -40,6 +40,10 @@ class StaffFrame : public Page {
   void section(std::string_view words);
   // A line over the whole width, as a log has them: left to right in every language.
   void line(std::string_view words, Mood mood = Mood::Plain);
+  // A line of the log, in the reader's language.
+  void logged(const struct LogLine& what);
+  // A sentence of the appliance (a key of the catalogues) in the reader's language; as it is where they lack it.
+  std::string_view said(std::string_view sentence);
   // As high as a member of staff needs it.
   void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);

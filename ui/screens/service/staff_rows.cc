@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/screens/service/staff_frame.h"
+#include "ui/staff_views.h"
 
 namespace relievo::ui {
 
@@ -110,6 +111,21 @@ void StaffFrame::section(std::string_view words) {
   Node name = text(words, type::kSmall, Weight::Bold, palette.link);
   name.role = Role::Heading;
   tree.leaf(name);
+}
+
+std::string_view StaffFrame::said(std::string_view sentence) {
+  const char* ended = tree.keep(sentence).data();
+  tree.keep({"", 1});
+  return sentence.empty() ? sentence : std::string_view(tr(ended));   // gettext's name of nothing is its header
+}
+
+void StaffFrame::logged(const LogLine& what) {
+  // What stands in a sentence comes apart from its direction; the line itself runs as its words do.
+  const char* words = what.key.empty() ? nullptr : said(what.key).data();
+  const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
+  Node said_node = text(filled(what.fault ? tr("{}  fault: {}") : "{}  {}", {what.at, sentence}), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain));
+  said_node.box.pad_y = px(4);
+  tree.leaf(said_node);
 }
 
 void StaffFrame::line(std::string_view words, Mood mood) {

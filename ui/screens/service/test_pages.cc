@@ -46,7 +46,7 @@ void self_test_page(StaffFrame& page) {
   if (const SelfTestView* seen = page.staff.self_test) {
     for (std::size_t i = 0; i < kChecks; ++i) {
       page.row(numbered(page, "check ", i), words_of(tr, static_cast<Check>(i)), words_of(tr, seen->states[i]), mood_of(seen->states[i]));
-      if (seen->states[i] == CheckState::Bad) page.line(seen->problems[i], Mood::Bad);
+      if (seen->states[i] == CheckState::Bad) page.line(page.said(seen->problems[i]), Mood::Bad);
     }
   }
   page.tree.close();
@@ -78,7 +78,7 @@ void log_page(StaffFrame& page) {
   const LogView* seen = page.staff.log;
   if (seen == nullptr || seen->lines.empty()) page.line(page.tr("Nothing has been noted yet."));
   else
-    for (const std::string_view line : seen->lines) page.line(line, line.find("  fault: ") != std::string_view::npos ? Mood::Warn : Mood::Plain);
+    for (const LogLine& line : seen->lines) page.logged(line);
   page.tree.close();
 }
 

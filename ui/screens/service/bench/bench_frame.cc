@@ -116,7 +116,7 @@ void BenchFrame::problem(std::string_view words) {
   page.tree.open(row);
   page.sign(icon::kAlert, 26, page.palette.bad);
   page.tree.open(page.grown(page.box(Flow::Column)));
-  Node said = page.text(words, 18, Weight::Regular, page.palette.bad);
+  Node said = page.text(page.said(words), 18, Weight::Regular, page.palette.bad);
   page.tree.leaf(said);
   page.tree.close();
   page.tree.close();
