@@ -62,6 +62,22 @@ TEST_F(TextEngineTest, NoWordStandsAlone) {
   }
 }
 
+// A soft hyphen shows, and has a width, only where its word has to end a line; evening out lines uses none.
+TEST_F(TextEngineTest, SoftHyphensSayWhereAWordMayBreakAndOnlyWhereItMust) {
+  const std::string word = "Appa\u00adrie\u00adments";
+  const float whole = engine->measure("Appariements", {}, 5000).width_px;
+  const TextLabel& free = engine->label(word, {}, 5000);
+  EXPECT_EQ(free.missing, 0);
+  EXPECT_EQ(free.size.lines, 1);
+  EXPECT_FLOAT_EQ(free.size.width_px, whole);
+  const TextSize tight = engine->measure(word, {}, 0.95F * whole);
+  EXPECT_EQ(tight.lines, 2);
+  EXPECT_NEAR(tight.width_px, engine->measure("Apparie-", {}, 5000).width_px, 2);
+  const TextSize even = engine->measure(word + " unis", {}, whole + 4);
+  EXPECT_EQ(even.lines, 2);
+  EXPECT_NEAR(even.width_px, whole, 2);
+}
+
 std::vector<std::string> phrases(const std::string& text, bool japanese) {
   std::vector<std::string> all;
   std::size_t from = 0;

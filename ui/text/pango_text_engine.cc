@@ -189,7 +189,7 @@ class PangoTextEngine final : public TextEngine {
     return logical.width <= width * PANGO_SCALE;
   }
 
-  // A line that ends inside a word.
+  // A line that ends inside a word, be it at a soft hyphen: allowed where nothing else fits, never for even lines.
   bool breaks_words() {
     int count = 0;
     const PangoLogAttr* marks = pango_layout_get_log_attrs_readonly(layout_.get(), &count);
@@ -197,7 +197,7 @@ class PangoTextEngine final : public TextEngine {
     for (GSList* at = pango_layout_get_lines_readonly(layout_.get()); at != nullptr; at = at->next) {
       auto* line = static_cast<PangoLayoutLine*>(at->data);
       const long start = g_utf8_pointer_to_offset(text, text + pango_layout_line_get_start_index(line));
-      if (start > 0 && start < count && marks[start].is_line_break == 0) return true;
+      if (start > 0 && start < count && (marks[start].is_line_break == 0 || marks[start].break_inserts_hyphen != 0)) return true;
     }
     return false;
   }

@@ -8,7 +8,7 @@ namespace relievo::ui {
 namespace {
 
 void tile(StaffFrame& page, const StaffPageInfo& info) {
-  Node node = page.grown(page.box(Flow::Column, space::kS, 12, 16));
+  Node node = page.grown(page.box(Flow::Column, space::kS, page.portrait ? 6 : 12, 16));
   const char* title = page.tr(info.title);
   node.id = info.id;
   node.name = title;

@@ -32,6 +32,8 @@ class BenchFrame {
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
   std::size_t across(std::size_t most) const { return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most; }
+  // How much wider than the figures beside them pictures are: large words take room from them.
+  float picture_share(float usual) const { return page.portrait ? 1.0F : page.text_share > 1.2F ? usual * 0.65F : usual; }
 
   // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
   // to it (Node::pinned). Touched, `action` says where.

@@ -74,7 +74,7 @@ void bench_cameras_page(StaffFrame& page) {
   BenchFrame b(page);
   b.problem(b.view.problem.empty() ? b.view.cameras.problem : b.view.problem);
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
-  Node pair = page.grown(page.box(Flow::Row, space::kS), page.portrait ? 1.0F : 1.5F);
+  Node pair = page.grown(page.box(Flow::Row, space::kS), b.picture_share(1.5F));
   pair.box.left_to_right = true;
   page.tree.open(pair);
   const BenchCameras& cameras = b.view.cameras;

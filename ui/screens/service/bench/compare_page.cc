@@ -11,7 +11,7 @@ namespace relievo::ui {
 namespace {
 
 void pictures(BenchFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.page.portrait ? 1.0F : 1.1F);
+  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(1.1F));
   b.page.tree.open(row);
   const char* const titles[] = {b.tr("Put aside"), b.tr("Now")};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -44,7 +44,7 @@ void tabs(BenchFrame& b) {
 
 void pair_pictures(BenchFrame& b) {
   const bool touchable = b.view.stage == BenchStage::Rectified;
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.page.portrait ? 1.0F : 2.4F);
+  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(2.4F));
   row.box.left_to_right = true;
   b.page.tree.open(row);
   for (std::size_t side = 0; side < 2; ++side) {
@@ -64,7 +64,7 @@ void pair_pictures(BenchFrame& b) {
 }
 
 void one_picture(BenchFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row), b.page.portrait ? 1.0F : 2.4F);
+  Node row = b.page.grown(b.page.box(Flow::Row), b.picture_share(2.4F));
   b.page.tree.open(row);
   b.open_picture("picture", title_of(b.tr, b.view.stage), b.view.shown[0], PictureSlot::BenchLeft);
   b.close_picture();
