@@ -87,6 +87,8 @@ class Camera {
   }
   // What tells this very camera from all others of its kind; empty where it does not say. After open().
   virtual std::string_view serial() const { return {}; }
+  // The socket it is plugged in at, by a name that survives a reboot; empty where there is none.
+  virtual std::string_view socket() const { return {}; }
 
  private:
   virtual Result<void> do_open(const CaptureMode& mode) = 0;

@@ -18,10 +18,13 @@ using pipeline::CameraIntrinsics;
 using pipeline::StereoCalibration;
 
 constexpr std::string_view kMagic{"RCALIB\0\0", 8};
-constexpr std::uint16_t kForm = 2;
+constexpr std::uint16_t kForm = 3;
 constexpr std::size_t kCameraBytes = 9 * 8 + 2 * 4;
 constexpr std::size_t kForm1Bytes = 8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 8 + sizeof(Sha256);
 constexpr std::size_t kForm2Bytes = kForm1Bytes + 8 + 1 + 3 * 8;
+constexpr std::size_t kNamesBytes = 2 * (pipeline::kMaxCameraWords + 1);
+constexpr std::size_t kForm3Bytes = kForm2Bytes + kNamesBytes;
+constexpr std::array kFormBytes{kForm1Bytes, kForm2Bytes, kForm3Bytes};
 constexpr int kMaxSidePx = 65'536;
 
 void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
@@ -41,6 +44,25 @@ CameraIntrinsics get_camera(ByteReader& from) {
   camera.width_px = from.get<std::int32_t>();
   camera.height_px = from.get<std::int32_t>();
   return camera;
+}
+
+// A length and as many bytes as the longest name has.
+void put_name(ByteWriter& to, const std::string& name) {
+  std::array<std::byte, pipeline::kMaxCameraWords> bytes{};
+  std::ranges::copy(bytes_of(name), bytes.begin());
+  to.put(static_cast<std::uint8_t>(name.size()));
+  to.put(bytes);
+}
+
+std::string get_name(ByteReader& from) {
+  const auto size = from.get<std::uint8_t>();
+  std::array<char, pipeline::kMaxCameraWords> bytes{};
+  for (char& c : bytes) c = static_cast<char>(from.get<std::uint8_t>());
+  return {bytes.data(), size};
+}
+
+bool is_name(const std::string& name) {
+  return name.size() <= pipeline::kMaxCameraWords && std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 bool usable(const CameraIntrinsics& camera) {
@@ -81,12 +103,14 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
       !std::isfinite(calibration.epipolar_shift_px) || calibration.epipolar_shift_px < 0) {
     return Error{Errc::InvalidInput, "the position of the right camera to the left one cannot be right"};
   }
+  if (!is_name(calibration.cameras.left) || !is_name(calibration.cameras.right))
+    return Error{Errc::InvalidInput, "the name of a calibrated camera cannot be right"};
   return {};
 }
 
 std::vector<std::byte> encode_calibration(const StereoCalibration& calibration, const CalibrationFigures& figures) {
   std::vector<std::byte> out;
-  out.reserve(kForm2Bytes);
+  out.reserve(kForm3Bytes);
   ByteWriter to(out);
   to.put(bytes_of(kMagic));
   to.put(kForm);
@@ -98,6 +122,8 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration, 
   for (const double v : {t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px}) to.put(v);
   to.put(static_cast<std::uint8_t>(figures.grade));
   for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm}) to.put(v);
+  put_name(to, calibration.cameras.left);
+  put_name(to, calibration.cameras.right);
   const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
@@ -112,7 +138,7 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   if (form < 1 || form > kForm) {
     return Error{Errc::StoreNewer, "this calibration was stored by a newer version: update Relievo"};
   }
-  if (bytes.size() != (form == 1 ? kForm1Bytes : kForm2Bytes) ||
+  if (bytes.size() != kFormBytes[form - 1] ||
       !std::ranges::equal(sha256(bytes.first(bytes.size() - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
     return Error{Errc::StoreCorrupt,
                  "a stored calibration is damaged: calibrate again, or activate an earlier one"};
@@ -133,6 +159,9 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
     *v = from.get<double>();
   }
+  if (form == 2) return stored;
+  calibration.cameras.left = get_name(from);
+  calibration.cameras.right = get_name(from);
   return stored;
 }
 

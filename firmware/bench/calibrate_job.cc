@@ -103,6 +103,7 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
     publish(*pair, live.state());
   }
   RELIEVO_TRY_ASSIGN(result_, live.finish());
+  result_->calibration.cameras = grabber_.cameras();
   return {};
 }
 

@@ -16,7 +16,10 @@ const Error kAway{Errc::Disconnected, "the camera is away: check its plug; it is
 }  // namespace
 
 Result<void> CameraLink::run(const hal::CaptureMode& mode) {
-  if (camera_.state() == Camera::State::Closed) RELIEVO_TRY(camera_.open(mode));
+  if (camera_.state() == Camera::State::Closed) {
+    RELIEVO_TRY(camera_.open(mode));
+    ++opened_;
+  }
   if (camera_.state() == Camera::State::Idle) {
     last_.reset();  // a stream counts from its own beginning
     RELIEVO_TRY(camera_.start());

@@ -39,6 +39,8 @@ class CameraLink {
   Result<hal::Frame> next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled);
   bool gone() const { return gone_.load(std::memory_order_relaxed); }
   hal::Instant due() const { return due_; }
+  // How often the camera was opened: each time it may be another one.
+  int opened() const { return opened_; }
 
  private:
   enum class Verdict : std::uint8_t { Take, Skip, Refuse };
@@ -53,6 +55,7 @@ class CameraLink {
   std::atomic<bool> gone_{false};
   std::optional<std::uint32_t> last_;  // sequence number of this stream's newest frame
   hal::Instant due_;
+  int opened_ = 0;
   std::chrono::milliseconds wait_ = budget::kCameraRetryFirst;
 };
 

@@ -3,6 +3,9 @@
 #include "firmware/capture/stereo_grabber.h"
 
 #include <chrono>
+#include <utility>
+
+#include "firmware/capture/rig_cameras.h"
 
 namespace relievo::firmware {
 
@@ -28,7 +31,32 @@ GrabberOptions grabber_options(const hal::Board& board) {
 Result<void> StereoGrabber::start(const hal::CaptureMode& mode) {
   const Result<void> left = left_.start(mode);
   const Result<void> right = right_.start(mode);
+  if (left && right) recognise();
   return left ? right : left;
+}
+
+void StereoGrabber::recognise() {
+  const int opened = left_.opened() + right_.opened();
+  if (opened == recognised_) return;
+  recognised_ = opened;
+  pipeline::RigCameras found = cameras_of(left_camera_, right_camera_);
+  const std::lock_guard lock(names_);
+  found_ = std::move(found);
+}
+
+pipeline::RigCameras StereoGrabber::cameras() const {
+  const std::lock_guard lock(names_);
+  return found_;
+}
+
+void StereoGrabber::expect(pipeline::RigCameras calibrated) {
+  const std::lock_guard lock(names_);
+  expected_ = std::move(calibrated);
+}
+
+Result<void> StereoGrabber::check_cameras() const {
+  const std::lock_guard lock(names_);
+  return firmware::check_cameras(expected_, found_);
 }
 
 void StereoGrabber::stop() {

@@ -14,11 +14,12 @@
 // Errors: Timeout (no picture, or none that fits the other), Disconnected (the camera is then opened
 // again by start(), see CameraLink), InvalidInput (the views differ in size or do not fit the slot),
 // IoFailed (damaged each time), Cancelled, and what the devices report. After an error the streams are
-// restarted. Thread: capture; watch() any.
+// restarted. Thread: capture, where nothing else is said.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string_view>
 
@@ -30,6 +31,7 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/trigger_line.h"
+#include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::firmware {
@@ -51,7 +53,7 @@ class StereoGrabber {
  public:
   StereoGrabber(hal::Camera& left, hal::Camera& right, hal::TriggerLine& trigger, const hal::Clock& clock,
                 const GrabberOptions& options = {})
-      : trigger_(trigger), clock_(clock), options_(options), left_(left, clock, counts_.left), right_(right, clock, counts_.right) {}
+      : left_camera_(left), right_camera_(right), trigger_(trigger), clock_(clock), options_(options), left_(left, clock, counts_.left), right_(right, clock, counts_.right) {}
   explicit StereoGrabber(hal::Board& board)
       : StereoGrabber(board.left(), board.right(), board.trigger(), board.clock(), grabber_options(board)) {}
   ~StereoGrabber() { stop(); }
@@ -66,6 +68,13 @@ class StereoGrabber {
   Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled, hal::Light light = hal::Light::Off);
 
   CameraWatch watch() const;
+  // Those that were opened last; empty before. Thread: any.
+  pipeline::RigCameras cameras() const;
+  // The cameras of the calibration in use. Thread: any.
+  void expect(pipeline::RigCameras calibrated);
+  // Are those opened last the ones expected? As check_cameras(); nothing is refused by start() and grab(), since who calibrates anew or looks
+  // for a fault needs any camera. Thread: any.
+  Result<void> check_cameras() const;
   const GrabCounts& counts() const { return counts_; }
 
  private:
@@ -80,17 +89,23 @@ class StereoGrabber {
     hal::Instant deadline;
     const std::atomic<bool>& cancelled;
   };
+  void recognise();
   Result<Half> take(CameraLink& camera, const Shot& shot);
   Result<pipeline::StereoFrame> grab_within(const Shot& shot, hal::Light light);
   Result<pipeline::StereoFrame> grab_once(const Shot& shot);
   Result<pipeline::StereoFrame> pair_of(const Half& left, const Half& right);
 
+  const hal::Camera& left_camera_;
+  const hal::Camera& right_camera_;
   hal::TriggerLine& trigger_;
   const hal::Clock& clock_;
   GrabberOptions options_;
   GrabCounts counts_;
   CameraLink left_;
   CameraLink right_;
+  int recognised_ = 0;                   // after so many openings
+  mutable std::mutex names_;             // of the two below
+  pipeline::RigCameras found_, expected_;
   std::optional<std::uint32_t> offset_;  // right's number minus left's, of the last pair
 };
 

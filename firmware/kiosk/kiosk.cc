@@ -34,6 +34,7 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 Kiosk::~Kiosk() {
   code_sight_.reset();
   desk_.reset();
+  if (appliance_) appliance_->end_side_job(JobPlace::Capture);
   appliance_.reset();
   wipe(receipt_);
   wipe(claimed_);
@@ -109,6 +110,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(const int moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved);
+  camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
+  if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
   desk_->set_bench(make_bench(args, services));
   code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
@@ -130,6 +133,7 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
   return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](const pipeline::StereoCalibration& calibration) {
     revision_ = calibration.revision;
     judge_->use(calibration);
+    appliance_->grabber().expect(calibration.cameras);
     appliance_->calibrated_anew();
   }});
 }
@@ -184,7 +188,7 @@ ui::Trouble Kiosk::out_of_order() const {
   const auto now = board_->clock().wall_now();
   if (now < kNoEarlier || now < newest_record_ - 24h) return ui::Trouble::Clock;
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
-  if (appliance_->moved_in_a_row() >= budget::kMovedFaces) return ui::Trouble::Calibration;
+  if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces) return ui::Trouble::Calibration;
   return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
@@ -203,6 +207,9 @@ void Kiosk::look() {
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
   while (!view_.languages[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = found_.load(std::memory_order_acquire);
+  const Result<void> cameras = appliance_->grabber().check_cameras();
+  exchanged_ = cameras ? "" : std::string(cameras.error().what.view()) + " (" + std::string(cameras.error().where()) + ")";
+  if (!cameras) view_.calibration_note = exchanged_;
   view_.out_of_order = out_of_order();
   if (showpiece_) view_.showpiece = &showpiece_->model();
   view_.service = &desk_->view();
@@ -222,7 +229,7 @@ void Kiosk::feed(const ui::Input& input) {
 }
 
 void Kiosk::ask(ui::Intent intent) {
-  const bool measures = stages_->calibration() != nullptr && appliance_->moved_in_a_row() < budget::kMovedFaces;
+  const bool measures = stages_->calibration() != nullptr && exchanged_.empty() && appliance_->moved_in_a_row() < budget::kMovedFaces;
   if (!measures && appliance_->state() == State::Idle && (intent == ui::Intent::Pose || intent == ui::Intent::Begin)) return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
@@ -251,6 +258,8 @@ void Kiosk::forget_asked() {
 
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
+  // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
+  if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now)) (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
   desk_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Technician) moved_faces_->keep(revision_, appliance_->moved_in_a_row(), desk_->errands(), desk_->log());
   if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "firmware/appliance.h"
+#include "firmware/capture/camera_look.h"
 #include "firmware/command/services.h"
 #include "firmware/kiosk/code/code_sight.h"
 #include "firmware/kiosk/moved_faces.h"
@@ -83,6 +84,8 @@ class Kiosk {
   // A name that is asked about, a code that is quoted, and the record both belong to. Main's, but while
   // the keeper looks up: then Asking is to be seen, and found_ is written last.
   std::string claimed_, quoted_;
+  std::unique_ptr<CameraLook> camera_look_;
+  std::string exchanged_;       // which cameras are not the calibrated ones, in a sentence; empty: they are
   storage::SubjectId record_{};
   std::atomic<ui::Known> found_{ui::Known::NotAsked};
   bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;

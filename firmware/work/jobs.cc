@@ -33,6 +33,7 @@ Result<void> OpenCamerasJob::run(JobControl& control) {
 
 Result<void> PoseJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
+  RELIEVO_TRY(grabber_.check_cameras());
   const hal::Exposure known = exposure_.exposure();
   RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
   if (judge_ != nullptr) judge_->begin();
@@ -76,6 +77,7 @@ Result<void> PoseJob::meter(const pipeline::StereoFrame& frame, Guidance& guidan
 
 Result<void> GrabJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(board_.preferred_mode()));  // nothing where the streams run already
+  RELIEVO_TRY(grabber_.check_cameras());                 // others than the calibrated ones measure nothing
   BurstOptions options;
   options.light = board_.shot_light();
   if (!board_.is_live()) {

@@ -39,6 +39,7 @@ class SideBySide {
    public:
     Side(SideBySide& both, int side) : both_(both), side_(side) {}
     std::string_view serial() const override { return both_.device_.serial(); }
+    std::string_view socket() const override { return both_.device_.socket(); }
 
    private:
     Result<void> do_open(const CaptureMode& mode) override { return both_.open(side_, mode); }

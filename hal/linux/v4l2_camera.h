@@ -40,6 +40,8 @@ class V4l2Camera final : public Camera {
   V4l2Camera& operator=(const V4l2Camera&) = delete;
 
   std::string_view serial() const override { return serial_; }
+  // /dev/video0 is another camera after another start: only names under /dev/v4l say something.
+  std::string_view socket() const override { return options_.device.starts_with("/dev/v4l/") ? std::string_view(options_.device) : std::string_view(); }
 
  private:
   static constexpr std::size_t kBuffers = 4;

@@ -6,7 +6,9 @@
 // left camera's frame into the right camera's.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "pipeline/model/geometry.h"
 
@@ -20,6 +22,15 @@ struct CameraIntrinsics {
   int height_px = 0;
 };
 
+// Which cameras: each in words that tell it from all others ("serial 40123456", "at /dev/v4l/by-path/…"); empty where
+// nobody knows. Printable ASCII, kMaxCameraWords at most.
+struct RigCameras {
+  std::string left;
+  std::string right;
+  bool operator==(const RigCameras&) const = default;
+};
+inline constexpr std::size_t kMaxCameraWords = 255;
+
 struct StereoCalibration {
   CameraIntrinsics left;
   CameraIntrinsics right;
@@ -28,6 +39,7 @@ struct StereoCalibration {
   double epipolar_shift_px = 0;  // what a whole board misses its epipolar lines by in a picture that had no part in
                                  // the fit, rms over the board (offset and tilt); 0 where unknown
   std::uint32_t revision = 0;
+  RigCameras cameras = {};       // that it was made with
 };
 
 }  // namespace relievo::pipeline

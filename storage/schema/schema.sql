@@ -92,4 +92,4 @@ CREATE TABLE audit_end (
 INSERT INTO audit_end (one, number, hash) VALUES (1, 0, zeroblob(32));
 
 -- The oldest version of Relievo that may still open this store.
-INSERT INTO store_info (one, compatible_version) VALUES (1, 4);
+INSERT INTO store_info (one, compatible_version) VALUES (1, 5);

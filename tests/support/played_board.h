@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -53,6 +54,8 @@ class PlayedCamera final : public hal::Camera {
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), std::byte{0x5A}) {}
   std::deque<Errc> errors;   // one a picture, then pictures
   Result<void> on_start{};
+  std::string number;        // serial; changed while it is unplugged
+  std::string_view serial() const override { return number; }
   std::atomic<bool> held{false};  // it has been pulsed and its picture does not come
 
  private:

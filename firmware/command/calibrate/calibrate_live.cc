@@ -84,6 +84,7 @@ Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& a
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
         .at(args.cameras);
+  result->calibration.cameras = pairs.cameras();
   RELIEVO_TRY(pipeline::write_calibration(args.output, result->calibration));
   return result;
 }

@@ -71,6 +71,7 @@ class BoardPairs final : public LivePairs {
     const std::chrono::nanoseconds at = timed_ ? board_->clock().now().time_since_epoch() : count_ * kPeriod;
     return std::optional<LivePair>({frame_.left, frame_.right, at});
   }
+  pipeline::RigCameras cameras() const override { return grabber_.cameras(); }
 
  private:
   std::unique_ptr<hal::Board> board_;

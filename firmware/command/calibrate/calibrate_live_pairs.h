@@ -20,6 +20,7 @@
 #include "hal/board.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/live/live_state.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::firmware {
 
@@ -34,6 +35,8 @@ class LivePairs {
   virtual ~LivePairs() = default;
   // What the cameras see after the person has seen `state`. No value: there are no more.
   virtual Result<std::optional<LivePair>> next(const pipeline::LiveState& state) = 0;
+  // Which cameras they are; empty before the first pair, and of cameras that say nothing of themselves.
+  virtual pipeline::RigCameras cameras() const { return {}; }
 };
 
 // Photographs a board where a hand holds it: moving from `opened` to `closed` while the shutter is open.

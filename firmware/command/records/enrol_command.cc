@@ -139,6 +139,7 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   };
   Appliance appliance({*board, stages, memory, pool, keep});
   records = &appliance;
+  appliance.grabber().expect(calibrated.calibration.cameras);
   appliance.set_subject(args.subject);
   appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
   const Result<void> done = drive(appliance, services.console);

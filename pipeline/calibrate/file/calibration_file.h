@@ -5,7 +5,8 @@
 //
 //   rig.yml                        OpenCV's stereo YAML: image_width image_height K1 D1 K2 D2 R T (M1 or
 //                                  cameraMatrix1, distCoeffs1 too), right from left, millimetres; 17
-//                                  digits, so what is read is what was written
+//                                  digits, so what is read is what was written; left_camera and
+//                                  right_camera name the cameras it was made with, where they are known
 //   intrinsics.yml extrinsics.yml  the two files of OpenCV's stereo sample; they do not say how large the
 //                                  pictures are
 //   left.yaml right.yaml           ROS camera_info (camera_info.h), metres

@@ -38,6 +38,23 @@ double number_or_zero(const YamlFields& fields, std::string_view name) {
   return found == fields.numbers.end() ? 0 : found->second;
 }
 
+// No field: nobody knows. A number would be no words of ours.
+Result<std::string> words_or_empty(const YamlFields& fields, std::string_view name) {
+  if (fields.numbers.contains(name)) return Error{Errc::InvalidInput, "a camera is named in words, not by a number alone"}.at(name);
+  const auto found = fields.words.find(name);
+  return found == fields.words.end() ? std::string() : found->second;
+}
+
+void append_words(std::string& text, const char* name, std::string_view words) {
+  if (words.empty()) return;
+  text += std::string(name) + ": \"";
+  for (const char c : words) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  text += "\"\n";
+}
+
 void append_matrix(std::string& text, const char* name, int rows, int cols, std::span<const double> values) {
   char line[96];
   std::snprintf(line, sizeof line, "%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [", name, rows,
@@ -70,16 +87,20 @@ Result<StereoCalibration> read_stereo_yaml(const YamlFields& cameras, const Yaml
   RELIEVO_TRY(read_relation(relation, hints.unit_mm > 0 ? hints.unit_mm : 1, calibration.right_from_left));
   calibration.rms_px = number_or_zero(cameras, "pair_rms_px");
   calibration.epipolar_shift_px = number_or_zero(cameras, "epipolar_shift_px");
+  RELIEVO_TRY_ASSIGN(calibration.cameras.left, words_or_empty(cameras, "left_camera"));
+  RELIEVO_TRY_ASSIGN(calibration.cameras.right, words_or_empty(cameras, "right_camera"));
   return calibration;
 }
 
 std::string calibration_text(const StereoCalibration& c) {
   // Everything that may be absent comes first: wherever the file is cut, a needed field is lost.
   char head[200];
-  std::snprintf(head, sizeof head,
-                "%%YAML:1.0\n---\npair_rms_px: %.16e\nepipolar_shift_px: %.16e\nimage_width: %d\nimage_height: %d\n",
+  std::string text = "%YAML:1.0\n---\n";
+  append_words(text, "left_camera", c.cameras.left);
+  append_words(text, "right_camera", c.cameras.right);
+  std::snprintf(head, sizeof head, "pair_rms_px: %.16e\nepipolar_shift_px: %.16e\nimage_width: %d\nimage_height: %d\n",
                 c.rms_px, c.epipolar_shift_px, c.left.width_px, c.left.height_px);
-  std::string text = head;
+  text += head;
   append_camera(text, c.left, "K1", "D1");
   append_camera(text, c.right, "K2", "D2");
   append_matrix(text, "R", 3, 3, c.right_from_left.rotation.m);

@@ -156,6 +156,21 @@ TEST_F(V4l2CameraTest, AnotherCameraThanTheCalibratedOneIsRefused) {
   EXPECT_TRUE(camera->open(kMode));
 }
 
+TEST_F(V4l2CameraTest, SaysWhichCameraItIsAndAnewWhenItIsOpenedAgain) {
+  make({"/dev/v4l/by-path/left", {}, 0, true});
+  ASSERT_TRUE(camera->open(kMode));
+  EXPECT_EQ(camera->serial(), "A1");
+  EXPECT_EQ(camera->socket(), "/dev/v4l/by-path/left");
+  camera->close();
+  kernel.serial = "B2";
+  ASSERT_TRUE(camera->open(kMode));
+  EXPECT_EQ(camera->serial(), "B2");
+  camera->close();
+  make({"/dev/video0", {}, 0, true});
+  ASSERT_TRUE(camera->open(kMode));
+  EXPECT_EQ(camera->socket(), "") << "another camera's name after another start";
+}
+
 TEST_F(V4l2CameraTest, DevicesThatAreNoUseAreRefusedInClearWords) {
   struct Case {
     std::function<void(FakeKernel&)> make;

@@ -66,6 +66,24 @@ TEST(CalibrationFile, CutAtAnyLengthIsRefusedOrTheSame) {
   cut_everywhere(pipeline::calibration_text(sample_rig()));
 }
 
+TEST(CalibrationFile, NamesTheCamerasItWasMadeWith) {
+  StereoCalibration rig = sample_rig();
+  rig.cameras = {"serial \"40\\12\" # : '", "at /dev/v4l/by-path/pci-0000:00:14.0-usb-0:2:1.0-video-index0"};
+  const std::string text = pipeline::calibration_text(rig);
+  const auto read = pipeline::parse_calibration(text);
+  ASSERT_TRUE(read) << read.error().where() << ": " << read.error().what.view();
+  EXPECT_EQ(read->cameras, rig.cameras);
+  cut_everywhere(text);
+  // One that was made before, or elsewhere, names none, and is written as it always was.
+  const std::string before = pipeline::calibration_text(sample_rig());
+  EXPECT_EQ(before.find("_camera"), std::string::npos);
+  EXPECT_EQ(pipeline::parse_calibration(before)->cameras, pipeline::RigCameras());
+  for (const char* by : {"left_camera: 4012\n", "left_camera: \"a\\tb\"\n", "left_camera: \"\xc3\xa9\"\n"})
+    EXPECT_EQ(pipeline::parse_calibration(replaced(before, "pair_rms_px", std::string(by) + "pair_rms_px")).error().where(), "left_camera") << by;
+  rig.cameras.right.assign(pipeline::kMaxCameraWords + 1, 'x');
+  EXPECT_FALSE(pipeline::check_calibration(rig));
+}
+
 TEST(CalibrationFile, OpenCvsFormCutAtAnyLengthToo) {
   const char* data = std::getenv("RELIEVO_TEST_DATA");
   if (data == nullptr) GTEST_SKIP() << "RELIEVO_TEST_DATA is not set: the measured pictures are not here";
