@@ -182,7 +182,7 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
     kiosk->turn();
   };
   speak(ui::Language::German);
-  EXPECT_TRUE(says("Der Speicher hat keine Kalibrierung")) << "what is not in order";
+  EXPECT_TRUE(says("Der Datenspeicher hat keine Kalibrierung")) << "what is not in order";
   tap("back");
   tap("open log");
   const auto read = [this](std::string_view words) {

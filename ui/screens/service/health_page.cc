@@ -10,6 +10,8 @@
 namespace relievo::ui {
 namespace {
 
+constexpr double kManyMib = 10 * 1024;   // from here on a figure is easier read, and fits its line, in GiB
+
 const char* words_of(const Words& tr, Gauge gauge) {
   switch (gauge) {
     case Gauge::Stages: return tr("Memory of the stages");
@@ -23,7 +25,8 @@ const char* words_of(const Words& tr, Gauge gauge) {
 void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   char text[64];
   if (row.gauge == Gauge::Temperature) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0°C\u2069", row.used);
-  else std::snprintf(text, sizeof text, "\u2066%.0f / %.0f\u00a0MiB\u2069", row.used, row.of);
+  else if (row.of < kManyMib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
+  else std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024, row.of / 1024);
   const std::string_view id = page.tree.keep("gauge "), which = page.number(static_cast<double>(index));
   page.row({id.data(), id.size() + which.size()}, row.name.empty() ? std::string_view(words_of(page.tr, row.gauge)) : row.name, page.tree.keep(text), row.mood);
 }

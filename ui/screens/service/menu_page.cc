@@ -35,7 +35,9 @@ void menu_page(StaffFrame& page) {
   list.id = "menu";
   list.box.scroll = true;
   page.tree.open(list);
-  const int across = page.portrait || page.text_share > 1.3F ? 3 : 4;
+  // Where letters are large, a long word must not be torn: fewer and wider tiles.
+  const bool large = page.text_share > 1.2F;
+  const int across = page.portrait ? large ? 2 : 3 : page.text_share > 1.3F ? 3 : 4;
   int column = 0;
   for (const StaffPageInfo& info : staff_pages()) {
     if (!may_open(page.staff.role, info)) continue;
