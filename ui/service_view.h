@@ -30,6 +30,7 @@ enum class StaffPage : std::uint8_t {
 enum class Outcome : std::uint8_t {
   None, Done, Cancelled, NoStick, StickFull, StickGone,
   StickLocked, StickBad, StickHeld,   // write-protected; does not keep what is written; all is there, but the system does not let it go
+  StickUnchecked,                     // all is there and was read back, but it cannot be opened once more to be sure
   NotFound, Refused, Failed
 };
 

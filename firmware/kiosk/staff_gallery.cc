@@ -102,7 +102,7 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
   using ui::Outcome;
   records.records = &kTwoOfFive;
   for (const auto& [name, outcome] : {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull}, std::pair{"staff_stick_locked", Outcome::StickLocked},
-                                      std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld}, std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
+                                      std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld}, std::pair{"staff_stick_unchecked", Outcome::StickUnchecked}, std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
     records.work.outcome = outcome;
     all.push_back({name, StaffPage::Records, 0, records});
   }

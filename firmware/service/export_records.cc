@@ -7,6 +7,7 @@
 #include <map>
 #include <memory_resource>
 #include <string>
+#include <utility>
 
 #include "firmware/command/output_folder.h"
 #include "firmware/command/wall_time.h"
@@ -77,7 +78,7 @@ class Export {
     if (read != written) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"};
     RELIEVO_TRY(reach(ExportStep::Write, done + 0.9F * share));
     RELIEVO_TRY(replace_folder(folder, target));
-    made_.push_back(target);
+    made_.emplace_back(target, written);
     return {};
   }
 
@@ -85,12 +86,31 @@ class Export {
     RELIEVO_TRY(reach(ExportStep::LetGo, 1));
     std::error_code error;
     // Another stick may have come in the place of the first.
-    for (const fs::path& record : made_)
+    for (const auto& [record, sums] : made_)
       if (!fs::exists(record / "record.txt", error)) return pulled();
-    return media_.flush_and_eject();
+    RELIEVO_TRY(media_.flush_and_eject());
+    return compare_again();
   }
 
  private:
+  // Now nothing but the stick can answer. It is read only, and is let go whatever comes of it.
+  Result<void> compare_again() {
+    trace_.step = ExportStep::Again;
+    RELIEVO_TRY(media_.take_up_again());
+    trace_.whole = 0;
+    Result<void> same;
+    for (const auto& [record, sums] : made_) {
+      const Result<Sums> kept = sums_of(record);
+      if (kept && *kept == sums) ++trace_.whole;
+      else if (same) same = kept ? Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"} : kept.error();
+    }
+    if (!media_.current()) return pulled();
+    if (same) trace_.step = ExportStep::LetGo;
+    const Result<void> gone = media_.flush_and_eject();
+    RELIEVO_TRY(same);
+    return gone;
+  }
+
   Result<void> reach(ExportStep step, float share) {
     if (control_.cancelled.load()) return stopped();
     trace_.step = step;
@@ -102,7 +122,7 @@ class Export {
   hal::RemovableMedia& media_;
   JobControl& control_;
   ExportTrace& trace_;
-  std::vector<fs::path> made_;
+  std::vector<std::pair<fs::path, Sums>> made_;
 };
 
 }  // namespace
@@ -129,6 +149,7 @@ ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
   const bool not_allowed = number == EROFS || number == EACCES || number == EPERM;
   const bool gone = number == ENOENT || number == ENODEV || number == ENXIO || number == ESTALE || error.code == Errc::MediaMissing;
   const bool of_the_stick = error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
+  if (trace.step == ExportStep::Again && error.code == Errc::Unsupported) return ui::Outcome::StickUnchecked;
   if (trace.step >= ExportStep::Write && of_the_stick) {
     if (gone) return ui::Outcome::StickGone;
     if (trace.step == ExportStep::LetGo && (not_allowed || number == EBUSY)) return ui::Outcome::StickHeld;

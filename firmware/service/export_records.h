@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Records on a stick: relievo/CODE/ with the newest portrait's files and record.txt, one folder a
-// person, each whole or not there. What was written is read back and compared before a folder gets its
+// person, each whole or not there; read back once more after the stick was let go and taken up again. What was written is read back and compared before a folder gets its
 // name; what an earlier export left half written is cleared away by the next.
 // Thread: the keeper; between two people and two steps it looks whether it is to stop.
 // Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, NotFound,
@@ -18,7 +18,7 @@
 
 namespace relievo::firmware {
 
-enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo };
+enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo, Again };
 
 // How far an export came. Written by the keeper; main reads it when the errand has ended.
 struct ExportTrace {

@@ -10,6 +10,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 namespace relievo::hal {
@@ -34,6 +38,17 @@ class RealMounts final : public Mounts {
     ::close(file);
     return result;
   }
+  std::optional<MountSource> source_of(const std::filesystem::path& folder) override {
+    std::ifstream in("/proc/self/mountinfo");
+    const std::string table{std::istreambuf_iterator<char>(in), {}};
+    return source_in(table, folder.native());
+  }
+  // The folder may have gone with the mount, as udisks does it.
+  int mount_read_only(const MountSource& source, const std::filesystem::path& folder) override {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return ::mount(source.device.c_str(), folder.c_str(), source.type.c_str(), MS_RDONLY | MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0 ? 0 : -errno;
+  }
   int unmount(const std::filesystem::path& folder) override { return ::umount2(folder.c_str(), UMOUNT_NOFOLLOW) == 0 ? 0 : -errno; }
 };
 
@@ -45,7 +60,36 @@ Error cannot_unmount(int negative_errno) {
   return {Errc::IoFailed, "the stick could not be unmounted; do not trust what was written", -negative_errno};
 }
 
+// "\\040" is a blank: proc(5) writes blank, tab, line end and backslash in octal.
+std::string unescaped(std::string_view text) {
+  std::string plain;
+  const auto octal = [](char c) { return c >= '0' && c <= '7'; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 3 < text.size() && octal(text[i + 1]) && octal(text[i + 2]) && octal(text[i + 3])) {
+      plain += static_cast<char>((text[i + 1] - '0') * 64 + (text[i + 2] - '0') * 8 + (text[i + 3] - '0'));
+      i += 3;
+    } else {
+      plain += text[i];
+    }
+  }
+  return plain;
+}
+
 }  // namespace
+
+std::optional<MountSource> source_in(std::string_view mountinfo, std::string_view folder) {
+  std::optional<MountSource> found;
+  std::istringstream lines{std::string(mountinfo)};
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string id, parent, device, root, at, word;
+    if (!(words >> id >> parent >> device >> root >> at) || unescaped(at) != folder) continue;
+    while (words >> word && word != "-") {}   // options, as many as there are
+    std::string type, source;
+    if (words >> type >> source) found = MountSource{unescaped(source), type};
+  }
+  return found;
+}
 
 Mounts& real_mounts() {
   static RealMounts mounts;
@@ -78,7 +122,20 @@ Result<void> MountedStick::flush_and_eject() {
   } else if (flushed < 0) {
     return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}.at(medium->root.native());
   }
+  const auto source = mounts_.source_of(medium->root);
+  ejected_.reset();
   if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0) return cannot_unmount(unmounted).at(medium->root.native());
+  if (source) ejected_ = Ejected{*source, medium->root};
+  return {};
+}
+
+Result<void> MountedStick::take_up_again() {
+  const std::lock_guard lock(mutex_);
+  if (!ejected_) return Error{Errc::MediaMissing, "the stick is gone"};
+  const Ejected again = *std::exchange(ejected_, std::nullopt);
+  const int mounted = mounts_.mount_read_only(again.source, again.root);
+  if (mounted == -ENOENT || mounted == -ENODEV || mounted == -ENXIO || mounted == -ENOMEDIUM) return Error{Errc::MediaMissing, "the stick is gone", -mounted}.at(again.root.native());
+  if (mounted < 0) return Error{Errc::Unsupported, "the stick could not be mounted again: use another stick", -mounted}.at(again.root.native());
   return {};
 }
 

@@ -23,6 +23,10 @@ class FaultyStick final : public hal::RemovableMedia {
     Forgets,   // it gives back other bytes than it took
     Waits,     // nothing goes on until let_go_on()
     Held,      // all is written, but the system still uses it
+    // When it was let go and is to be read once more:
+    ForgetsLater,   // it gives back other bytes then
+    PulledLater,    // a hand was quicker
+    NotAgain,       // the system does not mount it
   };
   explicit FaultyStick(std::filesystem::path folder) : folder_(std::move(folder)) { real_.plug(folder_); }
 
@@ -46,6 +50,8 @@ class FaultyStick final : public hal::RemovableMedia {
 
   std::optional<hal::Medium> current() override { return real_.current(); }
   Result<void> settle(const std::filesystem::path& folder) override {
+    const std::string hidden = folder.filename().string();   // ".CODE.part123": CODE is its name when it is whole
+    newest_ = folder.parent_path() / hidden.substr(1, hidden.find('.', 1) - 1);
     if (--records_left_ == 0) strike(folder);
     return real_.settle(folder);
   }
@@ -53,28 +59,29 @@ class FaultyStick final : public hal::RemovableMedia {
     if (fault_ == Fault::Held) return Error{Errc::IoFailed, "something still uses the stick, as the test says", EBUSY};
     return real_.flush_and_eject();
   }
+  Result<void> take_up_again() override {
+    ++taken_up_;
+    if (fault_ == Fault::NotAgain) return Error{Errc::Unsupported, "it cannot be mounted again, as the test says", EPERM};
+    if (fault_ == Fault::PulledLater) std::filesystem::rename(folder_, pulled_folder());
+    if (fault_ == Fault::ForgetsLater) damage(newest_);
+    return real_.take_up_again();
+  }
+  int taken_up() const { return taken_up_; }
 
  private:
   std::filesystem::path pulled_folder() const { return folder_.string() + " in a hand"; }
   void strike(const std::filesystem::path& folder) {
     switch (fault_) {
       case Fault::None:
+      case Fault::ForgetsLater:
+      case Fault::PulledLater:
+      case Fault::NotAgain:
       case Fault::Held: return;
       case Fault::Pulled:
         real_.unplug();
         std::filesystem::rename(folder_, pulled_folder());
         return;
-      case Fault::Forgets: {
-        const bool model = std::filesystem::exists(folder / "model.ply");
-        const std::filesystem::path damaged = folder / (model ? "model.ply" : "right_000001.png");
-        const std::streamoff back = model ? 1 : static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2);
-        std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
-        file.seekg(-back, std::ios::end);
-        const char last = static_cast<char>(file.get());
-        file.seekp(-back, std::ios::end);
-        file.put(static_cast<char>(last ^ 1));
-        return;
-      }
+      case Fault::Forgets: return damage(folder);
       case Fault::Waits:
         waits_.store(true);
         waits_.notify_all();
@@ -82,8 +89,19 @@ class FaultyStick final : public hal::RemovableMedia {
         return;
     }
   }
+  static void damage(const std::filesystem::path& folder) {
+    const bool model = std::filesystem::exists(folder / "model.ply");
+    const std::filesystem::path damaged = folder / (model ? "model.ply" : "right_000001.png");
+    const std::streamoff back = model ? 1 : static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2);
+    std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(-back, std::ios::end);
+    const char last = static_cast<char>(file.get());
+    file.seekp(-back, std::ios::end);
+    file.put(static_cast<char>(last ^ 1));
+  }
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, newest_;
+  int taken_up_ = 0;
   hal::FolderMedia real_;
   Fault fault_ = Fault::None;
   int records_left_ = 0;

@@ -7,17 +7,20 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
 
 namespace relievo::hal {
 
 void FolderMedia::plug(std::filesystem::path root) {
   const std::lock_guard lock(mutex_);
   root_ = std::move(root);
+  ejected_.reset();
 }
 
 void FolderMedia::unplug() {
   const std::lock_guard lock(mutex_);
   root_.reset();
+  ejected_.reset();
 }
 
 std::optional<Medium> FolderMedia::current() {
@@ -36,7 +39,15 @@ Result<void> FolderMedia::flush_and_eject() {
   const int failed = ::syncfs(folder) == 0 ? 0 : errno;
   ::close(folder);
   if (failed != 0) return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", failed}.at(root_->native());
-  root_.reset();
+  ejected_ = std::exchange(root_, std::nullopt);
+  return {};
+}
+
+Result<void> FolderMedia::take_up_again() {
+  const std::lock_guard lock(mutex_);
+  std::error_code error;
+  if (!ejected_ || !std::filesystem::is_directory(*ejected_, error)) return Error{Errc::MediaMissing, "the stick is gone"};
+  root_ = std::exchange(ejected_, std::nullopt);
   return {};
 }
 

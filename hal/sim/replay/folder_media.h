@@ -21,10 +21,11 @@ class FolderMedia final : public RemovableMedia {
 
   std::optional<Medium> current() override;   // nothing when unplugged or the folder is gone
   Result<void> flush_and_eject() override;    // MediaMissing, IoFailed
+  Result<void> take_up_again() override;      // MediaMissing
 
  private:
   std::mutex mutex_;
-  std::optional<std::filesystem::path> root_;
+  std::optional<std::filesystem::path> root_, ejected_;
 };
 
 }  // namespace relievo::hal

@@ -79,6 +79,41 @@ TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedTo
   ends_well_the_next_time(stick());
 }
 
+TEST_F(StaffExportTest, TheStickIsReadOnceMoreAfterItWasLetGo) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  EXPECT_EQ(export_all(), Outcome::Done);
+  EXPECT_EQ(faulty.taken_up(), 1);
+  EXPECT_FALSE(faulty.current().has_value()) << "and let go again";
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, WhatTheStickForgetsWhenItIsLetGoIsNoticed) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  faulty.fail(FaultyStick::Fault::ForgetsLater);
+  EXPECT_EQ(export_all(), Outcome::StickBad);
+  EXPECT_NE(said().find("does not keep what is written"), std::string::npos) << said();
+  EXPECT_NE(whole().find("1 of 2"), std::string::npos) << whole();
+  EXPECT_FALSE(faulty.current().has_value()) << "a bad one is let go, too";
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, AStickPulledBeforeItsLastReadingIsNotPromised) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  faulty.fail(FaultyStick::Fault::PulledLater);
+  EXPECT_EQ(export_all(), Outcome::StickGone);
+  EXPECT_NE(said().find("pulled out too early"), std::string::npos) << said();
+  ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, AStickThatCannotBeOpenedOnceMoreIsSaidToBeUnchecked) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  faulty.fail(FaultyStick::Fault::NotAgain);
+  EXPECT_EQ(export_all(), Outcome::StickUnchecked);
+  EXPECT_NE(said().find("cannot open the stick once more"), std::string::npos) << said();
+  EXPECT_EQ(exported_on(stick()), "12") << "what was read back once stays";
+  ends_well_the_next_time(stick());
+}
+
 TEST_F(StaffExportTest, WhatAnEarlierExportLeftIsReplacedAsAWholeOrStays) {
   open_records({"Ada Lovelace", "Grace Hopper"});
   ASSERT_EQ(export_all(), Outcome::Done);

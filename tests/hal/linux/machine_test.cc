@@ -143,7 +143,54 @@ class PlayedMounts final : public Mounts {
     if (unmount_result == 0) mounted.erase(folder.native());
     return unmount_result;
   }
+  int mount_result = 0;
+  std::optional<MountSource> source_of(const std::filesystem::path& folder) override {
+    return mounted.contains(folder.native()) ? std::optional(MountSource{"/dev/sdx1", "vfat"}) : std::nullopt;
+  }
+  int mount_read_only(const MountSource& source, const std::filesystem::path& folder) override {
+    calls.push_back("mount " + source.type + " " + source.device + " " + folder.native());
+    if (mount_result == 0) mounted[folder.native()] = 1;
+    return mount_result;
+  }
 };
+
+TEST(MountedStick, IsTakenUpAgainWhereItWasOnceForEveryEjection) {
+  const TemporaryFolder folder;
+  const std::string root = folder.path().native();
+  PlayedMounts mounts;
+  MountedStick stick(root, mounts);
+  EXPECT_EQ(stick.take_up_again().error().code, Errc::MediaMissing) << "nothing was ejected";
+  mounts.mounted[root] = 5;
+  ASSERT_TRUE(stick.flush_and_eject());
+  ASSERT_TRUE(stick.take_up_again());
+  EXPECT_EQ(mounts.calls.back(), "mount vfat /dev/sdx1 " + root);
+  ASSERT_TRUE(stick.current());
+  ASSERT_TRUE(stick.flush_and_eject());
+  EXPECT_FALSE(stick.current());
+  for (const auto& [refused, code] : {std::pair{-ENXIO, Errc::MediaMissing}, std::pair{-ENOENT, Errc::MediaMissing}, std::pair{-EPERM, Errc::Unsupported}, std::pair{-EIO, Errc::Unsupported}}) {
+    mounts.mounted[root] = 5;
+    mounts.mount_result = refused;
+    ASSERT_TRUE(stick.flush_and_eject());
+    EXPECT_EQ(stick.take_up_again().error().code, code) << refused;
+    EXPECT_EQ(stick.take_up_again().error().code, Errc::MediaMissing) << "it is asked for once";
+  }
+}
+
+TEST(MountedStick, FindsItsDeviceInTheTableOfTheKernel) {
+  constexpr std::string_view kTable =
+      "24 1 8:2 / / rw,relatime shared:1 - ext4 /dev/sda2 rw\n"
+      "88 24 8:17 / /media/relievo/MY\\040STICK rw,nosuid,nodev shared:7 master:3 - vfat /dev/sdb1 rw,uid=1000\n"
+      "89 24 8:33 / /media/relievo rw - exfat /dev/sdc1 rw\n"
+      "90 24 8:34 / /media/relievo rw - ext4 /dev/sdc2 rw\n"
+      "91 24 cut off\n";
+  const auto stick = source_in(kTable, "/media/relievo/MY STICK");
+  ASSERT_TRUE(stick);
+  EXPECT_EQ(stick->device, "/dev/sdb1");
+  EXPECT_EQ(stick->type, "vfat");
+  EXPECT_EQ(source_in(kTable, "/media/relievo")->device, "/dev/sdc2") << "the newest lies on top";
+  EXPECT_FALSE(source_in(kTable, "/media"));
+  EXPECT_TRUE(real_mounts().source_of("/proc")) << "the real table is read";
+}
 
 TEST(MountedStick, IsSeenFlushedThenUnmounted) {
   const TemporaryFolder folder;

@@ -109,6 +109,7 @@ void StaffFrame::outcome() {
     case Outcome::StickLocked: words = tr("The stick is write-protected. Slide its switch back or plug in another one, then export again."); break;
     case Outcome::StickBad: words = tr("The stick does not keep what is written on it. Plug in another one and export again."); break;
     case Outcome::StickHeld: words = tr("It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out."); mood = Mood::Warn; break;
+    case Outcome::StickUnchecked: words = tr("It is written and was read back, but the device cannot open the stick once more to be sure. You may pull it out; export again to another one."); mood = Mood::Warn; break;
     case Outcome::NotFound: words = tr("It is no longer there."); break;
     case Outcome::Refused: words = tr("This cannot be accepted."); break;
     case Outcome::Failed: words = tr("It could not be done. The log says why."); break;
