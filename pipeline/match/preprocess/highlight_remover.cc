@@ -21,6 +21,7 @@ constexpr float kLit = 0.05F, kColoured = 0.01F;
 // Below this share of the brightness there is no colour to go by: a grey camera, a coloured lamp.
 constexpr float kLeastColour = 0.05F;
 constexpr float kWhite = 0.2F;  // less of the light than this is skin's: no highlight but a white of the eye, teeth, a beard
+constexpr std::uint8_t kClipped = 252;  // of a channel that has reached its end nobody knows the colour: red ends first, and skin would pass for white
 constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder than lips is paint
 constexpr double kLampReach = 0.03;     // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
 constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
@@ -105,7 +106,7 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
         const std::uint8_t* rgb = &view.rgb[3 * k];
         red += linear[rgb[0]];
         rest += linear[rgb[1]] + linear[rgb[2]];
-        valid = valid && view.valid[k] != 0;
+        valid = valid && view.valid[k] != 0 && std::max({rgb[0], rgb[1], rgb[2]}) < kClipped;
       }
       all[cx] = valid ? (red + rest) * (kShare / 3) : 0;
       colour[cx] = valid ? (red - 0.5F * rest) * kShare : 0;

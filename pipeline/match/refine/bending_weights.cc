@@ -10,7 +10,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 16;
-constexpr int kPatch = 1;  // radius, nodes
+constexpr int kPatch = 8;  // radius, nodes
 constexpr float kPatchNodes = (2 * kPatch + 1) * (2 * kPatch + 1);
 
 struct Bends {
@@ -39,13 +39,13 @@ Bends bends_at(const Plane<float>& d, const Plane<std::uint8_t>& domain, int x, 
 void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, double wrinkle, ThreadPool& pool,
                       Plane<float>& across, Plane<float>& wrinkled) {
   if (!(wrinkle > 0)) return std::fill(wrinkled.values.begin(), wrinkled.values.end(), 0.0F);
-  const auto share = static_cast<float>(1 / (wrinkle * wrinkle)) / kPatchNodes;
+  const auto wrinkle2 = static_cast<float>(1 / (wrinkle * wrinkle));
   pool.for_each_band(d.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < d.width; ++x) wrinkled.row(y)[x] = share * bends_at(d, domain, x, y).squared;
+      for (int x = 0; x < d.width; ++x) wrinkled.row(y)[x] = std::min(kSharpest, wrinkle2 * bends_at(d, domain, x, y).squared) / kPatchNodes;
   });
   box_sum(wrinkled, kPatch, pool, across, wrinkled);
-  for (float& value : wrinkled.values) value = std::min(value, kMostWrinkled);
+  for (float& value : wrinkled.values) value = std::clamp(value - kPlain, 0.0F, kMostWrinkled);
 }
 
 }  // namespace

@@ -3,11 +3,12 @@
 //
 // How firmly SurfaceRefiner holds each node flat: the weights of the second differences in BendingSystem.
 //
-//   omega = lambda / (1 + (bend / crease)^2 + min(kMostWrinkled, mean of (bend / wrinkle)^2 over 3 x 3 nodes))
+//   omega = lambda / (1 + (bend / crease)^2 + min(kMostWrinkled, max(0, mean of min(kSharpest, (bend / wrinkle)^2) - kPlain)))
 //
 // A single sharp bend is a crease (an eyelid, a nostril) and let go: a Cauchy prior by reweighting, as in
-// Charbonnier et al. 1997. A patch that bends everywhere is a relief (wrinkles, lips), held less, too, yet never
-// let go: one node alone would take its own noise for relief, and on plain skin the fit would run away.
+// Charbonnier et al. 1997. A patch of 17 x 17 nodes (9 mm: waves of 6 mm and more) that bends everywhere is a relief
+// (wrinkles, lips) and held less, too, yet never let go. The patch is that large, and what noise alone bends plain skin is
+// taken off, so that no noise takes itself for relief and runs away; a crease, however sharp, speaks for its own node only.
 // Thread: any; bands of rows on the pool.
 #pragma once
 
@@ -19,7 +20,7 @@
 
 namespace relievo::pipeline {
 
-inline constexpr float kMostWrinkled = 2;
+inline constexpr float kMostWrinkled = 8, kSharpest = 12, kPlain = 3;
 
 struct BendingExpectation {
   double lambda;      // weight of a squared second difference of nodes

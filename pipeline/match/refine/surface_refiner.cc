@@ -97,6 +97,9 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
+// Skin is smoother than the prior that keeps its wrinkles expects: errors of rendered heads of two makers come to this share.
+constexpr float kSigmaShare = 0.96F;
+
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
 // with A the information that the gradients seem to carry, noise in them included, and a what both views'
@@ -130,10 +133,9 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
       if (work.domain.row(y)[x] == 0) continue;
       const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
       const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
-      // Noise that bends the patch loosens its own hold: the reweighted prior curves once more as much less.
-      const float xx = work.system.bend_xx.row(y)[x] / (1 + work.wrinkled.row(y)[x]);
+      const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
+          kSigmaShare * posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];

@@ -151,9 +151,9 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   Start best{1e30, Pose::Zero()};
   for (const Start& start : raster(map, points)) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-    const Pose pose = descend(map, points, start.pose);
-    const double c = cost(map, points, 1, pose);
-    if (c < best.cost) best = {c, pose};
+    // On a rough surface the descent may leave for where hardly anything meets: a start that was better stays.
+    for (const Pose& pose : {start.pose, descend(map, points, start.pose)})
+      if (const double c = cost(map, points, 1, pose); c < best.cost) best = {c, pose};
   }
   SymmetryPlane plane;
   plane.normal = normal_of(best.pose);

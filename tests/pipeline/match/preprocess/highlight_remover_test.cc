@@ -91,6 +91,25 @@ TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
   }
 }
 
+// Of two cameras exposed unlike, the brighter one sees skin whose red has reached its end: paler than it is, as under a lamp.
+TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
+  Bench bench;
+  RectifiedPair pair = bench.skin(0);
+  std::vector<std::uint8_t> reds;
+  for (std::size_t k = 0; k < pair.left.grey.size(); ++k) reds.push_back(pair.left.rgb[3 * k]);
+  std::nth_element(reds.begin(), reds.begin() + static_cast<std::ptrdiff_t>(reds.size() / 2), reds.end());
+  const double gain = 262.0 / reds[reds.size() / 2];
+  for (std::uint8_t& v : pair.left.rgb) v = static_cast<std::uint8_t>(std::min(255L, std::lround(gain * v)));
+  for (std::size_t k = 0; k < pair.left.grey.size(); ++k)
+    pair.left.grey[k] = static_cast<float>(pair.left.rgb[3 * k] + pair.left.rgb[3 * k + 1] + pair.left.rgb[3 * k + 2]) / 3;
+  std::size_t ended = 0;
+  for (std::size_t k = 0; k < pair.left.grey.size(); ++k) ended += pair.left.rgb[3 * k] == 255 ? 1U : 0U;
+  ASSERT_GT(ended, pair.left.grey.size() / 4);
+  const auto before = pair.left.grey;
+  ASSERT_TRUE(bench.remove(pair));
+  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 0.75) << "x " << k % 200 << " y " << k / 200;
+}
+
 // The white of an eye, teeth: no skin. Right beside them two or three levels may go.
 TEST(HighlightRemover, WhiteThingsStay) {
   Bench bench;
