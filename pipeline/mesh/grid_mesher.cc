@@ -18,6 +18,7 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr double kCutAway = 0.009;  // of the triangles, by the outline's cut
 constexpr double kThinnerStep = 1.003;  // where the triangles at hand are exceeded by a few
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
@@ -102,14 +103,14 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported, "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
 
-  // What the outline's cut takes is known once it is done; in the rare case that it leaves more than it
-  // found, a thinner lattice fits.
-  for (int triangles = options_.max_triangles;; triangles -= triangles / 50) {
+  // What the outline's cut takes is known once it is done: about a hundredth, which may be had more of before. Where it leaves
+  // too many, a thinner lattice fits.
+  for (double triangles = (1 + kCutAway) * options_.max_triangles;; triangles *= 1 - kCutAway / 2) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
     PointLattice lattice = make_lattice(cloud, &context.scratch);
     context.progress.done.store(0.2F, std::memory_order_relaxed);
-    const CutSurface surface = make_surface(std::move(lattice), static_cast<double>(triangles), options_, context.scratch);
+    const CutSurface surface = make_surface(std::move(lattice), triangles, options_, context.scratch);
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface();

@@ -217,7 +217,7 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
     return errors[errors.size() / 2];
   };
   EXPECT_LT(off_there(*followed), 0.1);
-  EXPECT_GT(off_there(*ignored), 3 * off_there(*followed));
+  EXPECT_GT(off_there(*ignored), 2 * off_there(*followed));
   for (const Match& m : followed->matches) {
     const double moved = scene.moved(m.left_px.x - m.disparity_px, m.left_px.y);
     if (scene.judged(m.left_px.x, m.left_px.y) && moved > 1) {
