@@ -110,6 +110,12 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   tree.close();
 }
 
+void Page::reading_tools() {
+  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+}
+
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action) {
   Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
   node.id = id;
@@ -159,9 +165,7 @@ void Page::bar(bool with_back) {
   if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
   if (!portrait || !with_back) steps();
   tree.close();
-  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
-  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
-  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  reading_tools();
   square_button("help", tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   // What is being stored is stored: who accepted gets their code.
   if (view.screen != Screen::Store) square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});

@@ -75,6 +75,8 @@ class Page {
     button(id, label, letter, look, action, grow, look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
   }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
+  // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
+  void reading_tools();
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
   // The same for several, in the order of their places.

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 
-#include "firmware/service/page/test_desks.h"
 #include "firmware/command/reconstruct/report.h"
+#include "firmware/service/page/log_lines.h"
 
 namespace relievo::firmware {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "firmware/command/reconstruct/report.h"
 #include "firmware/service/device/disk_room.h"
+#include "firmware/service/page/log_lines.h"
 
 namespace relievo::firmware {
 namespace {
@@ -29,14 +30,6 @@ Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
 }
 
 }  // namespace
-
-void show_lines(const std::vector<LogEntry>& entries, std::vector<ui::LogLine>& lines) {
-  lines.clear();
-  for (const LogEntry& entry : entries) {
-    ui::LogLine& line = lines.emplace_back(ui::LogLine{entry.at, entry.fault, entry.sentence, entry.key, {}});
-    for (std::size_t i = 0; i < std::min(entry.values.size(), line.values.size()); ++i) line.values[i] = entry.values[i];
-  }
-}
 
 void SelfTestDesk::opened() {
   ++visit_;

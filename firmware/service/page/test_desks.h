@@ -46,9 +46,6 @@ class TriggerDesk final : public DeskPage {
   ui::TriggerView view_;
 };
 
-// As a page draws them. Borrows the entries.
-void show_lines(const std::vector<LogEntry>& entries, std::vector<ui::LogLine>& lines);
-
 class LogDesk final : public DeskPage {
  public:
   using DeskPage::DeskPage;

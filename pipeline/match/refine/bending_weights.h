@@ -20,7 +20,7 @@
 
 namespace relievo::pipeline {
 
-inline constexpr float kMostWrinkled = 8, kSharpest = 12, kPlain = 3;
+inline constexpr float kMostWrinkled = 8, kSharpest = 12, kPlain = 3;  // of (bend / wrinkle)^2
 
 struct BendingExpectation {
   double lambda;      // weight of a squared second difference of nodes

@@ -56,9 +56,7 @@ void StaffFrame::begin(const char* title, const char* letter) {
   };
   if (portrait) space(1);
   else name_page();
-  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
-  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
-  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  reading_tools();
   square_button("sign out", tr("Sign out"), kLeaveSign, {ActionKind::StaffLeave, 0});
   tree.close();
   if (portrait) {

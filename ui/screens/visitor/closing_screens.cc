@@ -15,9 +15,7 @@ void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
   row.box.along = Along::End;
   page.tree.open(row);
-  page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
-  page.square_button("contrast", page.tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
-  page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble) page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
   page.tree.close();
 }
