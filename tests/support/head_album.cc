@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "hal/sim/head/head_landmarks.h"
 #include "hal/sim/head/head_traits.h"
 #include "hal/sim/noise.h"
 #include "hal/sim/target/artefact_scene.h"
@@ -119,6 +120,16 @@ void add_noise(sim::LightPicture& light, const sim::SensorOptions& sensor, std::
     const float deviation = std::sqrt(std::max(light.rgb[i], 0.0F) * well + read);
     light.rgb[i] += static_cast<float>(sensor.noise) * deviation * drawer[draw & 65535] / full / static_cast<float>(sensor.exposure);
   }
+}
+
+// In the frame of the head; of one sought before, remembered.
+sim::Vec3 pronasale(std::uint32_t seed) {
+  static std::map<std::uint32_t, sim::Vec3> known;
+  const auto [at, fresh] = known.try_emplace(seed);
+  if (!fresh) return at->second;
+  for (const sim::HeadLandmark& landmark : sim::landmarks_of(sim::HeadField(sim::traits_of(seed))))
+    if (landmark.name == "pronasale") at->second = landmark.at;
+  return at->second;
 }
 
 void blur(sim::LightPicture& light, double deviation_px) {
@@ -247,6 +258,7 @@ sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, doub
 }
 
 TrueHead true_head(const Shot& shot, const pipeline::Relief& relief) {
+  const sim::Vec3 tip = shot.pose.origin_mm() + shot.pose.world_from_head() * pronasale(shot.seed);
   const auto in_relief = [&](sim::Vec3 v) { return pipeline::apply(relief.rectified_from_left, {v.x, v.y, v.z}); };
   const sim::Mat3 turn = shot.pose.world_from_head();
   const pipeline::Vec3d out = in_relief(turn * sim::Vec3{0, 0, 1}), up = in_relief(turn * sim::Vec3{0, 1, 0});
@@ -254,7 +266,7 @@ TrueHead true_head(const Shot& shot, const pipeline::Relief& relief) {
   const pipeline::HeadAxes axes = pipeline::axes_facing_the_rig(at, relief.baseline_mm);
   const auto dot = [](const pipeline::Vec3d& a, const pipeline::Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
   return {std::atan2(dot(out, axes.right), -dot(out, axes.away)) / kDegree, std::asin(dot(out, axes.down)) / kDegree,
-          std::atan2(-dot(up, axes.right), -dot(up, axes.down)) / kDegree};
+          std::atan2(-dot(up, axes.right), -dot(up, axes.down)) / kDegree, in_relief(tip)};
 }
 
 }  // namespace relievo::test

@@ -74,7 +74,10 @@ class Album {
 hal::sim::HeadPose standing(double distance_mm, double right_mm = 0, double down_mm = 0, double yaw_deg = 0, double pitch_deg = 0, double roll_deg = 0);
 
 // What measure_head() should say of the shot.
-struct TrueHead { double yaw_deg, pitch_deg, roll_deg; };
+struct TrueHead {
+  double yaw_deg, pitch_deg, roll_deg;
+  pipeline::Vec3d tip_mm;   // pronasale, frame of the relief
+};
 TrueHead true_head(const Shot& shot, const pipeline::Relief& relief);
 
 }  // namespace relievo::test

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipeline/gate/head/mirror_plane.h"
-#include "pipeline/match/region/face_reach.h"
+#include "pipeline/gate/head/nose_tip.h"
 #include "pipeline/match/region/three_terms.h"
 
 namespace relievo::pipeline {
@@ -17,49 +17,17 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kReachMm = 78;            // of the tip of the nose: brows and chin, little hair
-constexpr double kStickOutMm = 60;         // nothing of a face is nearer than its middle by more
 constexpr std::size_t kLeastPoints = 60;
 constexpr double kNoseReachMm = 27;        // left out where the slope of the face is measured
 constexpr double kMeanSlopeDeg = 2.6;      // of the average head that looks straight (hal/sim, seeds 1 and 2)
-constexpr double kBowedDeg = 7;            // from here on the nose may not be what is nearest
+constexpr double kSettledMm = 6;           // a tip found anew within that of the old one: the mirror plane holds
+constexpr int kRounds = 3;                 // of that
 constexpr double kLeastNoseMm = 10;        // a nose stands out further
 constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
 
 Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec3d mix(double s, const Vec3d& a, double t, const Vec3d& b) { return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z}; }
-
-// The middle of the face: points of the depth most of them share.
-bool find_tip(const Relief& relief, const HeadHint& hint, StageContext& context, Vec3d& tip) {
-  std::pmr::vector<Vec3d> middle(&context.scratch);
-  std::pmr::vector<float> depth(&context.scratch);
-  const double reach = kNoseReach * hint.width_px;
-  const int x0 = std::max(0, static_cast<int>(hint.centre_px.x - reach)), x1 = std::min(relief.width_px - 1, static_cast<int>(hint.centre_px.x + reach));
-  const int y0 = std::max(0, static_cast<int>(hint.centre_px.y - reach)), y1 = std::min(relief.height_px - 1, static_cast<int>(hint.centre_px.y + 1.3 * reach));
-  if (x1 <= x0 || y1 <= y0) return false;
-  const auto room = static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1));
-  middle.reserve(room);
-  depth.reserve(room);
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x)
-      if (relief.known(x, y)) depth.push_back(relief.depth_mm[relief.index(x, y)]);
-  if (depth.size() < kLeastPoints || depth.size() < room / 4) return false;
-  const auto median = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
-  std::nth_element(depth.begin(), median, depth.end());
-  const double z = static_cast<double>(*median);
-  // Most of what is there: a box as wide as a face of this distance, or it is none.
-  const double width_mm = hint.width_px * z / relief.focal_px;
-  if (width_mm < 85 || width_mm > 260) return false;
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) {
-      if (!relief.known(x, y)) continue;
-      const Vec3d p = relief.point(x, y);
-      if (std::abs(p.z - z) < kStickOutMm) middle.push_back(p);
-    }
-  if (middle.size() < kLeastPoints) return false;
-  tip = nearest_tip(middle);
-  return true;
-}
 
 std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
   std::pmr::vector<Vec3d> points(&context.scratch);
@@ -152,6 +120,14 @@ void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadSight& head) 
                head.right.x * head.down.y - head.right.y * head.down.x};
 }
 
+// What follows from the tip and the axes. False where no face can be fitted.
+bool fit_face(std::span<const Vec3d> points, HeadSight& head, FaceForm& form) {
+  form = fit_form(points, head);
+  head.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
+  head.relief_mm = nose_height(points, head);
+  return form.known;
+}
+
 // Everything that follows from where the tip is. False where no face can be fitted.
 bool measure_about(const Relief& relief, StageContext& context, HeadSight& head, FaceForm& form) {
   const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
@@ -170,27 +146,23 @@ bool measure_about(const Relief& relief, StageContext& context, HeadSight& head,
     const bool has_nose = tried.relief_mm > kLeastNoseMm, best_has = best.relief_mm > kLeastNoseMm;
     if (!best.known || (has_nose != best_has ? has_nose : plane.price < least)) best = tried, least = plane.price;
   }
-  form = fit_form(points, best);
-  best.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
   head = best;
-  return form.known;
+  return fit_face(points, head, form);
 }
 
-// The nearest place of a bowed head is its forehead: the tip is looked for again, out of the face as it is held.
-bool find_tip_of_bowed(const Relief& relief, StageContext& context, HeadSight& head) {
-  const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
-  const double pitch = head.pitch_deg * kDegree;
-  const Vec3d out = mix(-std::cos(pitch), head.away, std::sin(pitch), head.down);
-  const Vec3d old = head.tip_mm;
-  double most = -1e9;
-  for (const Vec3d& p : points) {
-    const Vec3d d = minus(p, old);
-    if (std::abs(dot(d, head.right)) > 18 || dot(d, out) <= most) continue;
-    most = dot(d, out);
-    head.tip_mm = p;
+// The tip out of the profile: where it has hardly moved, the mirror plane holds, else that is looked for again about the new one.
+void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& context, HeadSight& head, FaceForm& form) {
+  for (int round = 0; round < kRounds; ++round) {
+    HeadSight again = head;
+    FaceForm form_again;
+    if (!tip_of_profile(relief, hint, head, context, again.tip_mm)) return;
+    const Vec3d moved = minus(again.tip_mm, head.tip_mm);
+    const bool settled = dot(moved, moved) < kSettledMm * kSettledMm;
+    if (!(settled ? fit_face(points_about(relief, again.tip_mm, context), again, form_again) : measure_about(relief, context, again, form_again))) return;
+    head = again;
+    form = form_again;
+    if (settled) return;
   }
-  const Vec3d moved = minus(head.tip_mm, old);
-  return dot(moved, moved) > 15 * 15;
 }
 
 }  // namespace
@@ -199,17 +171,10 @@ HeadSight measure_head(const Relief& relief, const HeadHint& hint, StageContext&
   HeadSight head;
   if (!(hint.width_px > 0) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px)) return head;
   Arena::Mark mark(context.scratch);
-  if (!find_tip(relief, hint, context, head.tip_mm)) return head;
+  if (!rough_tip(relief, hint, context, head.tip_mm)) return head;
   FaceForm form;
   if (!measure_about(relief, context, head, form)) return {};
-  if (std::abs(head.pitch_deg) > kBowedDeg) {
-    HeadSight again = head;
-    FaceForm form_again;
-    if (find_tip_of_bowed(relief, context, again) && measure_about(relief, context, again, form_again) && again.relief_mm > head.relief_mm) {
-      head = again;
-      form = form_again;
-    }
-  }
+  settle_tip(relief, hint, context, head, form);
   measure_cover(relief, form, head);
   return head;
 }

@@ -67,9 +67,11 @@ Vec3d nearest_tip(std::span<Vec3d> middle) {
   return mean_of_first(middle, [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
 }
 
-Vec3d outstanding_tip(std::span<Vec3d> middle) {
+Vec3d outstanding_tip(std::span<Vec3d> middle) { return outstanding_tip(middle, middle.size()); }
+
+Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates) {
   const Plane3 plane = plane_of(middle);
-  return mean_of_first(middle, [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
+  return mean_of_first(middle.first(candidates), [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
 }
 
 bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px) {

@@ -24,6 +24,8 @@ Vec3d nearest_tip(std::span<Vec3d> middle);
 // The tip of the nose of a head turned or bowed by 25 degrees and more: the mean of the hundredth of points that stands
 // out furthest towards the cameras from the plane that the rest of them lies about. As nearest_tip() else.
 Vec3d outstanding_tip(std::span<Vec3d> middle);
+// The same where only the first `candidates` of the points, 10 or more, can be the tip.
+Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates);
 
 // Is a pixel of the left view where a nose may be? It lies 0.05 to 0.17 of the face's width below the middle of its box,
 // 0.3 when the head is bowed by 15 degrees.
