@@ -12,6 +12,7 @@ namespace {
 constexpr double kUpMm = 95, kDownMm = 35;      // of the tip of the nose: brows to mouth, no shoulders
 constexpr double kOwnMm = 60;                   // a surface with so much aside of the tip is the head's,
 constexpr double kOwnMm2 = 300;                 // where it covers so much there
+constexpr double kOwnShare = 0.6;               // of a field, for wide hair, a hat, the back of a head turned by 25 degrees (a third): fuller is what touches the head
 constexpr double kLeastSeen = 0.25;             // of a field: the rest is out of the picture
 constexpr std::size_t kSurfaces = 256;
 
@@ -62,14 +63,15 @@ double beside_share(const Relief& relief, const HeadSight& head) {
     const double a = side * kBesideInnerMm, b = side * kBesideOuterMm;
     const Field whole = field(relief, tip, std::min(a, b), std::max(a, b), tip.z + 60), seen = within(relief, whole);
     if (seen.pixels() < kLeastSeen * whole.pixels()) continue;
-    int full = 0;
+    int foreign = 0, owned = 0;
     for (int y = seen.y0; y <= seen.y1; ++y)
       for (int x = seen.x0; x <= seen.x1; ++x) {
         const std::size_t i = relief.index(x, y);
-        const bool foreign = relief.surface[i] != 0 && !(relief.surface[i] < kSurfaces && own[relief.surface[i]]);
-        full += foreign && level_with(tip, relief.depth_mm[i]) ? 1 : 0;
+        if (relief.surface[i] == 0 || !level_with(tip, relief.depth_mm[i])) continue;
+        ++(relief.surface[i] < kSurfaces && own[relief.surface[i]] ? owned : foreign);
       }
-    most = std::max(most, static_cast<double>(full) / std::max(1, seen.pixels()));
+    const double all = std::max(1, seen.pixels());
+    most = std::max(most, foreign / all + std::max(0.0, owned / all - kOwnShare));
   }
   return most;
 }

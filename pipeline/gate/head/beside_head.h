@@ -11,7 +11,8 @@
 namespace relievo::pipeline {
 
 // Of two fields beside the head, level with the face, kBesideInnerMm to kBesideOuterMm aside from the tip of the nose, the share of the fuller
-// one that something stands in, from kBesideBeforeMm before the tip to kBesideBehindMm behind it. Surfaces that reach into the head are its own: hair, a hat.
+// one that something stands in, from kBesideBeforeMm before the tip to kBesideBehindMm behind it. Surfaces that reach into the head are
+// its own (hair, a hat, its back when it is turned), up to three fifths of the field: a bag held against the head grows into one surface with it.
 double beside_share(const Relief& relief, const HeadSight& head);
 
 inline constexpr double kBesideInnerMm = 110, kBesideOuterMm = 180, kBesideBeforeMm = 120, kBesideBehindMm = 150;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gate/head/beside_head.h"
+#include "pipeline/gate/judgement.h"
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,11 @@ TEST(BesideHead, WhatLiesBehindTheHeadOrFarBeforeItDoesNoHarm) {
 // Hair goes on from the head without a step, however wide.
 TEST(BesideHead, TheHeadsOwnHairIsNotBesideIt) {
   EXPECT_EQ(share_with([](double right, double down) { return down < -20 && std::abs(right) < 190 ? kFaceMm + 60 : 0; }), 0);
+}
+
+// A bag held against the ear goes on from the head as well, but no hair fills the field.
+TEST(BesideHead, WhatTouchesTheHeadIsBesideItWhereNoHairWouldBe) {
+  EXPECT_GT(share_with([](double right, double down) { return right > 60 && right < 200 && std::abs(down + 30) < 85 ? kFaceMm + 60 : 0; }), GateLimits{}.beside_share);
 }
 
 // Of a field out of the picture nothing can be said; the other one speaks.
