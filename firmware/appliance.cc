@@ -109,7 +109,7 @@ void Appliance::note(const pipeline::DriftJudgement& drift) {
   if (drift.verdict == pipeline::DriftVerdict::Refuse) ++moved_in_a_row_;
   else if (drift.verdict != pipeline::DriftVerdict::Unknown) moved_in_a_row_ = 0;
   if (drift.verdict == pipeline::DriftVerdict::Warn || drift.verdict == pipeline::DriftVerdict::Refuse)
-    calibration_note_ = pipeline::sentence(drift);
+    calibration_note_ = pipeline::sentence(drift).packed();
 }
 
 void Appliance::calibrated_anew() {

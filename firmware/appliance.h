@@ -66,10 +66,10 @@ class Appliance {
   // How many faces on end have said that they have moved too far to be measured with. Kept over visits.
   int moved_in_a_row() const { return moved_in_a_row_; }
   // What an earlier run of the device knew of the calibration in use; before anything runs.
-  void remember_moved(int faces) { moved_in_a_row_ = faces; }
+  void remember_moved(int faces, std::string note) { moved_in_a_row_ = faces, calibration_note_ = std::move(note); }
   // Another calibration is in use: what was said against the one before counts no more.
   void calibrated_anew();
-  // For the technician: what the last face that could tell said against the calibration; else empty.
+  // For the technician: what the last face that could tell said against the calibration, packed (hal/base/sentence.h); else empty.
   std::string_view calibration_note() const { return calibration_note_; }
   // Is a camera away, and being tried again?
   CameraWatch cameras() const { return grabber_.watch(); }

@@ -27,7 +27,7 @@ struct RecordsView {
   bool newer = false, older = false; // there are more that way
   std::string_view searched;
   const RecordRow* shown = nullptr;  // the one that is looked at
-  std::string_view consent;          // its wording, language and date
+  std::string_view consent, consented_at;  // the text's version and language; when
   bool erased = false;               // the last thing that was done
   bool exported = false;
   int asked = 0;                     // records of the last export; 0: the last thing that was done is another

@@ -81,7 +81,7 @@ struct ViewState {
   pipeline::Advice advice = pipeline::Advice::None;
   Trouble trouble = Trouble::None;
   std::string_view problem;            // one sentence for a technician; empty when all is well
-  std::string_view calibration_note;   // for the technician: the cameras have moved; empty when all is well
+  std::string_view calibration_note;   // for the technician: the cameras have moved, packed (hal/base/sentence.h); empty when all is well
   std::string_view subject;            // who is being enrolled
   std::string_view receipt;            // what to quote for an erasure; from the moment of storing on
   int attempt = 0;                     // 1 for the first capture of a session

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/bench/show/touched_point.h"
+#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 namespace {
@@ -46,8 +47,7 @@ bool Bench::is_calibrated() {
 }
 
 void Bench::say(const Error& error) {
-  problem_ = std::string(error.what.view());
-  if (!error.where().empty()) problem_ += " (" + std::string(error.where()) + ")";
+  problem_ = Sentence(error).packed();
 }
 
 void Bench::opened(ui::BenchPage page) {

@@ -7,6 +7,7 @@
 
 #include "firmware/command/calibrate/calibration_history.h"
 #include "firmware/command/wall_time.h"
+#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 namespace {
@@ -21,12 +22,6 @@ ui::BenchVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
     case pipeline::CalibrationVerdict::Refuse: break;
   }
   return ui::BenchVerdict::Refuse;
-}
-
-std::string sentence_of(const Error& error) {
-  std::string text(error.what.view());
-  if (!error.where().empty()) text += " (" + std::string(error.where()) + ")";
-  return text;
 }
 
 }  // namespace
@@ -52,7 +47,7 @@ CalibrateJob::Order CalibrationDesk::order() const {
 void CalibrationDesk::begun() {
   running_ = true;
   ended_ = stored_ = false;
-  reason_.clear();
+  reasons_.clear();
   problem_.clear();
 }
 
@@ -60,13 +55,12 @@ void CalibrationDesk::ended() {
   running_ = false;
   const Result<void>& outcome = parts_.job.outcome();
   if (!outcome) {
-    if (outcome.error().code != Errc::Cancelled) problem_ = sentence_of(outcome.error());
+    if (outcome.error().code != Errc::Cancelled) problem_ = Sentence(outcome.error()).packed();
     return;
   }
   ended_ = parts_.job.result().has_value();
   if (!ended_) return;
-  const auto& reasons = parts_.job.result()->quality.reasons;
-  reason_ = reasons.empty() ? "" : reasons.front();
+  for (const Sentence& reason : parts_.job.result()->quality.reasons) reasons_.push_back(reason.packed());
 }
 
 void CalibrationDesk::load_history() {
@@ -82,7 +76,7 @@ void CalibrationDesk::load_history() {
         return {};
       },
       [this, rows](const std::optional<Error>& error) {
-        if (error) problem_ = sentence_of(*error);
+        if (error) problem_ = Sentence(*error).packed();
         else history_.swap(*rows);
       });
 }
@@ -105,7 +99,7 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
       },
       [this, made](const std::optional<Error>& error) {
         busy_ = false;
-        problem_ = error ? sentence_of(*error) : "";
+        problem_ = error ? Sentence(*error).packed() : "";
         if (error) return;
         parts_.stages.replace(*std::move(made->pipeline));
         parts_.in_use(*parts_.stages.calibration());
@@ -138,7 +132,7 @@ ui::BenchCalibration CalibrationDesk::view() {
   view.running = running_;
   view.ended = ended_;
   view.stored = stored_;
-  view.reason = reason_;
+  view.reasons = reasons_;
   view.problem = problem_;
   if (ended_) {
     const pipeline::CalibrationQuality& q = parts_.job.result()->quality;

@@ -55,7 +55,8 @@ class CalibrationDesk {
   Parts parts_;
   BoardArgs board_{10, 7, 20};
   bool running_ = false, ended_ = false, stored_ = false;
-  std::string reason_, problem_;
+  std::string problem_;
+  std::vector<std::string> reasons_;
   std::vector<Row> history_;
   bool busy_ = false;  // the keeper is at it
 };

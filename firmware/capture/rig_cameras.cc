@@ -37,7 +37,7 @@ RigCameras cameras_of(const hal::Camera& left, const hal::Camera& right) {
 Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found) {
   const bool left = another(calibrated.left, found.left), right = another(calibrated.right, found.right);
   if (!left && !right) return {};
-  const std::string at_left = "left: expected " + calibrated.left + ", found " + found.left, at_right = "right: expected " + calibrated.right + ", found " + found.right;
+  const std::string at_left = calibrated.left + " → " + found.left, at_right = calibrated.right + " → " + found.right;  // read in every language
   if (left && right && calibrated.left == found.right && calibrated.right == found.left)
     return Error{Errc::NotCalibrated, "the left and the right camera have changed places: exchange their plugs, or calibrate anew"}.at(at_left + "; " + at_right);
   if (left && right) return Error{Errc::NotCalibrated, "both cameras are others than the calibrated ones: put those back, or calibrate anew"}.at(at_left + "; " + at_right);

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <deque>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "firmware/bench/algorithm_desk.h"
 #include "ui/bench/bench_view.h"
@@ -130,9 +132,28 @@ ui::BenchCalibration calibrated(const ui::ViewState& review, bool running) {
   c.depth_error_mm = 0.094F;
   c.rms_px = 0.021F;
   c.baseline_mm = 108.63F;
+  static const std::vector<std::string> kGood{"all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm depth is uncertain by {} mm and was found within {} mm of "
+                                              "where the known squares put it; lengths are uncertain by {} %\t0.021\t0.018\t560\t0.094\t0.061\t0.0113"};
+  if (!running) c.reasons = kGood;
   c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
   c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
   c.history_count = 2;
+  return c;
+}
+
+// Refused, for more than one reason.
+ui::BenchCalibration refused(const ui::ViewState& review) {
+  static const std::vector<std::string> kReasons{
+      "left and right do not hold still relative to each other: they disagree {} times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant\t4.2",
+      "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of the board again: it would have to be {} of what was said\t102.11\t-6.0\t108.63\t1.064",
+      "only {} of {} pairs agree with each other\t5\t14"};
+  ui::BenchCalibration c = calibrated(review, false);
+  c.end = ui::BoardEnd::Plateau;
+  c.verdict = ui::BenchVerdict::Refuse;
+  c.depth_error_mm = 3.412F;
+  c.rms_px = 0.41F;
+  c.baseline_mm = 102.11F;
+  c.reasons = kReasons;
   return c;
 }
 
@@ -141,6 +162,7 @@ struct Lent {
   StaffPage page;
   BenchView view;
   ui::ServiceView staff;
+  std::string_view note;   // said against the calibration
 };
 
 }  // namespace
@@ -149,7 +171,7 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
   static std::deque<Lent> lent;
   static const AlgorithmDesk chosen = edited(false), typing = edited(true);
   lent.clear();
-  const auto add = [&](std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}}); };
+  const auto add = [&](std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}}); };
   BenchView view;
   add("bench_empty", StaffPage::Stages, view);
   view.calibrated = false;
@@ -196,11 +218,27 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
   add("bench_calibrating", StaffPage::Calibrate, view);
   view.calibration = calibrated(review, false);
   add("bench_calibrated", StaffPage::Calibrate, view);
+  view.calibration = refused(review);
+  add("bench_refused", StaffPage::Calibrate, view);
+  view.calibration = calibrated(review, false);
+  view.calibration.ended = false;
+  add("bench_moved", StaffPage::Calibrate, view);
+  lent.back().note = "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
+  add("bench_exchanged", StaffPage::Calibrate, view);
+  lent.back().note = "the left camera is another than the calibrated one: put that one back, or calibrate anew\tserial 4061 → serial 4088";
+  view = ready(review);
+  lend(review, BenchStage::Rectified, view);
+  view.result.failure = "no window of the left view is found again in the right one: is the face in both, in focus and lit?\tmatcher";
+  view.result.made = {};
+  add("bench_failed", StaffPage::Stages, view);
+  view.model = nullptr;
+  add("bench_no_model", StaffPage::Model, view);
   for (Lent& one : lent) {
     one.staff.role = ui::StaffRole::Technician;
     one.staff.bench = &one.view;
     Exhibit exhibit{one.name, idle, visit, {}};
     exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.calibration_note = one.note;
     exhibit.view.service = &one.staff;
     exhibit.service.show(one.page);
     exhibits.push_back(exhibit);

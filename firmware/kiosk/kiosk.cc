@@ -108,8 +108,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     return asked;
   }});
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
-  RELIEVO_TRY_ASSIGN(const int moved, moved_faces_->read(revision_));
-  appliance_->remember_moved(moved);
+  RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
+  appliance_->remember_moved(moved.faces, std::move(moved.note));
   camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
   RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
@@ -208,7 +208,7 @@ void Kiosk::look() {
   while (!view_.languages[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = found_.load(std::memory_order_acquire);
   const Result<void> cameras = appliance_->grabber().check_cameras();
-  exchanged_ = cameras ? "" : std::string(cameras.error().what.view()) + " (" + std::string(cameras.error().where()) + ")";
+  exchanged_ = cameras ? "" : Sentence(cameras.error()).packed();
   if (!cameras) view_.calibration_note = exchanged_;
   view_.out_of_order = out_of_order();
   if (showpiece_) view_.showpiece = &showpiece_->model();
@@ -261,7 +261,7 @@ void Kiosk::turn() {
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now)) (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
   desk_->turn();
-  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician) moved_faces_->keep(revision_, appliance_->moved_in_a_row(), desk_->errands(), desk_->log());
+  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician) moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())}, desk_->errands(), desk_->log());
   if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there
   look();
   if (auto shown = code_sight_->turn(ui_->visit(), view_.now)) {

@@ -12,28 +12,30 @@ constexpr const char* kMovedFacesSetting = "moved_faces";
 
 }  // namespace
 
-Result<int> MovedFaces::read(std::uint32_t revision) {
+Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   revision_ = revision;
-  faces_ = 0;
+  kept_ = {};
   const Result<std::string> kept = store_.setting(kMovedFacesSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept) return 0;
+  if (!kept) return kept_;
   std::istringstream in(*kept);
   int faces = 0;
   std::uint32_t of = 0;
   // Whatever else stands there was not written by this program: then the next faces say it again.
-  if (in >> faces >> of && of == revision && faces > 0) faces_ = faces;
-  return faces_;
+  if (!(in >> faces >> of) || of != revision || faces < 0) return kept_;
+  kept_.faces = faces;
+  if (in.get() == ' ') std::getline(in, kept_.note);
+  return kept_;
 }
 
-void MovedFaces::keep(std::uint32_t revision, int faces, Errands& errands, EventLog& log) {
-  if (revision == revision_ && faces == faces_) return;
-  const bool news = faces != 0 || faces_ != 0;
+void MovedFaces::keep(std::uint32_t revision, const Said& said, Errands& errands, EventLog& log) {
+  if (revision == revision_ && said == kept_) return;
+  const bool news = said != kept_;   // another calibration of which nothing is said needs no line
   revision_ = revision;
-  faces_ = faces;
-  if (!news) return;
+  kept_ = said;
+  if (!news && said == Said{}) return;
   errands.send(
-      JobPlace::Keeper, [this, text = std::to_string(faces) + " " + std::to_string(revision)](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
+      JobPlace::Keeper, [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " + said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [&log](const std::optional<Error>& error) {
         if (error) log.fault(*error);
       },

@@ -21,6 +21,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{1280, 800}, {1920, 1080}, {1080, 1920}};
 constexpr std::size_t kTexts[] = {0, 2};  // 100 and 150 %
+constexpr int kMostTroubles = 3;
 constexpr int kThumbAcross = 6, kMostRows = 10, kThumbWidthPx = 480;
 
 void tap(Kiosk& kiosk, std::string_view id) {
@@ -31,15 +32,30 @@ void tap(Kiosk& kiosk, std::string_view id) {
   kiosk.feed({ui::Input::Kind::Up, 1, x, y});
 }
 
+// What a person would do who reads it: pass by that the run before this one ended in the middle, and try again what took
+// too long on a busy machine or was refused. What nobody can pass by, and what happens again and again, ends it.
+Result<void> may_be_passed_by(Kiosk& kiosk, int& troubles) {
+  const ui::ViewState& view = kiosk.view();
+  if (view.out_of_order == ui::Trouble::Clock) return Error{Errc::InvalidState, "the clock is wrong: set it, then take the pictures"};
+  if (ui::bars_the_way(view.out_of_order)) return Error{Errc::NotCalibrated, "these cameras measure nothing now: calibrate them, or give --store a new folder"};
+  if (view.out_of_order != ui::Trouble::Restarted && ++troubles > kMostTroubles)
+    return kiosk.appliance().problem() ? *kiosk.appliance().problem() : Error{Errc::InvalidState, "the enrolment ended early"};
+  return {};
+}
+
 // One whole visit up to Review, by touch. The live picture is copied: it is wiped when the real one is taken.
 Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view, Console& console) {
   kiosk.ui().resize(1280, 800);
+  int troubles = 0;
+  ui::Step before = ui::Step::Starting;
   while (kiosk.appliance().state() != State::Review) {
     if (interrupted().load()) return Error{Errc::Cancelled, "the screenshots were cancelled"};
     kiosk.turn();
     const ui::Step step = kiosk.ui().visit().step;
     console.progress(name_of(kiosk.appliance().state()), 0);
-    if (step == ui::Step::Trouble) return kiosk.appliance().problem() ? *kiosk.appliance().problem() : Error{Errc::InvalidState, "the enrolment ended early"};
+    if (step == ui::Step::Trouble && before != step) RELIEVO_TRY(may_be_passed_by(kiosk, troubles));
+    if (step == ui::Step::Trouble) tap(kiosk, "finish");  // in a fault there is none: that ends by itself
+    before = step;
     if (step == ui::Step::Attract) tap(kiosk, "start");
     if (step == ui::Step::Known) tap(kiosk, "somebody_else");
     if (step == ui::Step::Consent) tap(kiosk, "agree");

@@ -36,10 +36,10 @@ constexpr std::array kPeople{
     ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
     ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
 };
-constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, false, false, 0, 0};
-constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, false, false, 0, 0};
-constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, false, 0, 0};
-constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de) 2026-03-13 15:54", false, true, 0, 0};
+constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false, false, 0, 0};
+constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false, true, 0, 0};
 
 constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running, ui::CheckState::NotTested},
                                    {"", "", "the store holds no calibration: calibrate first", "", ""}};
@@ -98,7 +98,7 @@ void add_touch(std::deque<Shown>& all) {
 
 // How an export of everyone ended.
 void add_sticks(std::deque<Shown>& all, ServiceView records) {
-  static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, false, false, 5, 2};
+  static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, {}, false, false, 5, 2};
   using ui::Outcome;
   records.records = &kTwoOfFive;
   for (const auto& [name, outcome] : {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull}, std::pair{"staff_stick_locked", Outcome::StickLocked},

@@ -27,7 +27,7 @@ bool may_be_the_pictures(Errc code) {
 
 Error moved(const pipeline::DriftJudgement& drift) {
   char place[64];
-  std::snprintf(place, sizeof place, "rows %.2f px apart", drift.residual_px);
+  std::snprintf(place, sizeof place, "%.2f px", drift.residual_px);
   return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(place);
 }
 

@@ -182,7 +182,7 @@ StereoCalibration calibration_of(const StereoFit& fit) {
 }
 
 Error too_few(Literal what, std::size_t count) {
-  return Error{Errc::PoorGeometry, what}.at(std::to_string(count) + " pairs");
+  return Error{Errc::PoorGeometry, what}.at("n = " + std::to_string(count));
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace relievo::pipeline {
 namespace {
 
 double statistic_of(const EpipolarShift& shift, double expected_px) {
-  const Eigen::Vector3d field(shift.offset_px, shift.slope_x * shift.spread_x_px, shift.slope_y * shift.spread_y_px);
+  const Eigen::Vector3d field(shift.offset_px, shift.slope_x * shift.spread_x_px,
+                              shift.slope_y * shift.spread_y_px);
   const auto& c = shift.covariance_px2;
   Eigen::Matrix3d covariance;
   covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
@@ -33,7 +34,8 @@ DriftVerdict verdict_of(const DriftJudgement& judgement) {
 
 DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& calibration) {
   DriftJudgement judgement;
-  judgement.expected_px = calibration.epipolar_shift_px > 0 ? calibration.epipolar_shift_px : kUnknownPromisePx;
+  judgement.expected_px =
+      calibration.epipolar_shift_px > 0 ? calibration.epipolar_shift_px : kUnknownPromisePx;
   if (!shift.measured()) return judgement;
   judgement.residual_px = shift.residual_px;
   judgement.sigma_px = shift.sigma_px;
@@ -48,36 +50,36 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
 
 std::string_view word(DriftVerdict verdict) {
   switch (verdict) {
-    case DriftVerdict::Unknown: return "unknown";
-    case DriftVerdict::Ok: return "ok";
-    case DriftVerdict::Warn: return "warn";
-    case DriftVerdict::Refuse: return "refuse";
+    case DriftVerdict::Unknown:
+      return "unknown";
+    case DriftVerdict::Ok:
+      return "ok";
+    case DriftVerdict::Warn:
+      return "warn";
+    case DriftVerdict::Refuse:
+      return "refuse";
   }
   return "unknown";
 }
 
-std::string sentence(const DriftJudgement& j) {
-  char text[200];
+Sentence sentence(const DriftJudgement& j) {
   switch (j.verdict) {
     case DriftVerdict::Unknown:
-      return "this face has too little texture to tell whether the cameras have moved";
+      break;
     case DriftVerdict::Ok:
-      std::snprintf(text, sizeof text, "the rows of both views agree to %.3f px (%.3f px promised)", j.residual_px,
-                    j.expected_px);
-      break;
+      return Sentence("the rows of both views agree to {} px ({} px promised)",
+                      {decimal(j.residual_px, 3), decimal(j.expected_px, 3)});
     case DriftVerdict::Warn:
-      std::snprintf(text, sizeof text,
-                    "the rows of both views disagree by %.2f px (%.3f px promised): a camera has moved, calibrate again",
-                    j.residual_px, j.expected_px);
-      break;
+      return Sentence(
+          "the rows of both views disagree by {} px ({} px promised): a camera has moved, calibrate again",
+          {decimal(j.residual_px, 2), decimal(j.expected_px, 3)});
     case DriftVerdict::Refuse:
-      std::snprintf(text, sizeof text,
-                    "the rows of both views disagree by %.2f px (more than %.1f px is refused): a camera has moved, "
-                    "calibrate again",
-                    j.residual_px, kRefusedPx);
-      break;
+      return Sentence(
+          "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, "
+          "calibrate again",
+          {decimal(j.residual_px, 2), decimal(kRefusedPx, 1)});
   }
-  return text;
+  return Sentence("this face has too little texture to tell whether the cameras have moved");
 }
 
 }  // namespace relievo::pipeline

@@ -108,12 +108,16 @@ void every_text_is_known(Language language, const std::set<std::string>& texts) 
   }
 }
 
-TEST_F(WordsTest, EveryTextOfVisitorsAndStaffIsInEveryLanguage) {
-  const auto texts = texts_in_the_screens();
-  ASSERT_GT(texts.size(), 400U) << "the screens' sources were not found";
+void every_language_knows(const std::set<std::string>& texts) {
   for (std::size_t i = 0; i < kLanguages; ++i) {
     if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
   }
+}
+
+TEST_F(WordsTest, EveryTextOfVisitorsAndStaffIsInEveryLanguage) {
+  const auto texts = texts_in_the_screens();
+  ASSERT_GT(texts.size(), 400U) << "the screens' sources were not found";
+  every_language_knows(texts);
 }
 
 TEST_F(WordsTest, EveryCatalogueHasTheSameTexts) {
@@ -137,9 +141,7 @@ TEST_F(WordsTest, EveryFaultOfAConsentTextIsInTheLanguagesOfTheStaff) {
     for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) texts.insert((*at)[1]);
   }
   ASSERT_EQ(texts.size(), 15U);
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
-  }
+  every_language_knows(texts);
 }
 
 // The log's page says in the reader's language what firmware/ notes in English, and what goes wrong in the rooms that a capture
@@ -164,9 +166,52 @@ TEST_F(WordsTest, WhatIsNotedInTheLogIsInEveryLanguage) {
   EXPECT_GE(texts.size(), 20U);
   EXPECT_GE(faults.size(), 30U);
   texts.insert(faults.begin(), faults.end());
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
+  every_language_knows(texts);
+}
+
+// Every text of a source, literals that stand on end joined.
+std::vector<std::pair<std::string, std::string>> joined_literals(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const std::string source{std::istreambuf_iterator<char>(in), {}};
+  static const std::regex texts(R"rx((\w*)[\s,({]*((?:"(?:[^"\\]|\\.)*"\s*)+))rx"), one(R"rx("((?:[^"\\]|\\.)*)")rx");
+  std::vector<std::pair<std::string, std::string>> all;
+  for (std::sregex_iterator at(source.begin(), source.end(), texts), end; at != end; ++at) {
+    const std::string run = (*at)[2];
+    std::string text;
+    for (std::sregex_iterator part(run.begin(), run.end(), one); part != end; ++part) text += (*part)[1];
+    all.emplace_back((*at)[1], text);
   }
+  return all;
+}
+
+// Why a calibration is good or refused, that the cameras have moved, what a stage gave up for: said with its figures.
+TEST_F(WordsTest, WhatStagesAndCalibrationsSayIsInEveryLanguage) {
+  const std::filesystem::path pipeline = std::filesystem::path(RELIEVO_SOURCE_DIR) / "pipeline";
+  std::set<std::string> texts;
+  for (const char* file : {"calibrate/quality/quality_verdict.cc", "calibrate/drift.cc"}) {
+    for (const auto& [before, text] : joined_literals(pipeline / file)) {
+      const bool shown = text.find("promised)") == std::string::npos || text.find("disagree") != std::string::npos;  // that all is well is nowhere said
+      if (text.find("{}") != std::string::npos && shown) texts.insert(text);
+    }
+  }
+  for (const auto& [before, text] : joined_literals(pipeline / "calibrate/calibrator.cc")) {
+    if (before == "too_few" || before == "PoorGeometry") texts.insert(text);
+  }
+  EXPECT_GE(texts.size(), 26U);
+  const std::size_t reasons = texts.size();
+  static const std::set<std::string> refusals{"NoFace", "TooFewMatches", "PoorGeometry", "LibraryFailed", "OutOfMemory"};
+  for (const char* room : {"match", "mesh", "reconstruct", "texture", "relief", "gate", "stage.h"}) {
+    std::vector<std::filesystem::path> files{pipeline / room};
+    if (std::filesystem::is_directory(files.front())) files.assign(std::filesystem::recursive_directory_iterator(files.front()), {});
+    for (const auto& file : files) {
+      if (file.extension() != ".cc" && file.extension() != ".h") continue;
+      for (const auto& [before, text] : joined_literals(file)) {
+        if (refusals.count(before) == 1 && text != "the file holds no match") texts.insert(text);  // of a command's argument
+      }
+    }
+  }
+  EXPECT_GE(texts.size(), reasons + 20);
+  every_language_knows(texts);
 }
 
 TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {

@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "ui/bench/bench_result.h"
@@ -61,7 +63,8 @@ struct BenchCalibration {
   float error_mm = 0, goal_mm = 0;        // predicted, of distances, one standard deviation
   BenchVerdict verdict = BenchVerdict::None;
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
-  std::string_view reason, problem;       // why it is refused or doubted; what went wrong
+  std::span<const std::string> reasons;   // why it is good, doubted or refused, most important first: packed (hal/base/sentence.h)
+  std::string_view problem;               // what went wrong: packed
   std::array<BenchCalibrationRow, kCalibrationRows> history{};
   std::size_t history_count = 0;
 };

@@ -34,7 +34,7 @@ struct BenchView {
   bool calibrated = true;                 // without a calibration there is no test capture
   float progress = 0;
   std::uint8_t working_on = 0;            // while phase is Running: Match, Reconstruct, Mesh, Texture
-  std::string_view problem;
+  std::string_view problem;               // packed (hal/base/sentence.h)
   BenchStage stage = BenchStage::Rectified;
   std::array<BenchPicture, 2> shown{};    // of the stage; the second is empty where there is one only
   std::array<BenchPicture, 2> compared{}; // the same stage of the result put aside, and of the present one

@@ -13,14 +13,14 @@ namespace relievo::ui {
 namespace {
 
 constexpr std::array<LanguageInfo, kLanguages> kInfo{{
-    {"en", "English", false},
-    {"de", "Deutsch", false},
-    {"fr", "Français", false},
-    {"es", "Español", false},
-    {"ar", "العربية", true},
-    {"he", "עברית", true},
-    {"zh-Hans", "简体中文", false},
-    {"ja", "日本語", false},
+    {"en", "English", false, '.'},
+    {"de", "Deutsch", false, ','},
+    {"fr", "Français", false, ','},
+    {"es", "Español", false, ','},
+    {"ar", "العربية", true, '.'},
+    {"he", "עברית", true, '.'},
+    {"zh-Hans", "简体中文", false, '.'},
+    {"ja", "日本語", false, '.'},
 }};
 constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-fr", "relievo-es",
                                                        "relievo-ar", "relievo-he", "relievo-zh", "relievo-ja"};

@@ -22,6 +22,7 @@ struct LanguageInfo {
   const char* code;       // BCP 47
   const char* own_name;   // as its speakers write it
   bool right_to_left;
+  char decimal_mark;
 };
 const LanguageInfo& info_of(Language language);
 

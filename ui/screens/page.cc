@@ -136,7 +136,7 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   tree.close();
 }
 
-std::string_view Page::filled(const char* words, std::initializer_list<std::string_view> values) {
+std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
   std::string_view rest(words);
   const std::string_view first = tree.keep({});
   std::size_t length = 0;
@@ -176,7 +176,7 @@ void Page::bar(bool with_back) {
 void Page::steps() {
   const int now = number_of(visit.step);
   if (now < 0) return;
-  Node row = box(Flow::Row, space::kXs, space::kM, 0);
+  Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
   row.box.across = Across::Centre;
   row.id = "steps";
   row.name = tr("How far you are");

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 #include "ui/language/language.h"
@@ -80,7 +81,8 @@ class Page {
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
   // The same for several, in the order of their places.
-  std::string_view filled(const char* words, std::initializer_list<std::string_view> values);
+  std::string_view filled(const char* words, std::initializer_list<std::string_view> values) { return filled(words, std::span(values.begin(), values.size())); }
+  std::string_view filled(const char* words, std::span<const std::string_view> values);
 
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);

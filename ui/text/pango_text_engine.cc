@@ -123,6 +123,7 @@ class PangoTextEngine final : public TextEngine {
     entry.label.size = {std::ceil(static_cast<float>(logical.width) / kScale) + 1, std::ceil(static_cast<float>(logical.height) / kScale),
                         pango_layout_get_line_count(layout_.get())};
     entry.label.missing = pango_layout_get_unknown_glyphs_count(layout_.get());
+    entry.label.torn = broken_words(false);
     return entry;
   }
 
@@ -141,9 +142,8 @@ class PangoTextEngine final : public TextEngine {
     pango_font_description_free(font);
     pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
     pango_layout_set_line_spacing(layout, line_spacing(style));
-    pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER
-                               : style.right_to_left                    ? PANGO_ALIGN_RIGHT
-                                                                        : PANGO_ALIGN_LEFT);
+    const bool at_right = style.right_to_left != (style.align == TextAlign::End);
+    pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER : at_right ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
     pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
     pango_layout_set_attributes(layout, nullptr);
     pango_layout_set_width(layout, width * PANGO_SCALE);
@@ -190,16 +190,18 @@ class PangoTextEngine final : public TextEngine {
   }
 
   // A line that ends inside a word, be it at a soft hyphen: allowed where nothing else fits, never for even lines.
-  bool breaks_words() {
-    int count = 0;
+  bool breaks_words() { return broken_words(true) > 0; }
+
+  int broken_words(bool at_hyphens_too) {
+    int count = 0, broken = 0;
     const PangoLogAttr* marks = pango_layout_get_log_attrs_readonly(layout_.get(), &count);
     const char* text = pango_layout_get_text(layout_.get());
     for (GSList* at = pango_layout_get_lines_readonly(layout_.get()); at != nullptr; at = at->next) {
       auto* line = static_cast<PangoLayoutLine*>(at->data);
       const long start = g_utf8_pointer_to_offset(text, text + pango_layout_line_get_start_index(line));
-      if (start > 0 && start < count && (marks[start].is_line_break == 0 || marks[start].break_inserts_hyphen != 0)) return true;
+      if (start > 0 && start < count && (marks[start].is_line_break == 0 || (at_hyphens_too && marks[start].break_inserts_hyphen != 0))) ++broken;
     }
-    return false;
+    return broken;
   }
 
   void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {

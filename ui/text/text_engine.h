@@ -23,7 +23,7 @@ inline constexpr const char* kJapaneseFamilies = "Inter, Noto Sans Arabic, Noto 
 inline constexpr const char* kIconFamily = "Material Design Icons";
 
 enum class Weight : std::uint8_t { Regular, Medium, Bold };
-enum class TextAlign : std::uint8_t { Start, Centre };
+enum class TextAlign : std::uint8_t { Start, Centre, End };
 
 struct TextStyle {
   float size_px = 24;
@@ -45,6 +45,7 @@ struct TextLabel {
   Rect ink;
   Rect atlas;        // texels
   int missing = 0;   // letters no font has
+  int torn = 0;      // words that end on one line and go on the next without a hyphen: no room for them
 };
 
 class TextEngine {

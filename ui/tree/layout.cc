@@ -14,6 +14,10 @@ Rect meet(const Rect& a, const Rect& b) {
 }
 
 // Words can be broken into more lines; a sign cannot.
+constexpr float kLeastShare = 0.5F;    // of a row: so much of it belongs to the words, or all of what they need
+constexpr float kEndless = 1e6F;
+constexpr float kFoldedGaps = 0.25F;   // what was a gap beside is a smaller one between lines
+
 bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
 
 // As large as fits, in the middle.
@@ -51,7 +55,8 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   }
   Need n;
   int count = 0;
-  if (node.box.flow == Flow::Row) {
+  const bool is_folded = folded(node, width);
+  if (node.box.flow == Flow::Row && !is_folded) {
     const Shares given = shares(node, width);
     for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
       const Need child = need(nodes_[static_cast<std::size_t>(at)], given.w[static_cast<std::size_t>(count)]);
@@ -64,10 +69,19 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Need child = need(nodes_[static_cast<std::size_t>(at)], width);
     n.w = std::max(n.w, child.w);
-    n.h = node.box.flow == Flow::Column ? n.h + child.h : std::max(n.h, child.h);
+    n.h = node.box.flow == Flow::Stack ? std::max(n.h, child.h) : n.h + child.h;
   }
-  if (node.box.flow == Flow::Column && count > 1) n.h += node.box.gap * static_cast<float>(count - 1);
+  if (node.box.flow != Flow::Stack && count > 1) n.h += node.box.gap * (is_folded ? kFoldedGaps : 1) * static_cast<float>(count - 1);
   return n;
+}
+
+// Would the words of its first child be broken into more lines beside what stands behind them?
+bool Layout::folded(const Node& row, float width) {
+  if (!row.box.folds || row.box.flow != Flow::Row || row.first_child < 0) return false;
+  const Node& words = nodes_[static_cast<std::size_t>(row.first_child)];
+  float left = width;
+  for (std::int32_t at = words.next; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) left -= need(nodes_[static_cast<std::size_t>(at)], kEndless).w + row.box.gap;
+  return left < kLeastShare * width && need(words, kEndless).w > left;
 }
 
 // The widths of a row's children. Those that grow share what the others leave.
@@ -115,7 +129,7 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
   const Rect inside = node.box.scroll ? meet(clip, node.rect) : clip;
   switch (node.box.flow) {
     case Flow::Column: return place_column(node, inner, inside);
-    case Flow::Row: return place_row(node, inner, inside);
+    case Flow::Row: return folded(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
     case Flow::Stack: return place_stack(node, inner, inside);
   }
 }
@@ -128,9 +142,10 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     fixed += need(child, inner.w).h;
     grow += child.box.grow;
   }
-  if (count > 1) fixed += node.box.gap * static_cast<float>(count - 1);
+  float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
+  if (count > 1) fixed += gap * static_cast<float>(count - 1);
   node.content_height = fixed;
-  float y = inner.y, gap = node.box.gap;
+  float y = inner.y;
   const float left = std::max(0.0F, inner.h - fixed);
   if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
   if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
@@ -140,7 +155,7 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     const Need n = need(child, inner.w);
     const float h = n.h + (grow > 0 ? left * child.box.grow / grow : 0);
-    const bool stretch = node.box.across == Across::Stretch && child.box.width <= 0 && child.box.max_width <= 0;
+    const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) && child.box.width <= 0 && child.box.max_width <= 0;
     const float w = stretch ? inner.w : std::min(node.box.across == Across::Stretch && child.box.width <= 0 ? std::min(inner.w, child.box.max_width) : n.w, inner.w);
     float x = across_start(node, inner.w, w);
     if (right_to_left_) x = inner.w - w - x;

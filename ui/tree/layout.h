@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Layout: gives every node its place. First what a box needs at a width, then where it goes:
-// what is left over goes to those that grow; what is short is taken from rows' longest texts.
+// what is left over goes to those that grow; what is short is taken from rows' longest texts. A row that folds
+// (Box::folds) is a column where its first child, in one line, would have less than kLeastShare beside the others.
 // Pixels. Thread: main. Errors: none.
 #pragma once
 
@@ -29,6 +30,7 @@ class Layout {
   Need need(const Node& node, float width);
   Need content_need(const Node& node, float width);
   Shares shares(const Node& row, float width);
+  bool folded(const Node& row, float width);
   void place_column(Node& node, const Rect& inner, const Rect& clip);
   void place_row(Node& node, const Rect& inner, const Rect& clip);
   void place_stack(Node& node, const Rect& inner, const Rect& clip);

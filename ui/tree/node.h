@@ -31,6 +31,7 @@ struct Box {
   float grow = 0;                       // share of what is left over
   bool scroll = false;                  // a column that may be higher than its room
   bool left_to_right = false;           // a row that is not mirrored: digits, keys
+  bool folds = false;                   // a row whose first child grows: the others stand under it where it would be narrow
   Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
   float border_px = 0, radius = 0;
   bool shadow = false;

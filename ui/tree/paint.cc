@@ -86,7 +86,7 @@ void paint_text(DrawList& list, const Node& node, TextEngine& text, bool right_t
   const TextLabel& label = text.label(node.text, node.style, room);
   float x = 0;
   if (node.style.align == TextAlign::Centre) x = (room - label.size.width_px) / 2;
-  else if (right_to_left) x = room - label.size.width_px;
+  else if (right_to_left != (node.style.align == TextAlign::End)) x = room - label.size.width_px;
   const float y = (node.rect.h - 2 * pad_y - label.size.height_px) / 2;
   Command c;
   c.mark = Mark::Glyph;

@@ -11,7 +11,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::size_t kNodes = 1024, kDepth = 32, kStringBytes = 64 * 1024;
+constexpr std::size_t kNodes = 2048, kDepth = 32, kStringBytes = 128 * 1024;
 
 bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
 

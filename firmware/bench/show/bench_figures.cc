@@ -7,6 +7,7 @@
 #include "firmware/command/compare/measure/rule_figures.h"
 #include "firmware/command/compare/measure/self_agreement.h"
 #include "firmware/command/compare/page/maps.h"
+#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 
@@ -36,8 +37,8 @@ void BenchFigures::add(const StageRecord& record) {
 }
 
 void BenchFigures::fail(State stage, const Error& error) {
-  failure_ = std::string(name_of(stage)) + ": " + std::string(error.what.view());
-  if (!error.where().empty()) failure_ += " (" + std::string(error.where()) + ")";
+  failure_ = Sentence(error).packed();
+  result_.failed_at = static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match);
 }
 
 Result<void> BenchFigures::measure(const Products& products, pipeline::StageContext& context) {

@@ -17,7 +17,7 @@ std::string line_of(const StageRecord& stage) {
 }
 
 std::string line_of(const pipeline::DriftJudgement& drift) {
-  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
+  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift).text();
 }
 
 std::string line_of_motion(double motion_px) {

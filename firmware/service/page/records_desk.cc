@@ -30,6 +30,7 @@ void RecordsDesk::wipe(std::vector<Found>& found) {
 RecordsDesk::Person::~Person() {
   wipe(found);
   wipe_text(consent);
+  wipe_text(consented_at);
   if (!model) return;
   // What a face looks like goes before its memory does.
   explicit_bzero(model->texture.rgb.data(), model->texture.rgb.size());
@@ -153,7 +154,8 @@ void RecordsDesk::load(std::int64_t number) {
         RELIEVO_TRY_ASSIGN(const auto enrolments, tools().store.enrolments(id));
         if (enrolments.empty()) return {};
         const storage::Consent& consent = enrolments.back().consent;
-        person->consent = consent.wording + " (" + consent.language + ") " + text_of(consent.given_at).substr(0, 16);
+        person->consent = consent.wording + " (" + consent.language + ")";
+        person->consented_at = text_of(consent.given_at).substr(0, 16);
         RELIEVO_TRY_ASSIGN(auto model, tools().store.load_model(enrolments.back().id, &person->memory));
         person->model.emplace(std::move(model));
         return {};
@@ -213,12 +215,13 @@ void RecordsDesk::show(ui::ServiceView& view) {
   if (!ready_) return;
   rows_.clear();
   for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
-  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, erased_, exported_, asked_, trace_.whole};
+  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, {}, erased_, exported_, asked_, trace_.whole};
   if (person_) {
     const Found& one = person_->found;
     shown_ = {one.number, one.name, one.since, one.code, one.portraits};
     view_.shown = &shown_;
     view_.consent = person_->consent;
+    view_.consented_at = person_->consented_at;
     view.inner = true;
     if (person_->model) view.model = &*person_->model;
     view.model_number = kFirstModel + model_number_;

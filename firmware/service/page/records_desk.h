@@ -35,7 +35,7 @@ class RecordsDesk final : public DeskPage {
   };
   struct Person {
     Found found;
-    std::string consent;
+    std::string consent, consented_at;
     std::pmr::monotonic_buffer_resource memory;
     std::optional<pipeline::FaceModel> model;
     ~Person();

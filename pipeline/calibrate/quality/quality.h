@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/base/sentence.h"
 #include "pipeline/calibrate/quality/uncertainty.h"
 
 namespace relievo::pipeline {
@@ -39,7 +40,7 @@ struct ViewQuality {
 
 struct CalibrationQuality {
   CalibrationVerdict verdict = CalibrationVerdict::Refuse;
-  std::vector<std::string> reasons;  // one sentence each, most important first
+  std::vector<Sentence> reasons;     // most important first
   std::vector<ViewQuality> views;    // all that were given, in their order
   int used = 0;
   double left_rms_px = 0;  // each camera alone, all its boards

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <initializer_list>
+#include <string_view>
 
 #include "pipeline/calibrate/quality/limits.h"
 #include "pipeline/calibrate/quality/quality_measures.h"
@@ -16,11 +17,8 @@ class Verdict {
     quality.verdict = CalibrationVerdict::Pass;
   }
 
-  template <typename... Numbers>
-  void say(CalibrationVerdict at_best, const char* format, Numbers... numbers) {
-    char text[400];
-    std::snprintf(text, sizeof text, format, numbers...);
-    quality_.reasons.emplace_back(text);
+  void say(CalibrationVerdict at_best, Literal key, std::initializer_list<std::string_view> values) {
+    quality_.reasons.emplace_back(key, values);
     quality_.verdict = std::max(quality_.verdict, at_best);
   }
 
@@ -28,80 +26,89 @@ class Verdict {
   CalibrationQuality& quality_;
 };
 
-const char* name(const CalibrationQuality& q, int view) {
-  return q.views[static_cast<std::size_t>(view)].name.c_str();
+std::string_view name(const CalibrationQuality& q, int view) {
+  return q.views[static_cast<std::size_t>(view)].name;
 }
 
 void judge_slip(const CalibrationQuality& q, Verdict& v) {
   if (q.holds_still) return;
   if (q.slip_cause == SlipCause::BoardCarried)
     v.say(CalibrationVerdict::Usable,
-          "left and right do not hold still relative to each other: they disagree %.1f times more than the corners' "
-          "noise explains, as a board does that moves on between two exposures; check the trigger, expose both cameras "
-          "at the same instant, and hold the board still",
-          q.slip_ratio);
+          "left and right do not hold still relative to each other: they disagree {} times more than the "
+          "corners' noise explains, as a board does that moves on between two exposures; check the trigger, "
+          "expose both cameras at the same instant, and hold the board still",
+          {decimal(q.slip_ratio, 1)});
   else
     v.say(CalibrationVerdict::Usable,
-          "left and right do not hold still relative to each other: they disagree %.1f times more than the corners' "
-          "noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant",
-          q.slip_ratio);
+          "left and right do not hold still relative to each other: they disagree {} times more than the "
+          "corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at "
+          "the same instant",
+          {decimal(q.slip_ratio, 1)});
 }
 
 void judge_move(const CalibrationQuality& q, Verdict& v) {
   if (q.moved_after < 0) return;
   v.say(CalibrationVerdict::Usable,
-        "a camera seems to have moved after view %s (somewhere from %s to %s): most later pairs disagree with the "
-        "earlier ones; this holds for the pairs used, calibrate again to know the rig of today",
-        name(q, q.moved_after), name(q, q.moved_after_first), name(q, q.moved_after_last));
+        "a camera seems to have moved after view {} (somewhere from {} to {}): most later pairs disagree "
+        "with the earlier ones; this holds for the pairs used, calibrate again to know the rig of today",
+        {name(q, q.moved_after), name(q, q.moved_after_first), name(q, q.moved_after_last)});
 }
 
 void judge_board(const CalibrationQuality& q, Verdict& v) {
   if (q.board_bent)
     v.say(q.board_sag_mm > limits::kWorstSagMm ? CalibrationVerdict::Refuse : CalibrationVerdict::Usable,
-          "the board is bent by %.2f mm (+-%.2f); glue the print to glass or to a stiff plate", q.board_sag_mm,
-          q.board_sag_sigma_mm);
+          "the board is bent by {} mm (+-{}); glue the print to glass or to a stiff plate",
+          {decimal(q.board_sag_mm, 2), decimal(q.board_sag_sigma_mm, 2)});
   const double off = 100 * (q.baseline_mm / q.expected_baseline_mm - 1);
   if (q.expected_baseline_mm > 0 && std::abs(off) > limits::kBaselinePercent)
     v.say(CalibrationVerdict::Refuse,
-          "the cameras come out %.2f mm apart, %+.1f %% from the %.2f mm they are known to be; measure a square of the "
-          "board again: it would have to be %.3f of what was said",
-          q.baseline_mm, off, q.expected_baseline_mm, q.expected_baseline_mm / q.baseline_mm);
+          "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of "
+          "the board again: it would have to be {} of what was said",
+          {decimal(q.baseline_mm, 2), decimal(off, 1, true), decimal(q.expected_baseline_mm, 2),
+           decimal(q.expected_baseline_mm / q.baseline_mm, 3)});
   const double noisy = std::max(q.left_rms_px, q.right_rms_px);
   if (noisy > limits::kBlurredPx)
-    v.say(noisy > limits::kUselessPx ? CalibrationVerdict::Refuse : CalibrationVerdict::Usable,
-          "the corners are uncertain by %.2f px (%.2f is usual): hold the board still, in focus and in good light", noisy,
-          limits::kUsualPx);
+    v.say(
+        noisy > limits::kUselessPx ? CalibrationVerdict::Refuse : CalibrationVerdict::Usable,
+        "the corners are uncertain by {} px ({} is usual): hold the board still, in focus and in good light",
+        {decimal(noisy, 2), decimal(limits::kUsualPx, 2)});
 }
 
 void judge_depth(const CalibrationQuality& q, Verdict& v) {
-  const auto judge = [&v](double mm, const char* worst_words, const char* good_words) {
-    if (mm > limits::kWorstDepthMm) v.say(CalibrationVerdict::Refuse, worst_words, kFaceMm, mm, limits::kWorstDepthMm);
-    else if (mm > limits::kGoodDepthMm) v.say(CalibrationVerdict::Usable, good_words, kFaceMm, mm, limits::kGoodDepthMm);
+  const auto judge = [&v](double mm, Literal worst_words, Literal good_words) {
+    if (mm > limits::kWorstDepthMm)
+      v.say(CalibrationVerdict::Refuse, worst_words,
+            {decimal(kFaceMm, 0), decimal(mm, 2), decimal(limits::kWorstDepthMm, 1)});
+    else if (mm > limits::kGoodDepthMm)
+      v.say(CalibrationVerdict::Usable, good_words,
+            {decimal(kFaceMm, 0), decimal(mm, 2), decimal(limits::kGoodDepthMm, 1)});
   };
-  judge(q.face_depth_sigma_mm, "depth at %.0f mm is uncertain by %.2f mm (%.1f is the most that can be used)",
-        "depth at %.0f mm is uncertain by %.2f mm (%.1f is good)");
+  judge(q.face_depth_sigma_mm, "depth at {} mm is uncertain by {} mm ({} is the most that can be used)",
+        "depth at {} mm is uncertain by {} mm ({} is good)");
   judge(q.measured_depth_mm,
-        "brought to %.0f mm, boards not used for the fit are found %.2f mm from where the known size of their squares puts "
-        "them (%.1f is the most that can be used)",
-        "brought to %.0f mm, boards not used for the fit are found %.2f mm from where the known size of their squares puts "
-        "them (%.1f is good)");
+        "brought to {} mm, boards not used for the fit are found {} mm from where the known size of their "
+        "squares puts them ({} is the most that can be used)",
+        "brought to {} mm, boards not used for the fit are found {} mm from where the known size of their "
+        "squares puts them ({} is good)");
 }
 
 void judge_variety(const CalibrationQuality& q, Verdict& v) {
   if (q.tilt_spread_deg < limits::kAlikeDeg)
     v.say(CalibrationVerdict::Refuse,
-          "the boards are all held alike: two of them differ by %.0f degrees as a rule (%.0f is good); tilt it to all "
-          "sides by 30 degrees",
-          q.tilt_spread_deg, limits::kGoodTiltDeg);
+          "the boards are all held alike: two of them differ by {} degrees as a rule ({} is good); tilt it "
+          "to all sides by 30 degrees",
+          {decimal(q.tilt_spread_deg, 0), decimal(limits::kGoodTiltDeg, 0)});
   else if (q.tilt_spread_deg < limits::kGoodTiltDeg)
-    v.say(CalibrationVerdict::Usable, "two boards differ by %.0f degrees of tilt as a rule (%.0f is good); tilt it more",
-          q.tilt_spread_deg, limits::kGoodTiltDeg);
+    v.say(CalibrationVerdict::Usable,
+          "two boards differ by {} degrees of tilt as a rule ({} is good); tilt it more",
+          {decimal(q.tilt_spread_deg, 0), decimal(limits::kGoodTiltDeg, 0)});
   if (q.used < limits::kGoodViews)
-    v.say(CalibrationVerdict::Usable, "%d pairs are few; take %d or more", q.used, limits::kGoodViews);
+    v.say(CalibrationVerdict::Usable, "{} pairs are few; take {} or more",
+          {std::to_string(q.used), std::to_string(limits::kGoodViews)});
   const double coverage = std::min(q.coverage_left, q.coverage_right);
   if (coverage < limits::kGoodCoverage)
-    v.say(CalibrationVerdict::Usable, "the boards cover %.0f %% of the picture; bring them to the edges, too",
-          100 * coverage);
+    v.say(CalibrationVerdict::Usable, "the boards cover {} % of the picture; bring them to the edges, too",
+          {decimal(100 * coverage, 0)});
 }
 
 }  // namespace
@@ -110,39 +117,43 @@ void judge_quality(CalibrationQuality& q) {
   Verdict v(q);
   using enum CalibrationVerdict;
   if (q.held_out_epipolar_px > limits::kWorstEpipolarPx)
+    v.say(Refuse,
+          "views not used for the fit miss their epipolar lines by {} px ({} is the most that can be used)",
+          {decimal(q.held_out_epipolar_px, 2), decimal(limits::kWorstEpipolarPx, 2)});
+  if (q.shape_sigma_mm > limits::kWorstShapeMm)
     v.say(
         Refuse,
-        "views not used for the fit miss their epipolar lines by %.2f px (%.2f is the most that can be used)",
-        q.held_out_epipolar_px, limits::kWorstEpipolarPx);
-  if (q.shape_sigma_mm > limits::kWorstShapeMm)
-    v.say(Refuse,
-          "the shape of a head at %.0f mm is uncertain by %.2f mm (%.1f is the most); tilt the board more, "
-          "and take more views",
-          q.working_distance_mm, q.shape_sigma_mm, limits::kWorstShapeMm);
+        "the shape of a head at {} mm is uncertain by {} mm ({} is the most); tilt the board more, and take "
+        "more views",
+        {decimal(q.working_distance_mm, 0), decimal(q.shape_sigma_mm, 2), decimal(limits::kWorstShapeMm, 1)});
   judge_slip(q, v);
   judge_move(q, v);
   judge_board(q, v);
   const auto pairs = std::count_if(q.views.begin(), q.views.end(),
                                    [](const ViewQuality& view) { return view.distance_mm > 0; });
   if (2 * q.used <= pairs)
-    v.say(Refuse, "only %d of %d pairs agree with each other", q.used, static_cast<int>(pairs));
+    v.say(Refuse, "only {} of {} pairs agree with each other",
+          {std::to_string(q.used), std::to_string(static_cast<int>(pairs))});
   else if (4 * q.used < 3 * pairs)
-    v.say(Usable, "only %d of %d pairs agree with each other", q.used, static_cast<int>(pairs));
+    v.say(Usable, "only {} of {} pairs agree with each other",
+          {std::to_string(q.used), std::to_string(static_cast<int>(pairs))});
   if (q.held_out_epipolar_px > limits::kGoodEpipolarPx && q.held_out_epipolar_px <= limits::kWorstEpipolarPx)
-    v.say(Usable, "views not used for the fit miss their epipolar lines by %.2f px (%.2f is good)",
-          q.held_out_epipolar_px, limits::kGoodEpipolarPx);
+    v.say(Usable, "views not used for the fit miss their epipolar lines by {} px ({} is good)",
+          {decimal(q.held_out_epipolar_px, 2), decimal(limits::kGoodEpipolarPx, 2)});
   if (q.shape_sigma_mm > limits::kGoodShapeMm && q.shape_sigma_mm <= limits::kWorstShapeMm)
-    v.say(Usable, "the shape of a head at %.0f mm is uncertain by %.2f mm (%.1f is good)",
-          q.working_distance_mm, q.shape_sigma_mm, limits::kGoodShapeMm);
+    v.say(
+        Usable, "the shape of a head at {} mm is uncertain by {} mm ({} is good)",
+        {decimal(q.working_distance_mm, 0), decimal(q.shape_sigma_mm, 2), decimal(limits::kGoodShapeMm, 1)});
   judge_depth(q, v);
   judge_variety(q, v);
   if (q.reasons.empty())
     v.say(Pass,
-          "all figures are good: reprojection error %.3f px; epipolar error %.3f px on views not used; at %.0f mm depth is "
-          "uncertain by %.3f mm and was found within %.3f mm of where the known squares put it; lengths are uncertain by "
-          "%.4f %%",
-          q.pair_rms_px, q.held_out_epipolar_px, kFaceMm, q.face_depth_sigma_mm, q.measured_depth_mm,
-          q.uncertainty.scale_percent);
+          "all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm "
+          "depth is uncertain by {} mm and was found within {} mm of where the known squares put it; lengths "
+          "are uncertain by {} %",
+          {decimal(q.pair_rms_px, 3), decimal(q.held_out_epipolar_px, 3), decimal(kFaceMm, 0),
+           decimal(q.face_depth_sigma_mm, 3), decimal(q.measured_depth_mm, 3),
+           decimal(q.uncertainty.scale_percent, 4)});
 }
 
 }  // namespace relievo::pipeline

@@ -234,7 +234,8 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   if (rig().now().calibration.running) rig().tap("calibration finish");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
   const ui::BenchCalibration made = rig().now().calibration;
-  ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << made.reason;
+  ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << (made.reasons.empty() ? "" : made.reasons.front());
+  ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
   const auto& between = rig().stages->calibration()->right_from_left.translation_mm;
   EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
   EXPECT_EQ(rig().appliance->state(), State::Technician);

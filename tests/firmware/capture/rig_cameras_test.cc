@@ -62,9 +62,9 @@ TEST(RigCameras, AnotherCameraIsToldBySideWithWhatWasExpectedAndWhatToDo) {
   struct Case {
     const char *left, *right, *words, *where;
   };
-  for (const Case& c : {Case{"X9", "B2", "the left camera", "left: expected serial A1, found serial X9"}, Case{"A1", "Y8", "the right camera", "right: expected serial B2, found serial Y8"},
-                        Case{"X9", "Y8", "both cameras", "expected serial B2, found serial Y8"}, Case{"B2", "A1", "changed places", "left: expected serial A1, found serial B2"},
-                        Case{"A1", "", "the right camera", "right: expected serial B2, found at /dev/v4l/by-path/b"}}) {
+  for (const Case& c : {Case{"X9", "B2", "the left camera", "serial A1 → serial X9"}, Case{"A1", "Y8", "the right camera", "serial B2 → serial Y8"},
+                        Case{"X9", "Y8", "both cameras", "serial B2 → serial Y8"}, Case{"B2", "A1", "changed places", "serial A1 → serial B2"},
+                        Case{"A1", "", "the right camera", "serial B2 → at /dev/v4l/by-path/b"}}) {
     const Result<void> checked = check_cameras(calibrated, Plugged(c.left, c.right).names());
     ASSERT_FALSE(checked) << c.words;
     EXPECT_EQ(checked.error().code, Errc::NotCalibrated);
@@ -108,7 +108,7 @@ TEST(RigCameras, TheGrabberRecognisesThemAndGrabsAllTheSame) {
   ASSERT_TRUE(grabber.start(board.preferred_mode()));
   const Result<void> checked = grabber.check_cameras();
   ASSERT_FALSE(checked);
-  EXPECT_EQ(checked.error().where(), "right: expected serial B2, found serial Y8");
+  EXPECT_EQ(checked.error().where(), "serial B2 → serial Y8");
   EXPECT_TRUE(grabber.grab(slot, never)) << "who calibrates anew needs it";
   grabber.expect(grabber.cameras());
   EXPECT_TRUE(grabber.check_cameras());

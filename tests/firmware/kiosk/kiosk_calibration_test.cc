@@ -71,7 +71,7 @@ class KioskCalibrationTest : public StaffHands {
     if (bench().calibration.running) tap("calibration finish");
     ASSERT_TRUE(until([this] { return bench().calibration.ended || !bench().calibration.problem.empty(); }));
     ASSERT_EQ(bench().calibration.problem, "");
-    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.reason;
+    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.problem;
     EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
     tap("calibration store");
     ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; })) << bench().calibration.problem;
@@ -135,6 +135,12 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
   ASSERT_TRUE(until([this] { return bench().calibration.history_count == 2; }));
+  kiosk->ui().visit().language = ui::Language::German;
+  kiosk->turn();
+  EXPECT_TRUE(says("eine Kamera hat sich bewegt")) << "what the last face said, over a restart and in the reader's language";
+  EXPECT_TRUE(says("1,5")) << "with its figures";
+  kiosk->ui().visit().language = ui::Language::English;
+  kiosk->turn();
   tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");
   ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; })) << bench().calibration.problem;
   sign_out();

@@ -68,7 +68,7 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
-  for (const char* words : {"the right camera", "serial R1", "serial R2", "calibrate anew"}) EXPECT_TRUE(says(words)) << words;
+  for (const char* words : {"The right camera", "serial R1", "serial R2", "calibrate anew"}) EXPECT_TRUE(says(words)) << words;
   const auto& bench = [this]() -> const ui::BenchCalibration& { return kiosk->view().service->bench->calibration; };
   ASSERT_TRUE(until([&] { return bench().history_count == 2; }));
   tap(bench().history[0].active ? "calibration 1" : "calibration 0");

@@ -57,8 +57,9 @@ void clock(StaffFrame& page) {
   room.box.scroll = true;
   room.id = "clock room";
   page.tree.open(room);
-  Node time = page.text(page.filled("{}", page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  Node time = page.text(page.date(page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
   time.id = "clock";
+  time.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.5F));  // it stays on one line
   time.role = Role::Status;
   page.tree.leaf(time);
   page.tree.open(page.box(Flow::Row, space::kM));

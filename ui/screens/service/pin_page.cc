@@ -16,7 +16,7 @@ void dots(StaffFrame& page) {
   row.id = "typed";
   row.role = Role::Field;
   row.name = page.tr("Your PIN");
-  row.box.along = Along::Centre;
+  row.box.along = page.portrait ? Along::Centre : page.mirrored() ? Along::End : Along::Start;  // as the words above it
   row.box.across = Across::Centre;
   row.box.left_to_right = true;
   row.box.height = page.px(36);
@@ -54,8 +54,9 @@ void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood
   Node said = page.box(Flow::Column, space::kM);
   said.box.width = page.px(page.portrait ? 560.0F : 440.0F);
   page.tree.open(said);
-  page.heading("pin title", title, type::kHeading);
-  Node state = page.text(words, type::kBody, Weight::Regular, mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood));
+  const TextAlign align = page.portrait ? TextAlign::Centre : TextAlign::Start;
+  page.heading("pin title", title, type::kHeading, align);
+  Node state = page.text(words, type::kBody, Weight::Regular, mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood), align);
   state.id = "pin state";
   state.role = Role::Status;
   page.tree.leaf(state);

@@ -40,10 +40,13 @@ void typing(StaffFrame& page) {
 }
 
 void working(StaffFrame& page) {
-  page.heading("writing", page.tr("Writing to the stick"), type::kHeading);
-  page.body("do not pull", page.tr("Please do not pull it out."));
+  Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
+  room.box.along = Along::Centre;
+  page.tree.open(room);
+  page.heading("writing", page.tr("Writing to the stick"), type::kHeading, TextAlign::Centre);
+  page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);
   page.progress("export progress", page.staff.work.progress);
-  page.space(1);
+  page.tree.close();
   page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet, ask(kExportStop));
 }
 
@@ -78,8 +81,8 @@ void list(StaffFrame& page, const RecordsView& seen) {
   const auto& tr = page.tr;
   said(page, seen);
   page.begin_list("records");
-  for (const RecordRow& row : seen.rows) page.row(joined(page, "record ", row.code), row.name, row.since, Mood::Plain, ask(kRecordShow, row.number));
-  if (seen.rows.empty()) page.line(seen.searched.empty() ? tr("Nobody is kept here.") : tr("Nobody of that name."));
+  for (const RecordRow& row : seen.rows) page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain, ask(kRecordShow, row.number));
+  if (seen.rows.empty()) page.nothing("nobody", icon::kPerson, seen.searched.empty() ? tr("Nobody is kept here.") : tr("Nobody of that name."));
   page.tree.close();
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;
@@ -99,16 +102,20 @@ void list(StaffFrame& page, const RecordsView& seen) {
 }
 
 void portrait_of(StaffFrame& page) {
-  Node face = page.grown(page.box(Flow::Column), 1.1F);
+  Node card = page.grown(page.box(Flow::Stack), 1.1F);
+  card.box.fill = page.palette.stage;
+  card.box.radius = page.px(size::kCardRadius);
+  page.tree.open(card);
+  Node face = page.box(Flow::Column);
   face.id = "face";
   face.name = page.tr("The portrait, to be turned with a finger");
   face.role = Role::Picture;
   face.action = {ActionKind::TurnFace, 0};
   face.drags = true;
   face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
-  face.box.fill = page.palette.stage;
   face.box.radius = page.px(size::kCardRadius);
   page.tree.leaf(face);
+  page.tree.close();
 }
 
 void record(StaffFrame& page, const RecordsView& seen) {
@@ -119,9 +126,10 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.begin_list("record");
   page.row("name", seen.shown->name, {});
   page.row("code", tr("Code for the erasure"), seen.shown->code);
-  page.row("since", tr("Kept since"), seen.shown->since);
+  page.row("since", tr("Kept since"), page.date(seen.shown->since));
   page.row("portraits", tr("Portraits"), page.number(seen.shown->portraits));
-  page.row("consent", tr("Consent"), seen.consent);
+  page.row("consent", tr("Consent"), page.date(seen.consented_at));
+  page.row("consent text", tr("Consent text"), seen.consent);
   page.tree.close();
   said(page, seen);
   page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main, ask(kRecordExport, seen.shown->number));

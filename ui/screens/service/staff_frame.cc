@@ -241,10 +241,4 @@ void StaffFrame::keypad(Action done) {
   tree.close();
 }
 
-std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
-  char text[48];
-  std::snprintf(text, sizeof text, "\u2066%.*f%s%s\u2069", decimals, value, *unit_name == 0 ? "" : "\u00a0", unit_name);
-  return tree.keep(text);
-}
-
 }  // namespace relievo::ui

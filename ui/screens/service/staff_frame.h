@@ -38,12 +38,16 @@ class StaffFrame : public Page {
   void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more);
   // A heading between rows.
   void section(std::string_view words);
-  // A line over the whole width, as a log has them: left to right in every language.
+  // In the middle of a card that has no rows.
+  void nothing(std::string_view id, const char* letter, std::string_view words);
+  void rule();   // a thin line between rows
+  // A line over the whole width.
   void line(std::string_view words, Mood mood = Mood::Plain);
   // A line of the log, in the reader's language.
   void logged(const struct LogLine& what);
   // A sentence of the appliance (a key of the catalogues) in the reader's language; as it is where they lack it.
-  std::string_view said(std::string_view sentence);
+  // What stands in it follows behind tabs (hal/base/sentence.h); numbers get the decimal mark of the language.
+  std::string_view said(std::string_view sentence, bool begins = true);   // not so behind a colon
   // As high as a member of staff needs it.
   void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);
@@ -59,8 +63,12 @@ class StaffFrame : public Page {
   void grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
   // Digits to be typed; `done` when the tick is touched.
   void keypad(Action done);
-  // "12.5", kept apart from the direction of the words around.
+  // "12.5", with the language's decimal mark and digits in threes, kept apart from the direction of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
+  // What is a number with a point, behind it perhaps a unit, with the language's decimal mark; else as it is.
+  std::string_view as_number(std::string_view text);
+  // "2026-03-14 09:12", as the language has it; what does not begin with a date, as it is.
+  std::string_view date(std::string_view iso);
   Colour ink_of(Mood mood) const;
   const char* sign_of(Mood mood) const;
 
@@ -68,7 +76,6 @@ class StaffFrame : public Page {
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void digit(const char* letter);
-  void rule();
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action);
 };
 

@@ -20,6 +20,7 @@ void StaffFrame::begin_list(std::string_view id) {
   tree.open(list);
 }
 
+// Beside each other where both have room; else the value under its label, at the same end.
 void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.id = id;
@@ -31,18 +32,23 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
     row.action = action;
   }
   tree.open(row);
-  tree.open(grown(box(Flow::Column), value.empty() || (portrait && text_share > 1.2F) ? 1 : 1.2F));  // a date stays on one line
+  Node both = grown(box(Flow::Row, space::kM));
+  both.box.across = Across::Centre;
+  both.box.folds = true;
+  tree.open(both);
+  tree.open(grown(box(Flow::Column)));
   tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.close();
   if (!value.empty()) {
-    Node end = grown(box(Flow::Row, space::kXs));
+    Node end = box(Flow::Row, space::kXs);
     end.box.along = Along::End;
     end.box.across = Across::Centre;
     tree.open(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
-    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood)));
+    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
     tree.close();
   }
+  tree.close();
   if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
   tree.close();
   rule();
@@ -78,13 +84,13 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
 }
 
 void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more) {
-  const bool upright = portrait && text_share > 1.2F;
-  Node row = box(upright ? Flow::Column : Flow::Row, space::kS, 0, 6);
-  if (!upright) row.box.across = Across::Centre;
+  Node row = box(Flow::Row, space::kS, 0, 6);
+  row.box.across = Across::Centre;
+  row.box.folds = true;
   tree.open(row);
-  if (!upright) tree.open(grown(box(Flow::Column)));
+  tree.open(grown(box(Flow::Column)));
   tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
-  if (!upright) tree.close();
+  tree.close();
   Node end = box(Flow::Row, space::kS);
   end.box.across = Across::Centre;
   end.box.along = Along::End;
@@ -106,6 +112,18 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   rule();
 }
 
+void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
+  Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
+  room.box.along = Along::Centre;
+  room.box.across = Across::Centre;
+  tree.open(room);
+  sign(letter, 64 / text_share, palette.quiet_border);
+  Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);
+  said.id = id;
+  tree.leaf(said);
+  tree.close();
+}
+
 void StaffFrame::section(std::string_view words) {
   tree.leaf(sized(box(Flow::Column), 1, 14));
   Node name = text(words, type::kSmall, Weight::Bold, palette.link);
@@ -113,23 +131,8 @@ void StaffFrame::section(std::string_view words) {
   tree.leaf(name);
 }
 
-std::string_view StaffFrame::said(std::string_view sentence) {
-  const char* ended = tree.keep(sentence).data();
-  tree.keep({"", 1});
-  return sentence.empty() ? sentence : std::string_view(tr(ended));   // gettext's name of nothing is its header
-}
-
-void StaffFrame::logged(const LogLine& what) {
-  // What stands in a sentence comes apart from its direction; the line itself runs as its words do.
-  const char* words = what.key.empty() ? nullptr : said(what.key).data();
-  const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
-  Node said_node = text(filled(what.fault ? tr("{}  fault: {}") : "{}  {}", {what.at, sentence}), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain));
-  said_node.box.pad_y = px(4);
-  tree.leaf(said_node);
-}
-
 void StaffFrame::line(std::string_view words, Mood mood) {
-  // A log's English begins with a date: apart from the page's direction, or the date comes last.
+  // Apart from the page's direction: each runs as its own words do.
   Node said = text(filled("{}", words), 18, Weight::Regular, ink_of(mood));
   said.box.pad_y = px(4);
   tree.leaf(said);

@@ -33,7 +33,7 @@ void statistics_page(StaffFrame& page) {
     return page.tree.close();
   }
   const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };
-  page.row("since", tr("Counted since"), seen->since);
+  page.row("since", tr("Counted since"), page.date(seen->since));
   page.row("visits", tr("Visits begun"), count(seen->visits));
   page.row("captures", tr("Captures"), count(seen->captures));
   page.row("models", tr("Portraits made"), count(seen->models));

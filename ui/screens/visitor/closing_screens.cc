@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The pages with one message: thanks, trouble, and the moment before the appliance is ready.
+#include <algorithm>
+
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
 namespace {
 
+constexpr float kColumn = 860;
 constexpr float kCorner = 16;   // as the staff's way in has it (staff_entrance)
 
 // What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads it in
@@ -32,8 +35,8 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   middle.box.across = Across::Centre;
   page.tree.open(middle);
   Node column = page.grown(page.box(Flow::Column, space::kM));
-  column.box.max_width = page.px(860);
-  column.box.width = page.px(std::min(860.0F, page.width_dp - 80));
+  column.box.max_width = page.px(kColumn);
+  column.box.width = page.px(std::min(kColumn, page.width_dp - 80));
   column.box.along = Along::Centre;
   column.box.scroll = true;
   column.id = "message";
@@ -43,6 +46,21 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
 
 void end_message(Page& page) {
   page.tree.close();
+  page.tree.close();
+  page.tree.close();
+}
+
+// The way on stands under the words; where those are so large that they may have to be scrolled, at the foot of the page.
+void end_message(Page& page, const char* on, const char* letter) {
+  const bool at_foot = !page.portrait && page.text_share > 1.2F;
+  if (at_foot) page.tree.close();
+  else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  Node row = page.box(Flow::Column, 0, 0, at_foot ? space::kS : 0.0F);
+  if (at_foot) row.box.width = page.px(std::min(kColumn, page.width_dp - 80));
+  page.tree.open(row);
+  page.button("finish", on, letter, ButtonLook::Main, {ActionKind::Finish, 0});
+  page.tree.close();
+  if (!at_foot) page.tree.close();
   page.tree.close();
   page.tree.close();
 }
@@ -103,9 +121,7 @@ void thanks_screen(Page& page) {
   page.tree.leaf(code);
   page.tree.close();
   page.tree.close();
-  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  page.button("finish", tr("Done"), icon::kCheck, ButtonLook::Main, {ActionKind::Finish, 0});
-  end_message(page);
+  end_message(page, tr("Done"), icon::kCheck);
 }
 
 void trouble_screen(Page& page) {
@@ -113,9 +129,8 @@ void trouble_screen(Page& page) {
   begin_message(page, said.letter, page.palette.warn, true);
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
-  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order)) page.button("finish", page.tr("Back to the start"), icon::kAgain, ButtonLook::Main, {ActionKind::Finish, 0});
-  end_message(page);
+  if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order)) end_message(page, page.tr("Back to the start"), icon::kAgain);
+  else end_message(page);
 }
 
 void starting_screen(Page& page) {

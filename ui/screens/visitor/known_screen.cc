@@ -18,7 +18,7 @@ void way(Page& page, std::string_view id, const char* label, const char* letter,
 
 void two_ways(Page& page) {
   const auto& tr = page.tr;
-  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL));
+  page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, page.portrait ? space::kL : space::kM));
   way(page, "renew", tr("Renew it"), icon::kAgain, tr("The old portrait is erased in the moment the new one is stored."), {ActionKind::Renew, 0});
   way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait stays beside the new one."), {ActionKind::AddAnother, 0});
   page.tree.close();

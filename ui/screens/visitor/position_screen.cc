@@ -10,6 +10,8 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kEdge = 12;   // of the screen: what stands there must not reach into the oval
+
 struct Said {
   const char* words;
   const char* letter;
@@ -103,17 +105,16 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
 }
 
 void advice(Page& page, const Said& what, std::optional<float> countdown) {
-  const bool upright = page.portrait || page.text_share > 1.3F;
   Node row = page.box(Flow::Row);
   row.box.along = Along::Centre;
   page.tree.open(row);
-  Node pill = page.box(Flow::Row, 18, 32, 16);
+  Node pill = page.box(Flow::Row, 18, 32, 10);
   pill.id = "advice";
   pill.role = Role::Status;
   pill.name = what.words;
   pill.box.across = Across::Centre;
   pill.box.along = Along::Centre;
-  pill.box.max_width = page.px(upright ? 700.0F : 860.0F);
+  pill.box.max_width = page.px(page.portrait ? 700.0F : 1160.0F);
   pill.box.fill = page.visit.high_contrast ? Colour{0, 0, 0, 255} : Colour{8, 14, 26, 225};
   pill.box.border = what.good ? page.palette.good : page.palette.quiet_border;
   pill.box.border_px = page.px(2);
@@ -144,17 +145,17 @@ void position_screen(Page& page) {
   page.tree.open(root);
   picture(page);
   oval(page, what.good, countdown);
-  page.tree.open(page.box(Flow::Column, space::kS, 40, 24));
+  page.tree.open(page.box(Flow::Column, space::kS, 40, kEdge));
   advice(page, what, countdown);
   if (const char* again = last_time(page); again != nullptr && !what.good) {
     Node row = page.box(Flow::Row);
-    row.box.along = Along::Centre;
+    row.box.along = page.portrait ? Along::Centre : Along::Start;  // where there is room beside the oval, there
     page.tree.open(row);
-    Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255}, TextAlign::Centre);
+    Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255}, page.portrait ? TextAlign::Centre : TextAlign::Start);
     note.id = "again";
     note.box.pad_x = page.px(24);
     note.box.pad_y = page.px(8);
-    note.box.max_width = page.px(720);
+    note.box.max_width = page.px(page.portrait ? 720.0F : 330.0F);
     note.box.fill = {8, 14, 26, 225};
     note.box.radius = page.px(20);
     page.tree.leaf(note);
@@ -163,10 +164,12 @@ void position_screen(Page& page) {
   page.space(1);
   const bool stacked = page.portrait;
   if (stacked) page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main, {ActionKind::TakePicture, 0});
-  Node foot = page.box(Flow::Row, space::kS);
+  Node foot = page.box(Flow::Row, page.portrait ? space::kS : space::kXs);
   foot.box.across = Across::End;
   page.tree.open(foot);
-  page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  // Large words would reach into the oval.
+  if (page.portrait || page.text_share < 1.2F) page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  else page.square_button("back", page.tr("Back"), page.backward(), {ActionKind::Back, 0});
   page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
   page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});

@@ -77,7 +77,7 @@ TEST(CalibrationReport, SaysTheVerdictInWordAndShape) {
   std::vector<std::string> icons;
   for (const auto& [verdict, word] : {std::pair{CalibrationVerdict::Pass, "Pass"}, {CalibrationVerdict::Usable, "Usable"}, {CalibrationVerdict::Refuse, "Refuse"}}) {
     set.output.quality.verdict = verdict;
-    set.output.quality.reasons = {"view " + std::string(kWickedName) + " is at fault"};
+    set.output.quality.reasons = {Sentence("view {} is at fault", {kWickedName})};
     const std::string html = pipeline::calibration_report_html(set.report());
     const HtmlReader page(html);
     EXPECT_EQ(page.error(), "");

@@ -47,7 +47,7 @@ void kinds(BenchFrame& b) {
     row.box.fill = chosen ? b.page.palette.accent : b.page.palette.card;
     b.page.tree.open(row);
     b.page.tree.leaf(b.page.text(label_of(b.tr, kind.key), type::kSmall, Weight::Medium, chosen ? b.page.palette.accent_ink : b.page.palette.ink));
-    b.page.tree.leaf(b.page.text(b.left_to_right(kind.value), 17, Weight::Regular, chosen ? b.page.palette.accent_ink : b.page.palette.ink_soft));
+    b.page.tree.leaf(b.page.text(b.left_to_right(b.breakable(kind.value)), 17, Weight::Regular, chosen ? b.page.palette.accent_ink : b.page.palette.ink_soft));
     b.page.tree.close();
   }
   b.page.tree.close();
@@ -141,17 +141,17 @@ void editor(BenchFrame& b) {
   words.box.scroll = true;
   b.page.tree.open(words);
   b.page.tree.leaf(b.page.text(b.left_to_right(option.key), type::kBody, Weight::Bold, b.page.palette.ink));
-  b.page.tree.leaf(b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
-  char text[96];
-  std::snprintf(text, sizeof text, "\u2066%g … %g\u2069", option.least, option.most);
-  b.page.row("option range", b.tr("Possible values"), b.page.tree.keep(text));
-  b.page.row("option value", b.tr("Now"), b.left_to_right(option.value));
   if (!b.view.choice.refused.empty()) {
     Node no = b.page.text(b.tr("This value is not possible."), type::kSmall, Weight::Bold, b.page.palette.bad);
     no.id = "option refused";
     no.role = Role::Status;
     b.page.tree.leaf(no);
   }
+  b.page.tree.leaf(b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  char text[96];
+  std::snprintf(text, sizeof text, "\u2066%g … %g\u2069", option.least, option.most);
+  b.page.row("option range", b.tr("Possible values"), b.page.tree.keep(text));
+  b.page.row("option value", b.tr("Now"), b.left_to_right(option.value));
   b.page.tree.close();
   Node field = b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : b.left_to_right(b.view.choice.typed), type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
   field.id = "option typed";
@@ -164,7 +164,7 @@ void editor(BenchFrame& b) {
   field.box.radius = b.page.px(14);
   b.page.tree.leaf(field);
   keys(b);
-  const bool stacked = b.page.text_share > 1.3F;
+  const bool stacked = b.page.portrait && b.page.text_share > 1.3F;
   b.page.tree.open(b.page.box(stacked ? Flow::Column : Flow::Row, space::kXs));
   b.page.small_button("option leave", b.tr("Cancel"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveOption), stacked ? 0.0F : 1.0F);
   b.page.small_button("option default", b.tr("Default"), nullptr, ButtonLook::Quiet, bench(BenchAct::UseDefault), stacked ? 0.0F : 1.0F);

@@ -39,6 +39,33 @@ std::string_view BenchFrame::left_to_right(std::string_view text) const {
   return {first.data(), first.size() + page.tree.keep(text).size() + page.tree.keep("\u2069").size()};
 }
 
+std::string_view BenchFrame::joined(std::string_view a, std::string_view between, std::string_view b) const {
+  const std::string_view first = page.tree.keep("\u2066");
+  std::size_t length = first.size();
+  for (const std::string_view part : {a, between, b, std::string_view("\u2069")}) length += page.tree.keep(part).size();
+  return {first.data(), length};
+}
+
+std::string_view BenchFrame::several(std::initializer_list<double> values, int decimals, const char* unit_name) const {
+  const char* between = info_of(tr.language()).decimal_mark == ',' ? ";\u00a0" : ",\u00a0";
+  std::string_view all;
+  for (const double* value = values.begin(); value != values.end(); ++value) {
+    const std::string_view next = page.number(*value, decimals, value + 1 == values.end() ? unit_name : "");
+    all = value == values.begin() ? next : joined(all, between, next);
+  }
+  return all;
+}
+
+std::string_view BenchFrame::breakable(std::string_view names) const {
+  const std::string_view first = page.tree.keep({});
+  std::size_t length = 0;
+  for (const char& c : names) {
+    length += page.tree.keep({&c, 1}).size();
+    if (c == '.' || c == '_' || c == '+') length += page.tree.keep("\u200b").size();
+  }
+  return {first.data(), length};
+}
+
 void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow) {
   page.small_button(id, label, chosen ? icon::kCheck : nullptr, chosen ? ButtonLook::Main : ButtonLook::Quiet, action, grow);
 }
@@ -108,15 +135,23 @@ bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& vis
 }
 
 void BenchFrame::problem(std::string_view words) {
-  if (words.empty()) return;
-  Node row = page.box(Flow::Row, space::kS);
+  if (!words.empty()) alert(page.said(words));
+}
+
+void BenchFrame::failure() {
+  const BenchResult& r = view.result;
+  if (!r.failure.empty()) alert(page.filled(tr("{}: {}"), {work_of(tr, r.failed_at), page.said(r.failure, false)}));
+}
+
+void BenchFrame::alert(std::string_view words) {
+  Node row = page.box(Flow::Row, space::kS, 0, 4);
   row.id = "problem";
   row.role = Role::Status;
   row.box.across = Across::Centre;
   page.tree.open(row);
   page.sign(icon::kAlert, 26, page.palette.bad);
   page.tree.open(page.grown(page.box(Flow::Column)));
-  Node said = page.text(page.said(words), 18, Weight::Regular, page.palette.bad);
+  Node said = page.text(words, 18, Weight::Regular, page.palette.bad);
   page.tree.leaf(said);
   page.tree.close();
   page.tree.close();

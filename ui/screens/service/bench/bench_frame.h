@@ -28,6 +28,12 @@ class BenchFrame {
   std::string_view id(std::string_view what, std::size_t number) const;
   // Figures and identifiers: left to right in every language.
   std::string_view left_to_right(std::string_view text) const;
+  // Parts that stand on one line, kept for the frame.
+  std::string_view joined(std::string_view a, std::string_view between, std::string_view b) const;
+  // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands between them.
+  std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name) const;
+  // Names of algorithms and options, which may be divided where their parts meet.
+  std::string_view breakable(std::string_view names) const;
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
@@ -50,7 +56,11 @@ class BenchFrame {
   void uncalibrated();
   // The buttons under the pages of the test capture.
   void capture_buttons(bool with_run, bool with_record = false);
-  void problem(std::string_view words);
+  void problem(std::string_view words);   // packed (hal/base/sentence.h); empty: nothing is shown
+  void failure();                         // of the present result's stages
+
+ private:
+  void alert(std::string_view words);
 };
 
 const char* title_of(const Words& tr, BenchStage stage);

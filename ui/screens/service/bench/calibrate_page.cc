@@ -126,12 +126,13 @@ void verdict(BenchFrame& b) {
   const char* said = good ? b.tr("Good") : refused ? b.tr("Refused: it would measure wrongly") : b.tr("Usable, with doubts");
   b.page.section(b.tr("The new calibration"));
   b.page.row("verdict", b.tr("Verdict"), said, mood);
+  for (const std::string& reason : c.reasons) b.page.line(b.page.said(reason), mood);
+  if (!c.reasons.empty()) b.page.rule();
   b.page.row("ended", words_of(b.tr, c.end), {});
   b.page.row("depth error", b.tr("Error of a face's distance"), b.page.number(static_cast<double>(c.depth_error_mm), 3, "mm"), mood);
   b.page.row("rms", b.tr("Disagreement with the board"), b.page.number(static_cast<double>(c.rms_px), 3, "px"));
   b.page.row("baseline", b.tr("Distance of the cameras"), b.page.number(static_cast<double>(c.baseline_mm), 2, "mm"));
   b.page.row("views used", b.tr("Views taken"), b.page.number(c.views));
-  if (!c.reason.empty()) b.page.line(c.reason, mood);
   if (c.stored) b.page.row("stored", b.tr("Stored, and in use from now on"), {}, Mood::Good);
 }
 
@@ -141,9 +142,7 @@ void history(BenchFrame& b) {
   if (c.history_count == 0) b.page.row("no history", b.tr("There is none yet"), {});
   for (std::size_t i = 0; i < c.history_count; ++i) {
     const BenchCalibrationRow& row = c.history[i];
-    char text[160];
-    std::snprintf(text, sizeof text, "\u2066%u · %.*s\u2069", row.revision, static_cast<int>(std::min<std::size_t>(row.made_at.size(), 40)), row.made_at.data());
-    const std::string_view label = b.page.tree.keep(text);
+    const std::string_view label = b.joined(b.page.number(row.revision), "\u00a0· ", b.page.date(row.made_at));
     const std::string_view value = row.active ? std::string_view(b.tr("in use")) : row.depth_error_mm > 0 ? b.page.number(static_cast<double>(row.depth_error_mm), 3, "mm") : std::string_view("–");
     b.page.row(b.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain, row.active ? Action{} : bench(BenchAct::Activate, static_cast<std::int32_t>(i)));
   }

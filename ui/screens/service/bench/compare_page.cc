@@ -49,7 +49,7 @@ void figures(BenchFrame& b, const Row& row, bool heading = false) {
 
 std::string_view chosen(BenchFrame& b, const BenchResult& r) {
   if (!r.there) return "–";
-  return r.algorithms.empty() ? std::string_view(b.tr("as delivered")) : b.left_to_right(r.algorithms);
+  return r.algorithms.empty() ? std::string_view(b.tr("as delivered")) : b.left_to_right(b.breakable(r.algorithms));
 }
 
 void table(BenchFrame& b) {
@@ -84,7 +84,7 @@ void bench_compare_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
   if (b.capture_state()) {
-    if (!b.view.result.failure.empty()) b.problem(b.view.result.failure);
+    b.failure();
     if (!b.view.kept.there) page.body("how", b.tr("Put this result aside, choose other algorithms, calculate again: then both stand here."));
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
     pictures(b);

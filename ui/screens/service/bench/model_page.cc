@@ -61,11 +61,8 @@ void bench_model_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
   if (b.capture_state() && b.view.model == nullptr) {
-    Node room = page.grown(page.box(Flow::Column));
-    page.tree.open(room);
-    b.problem(b.view.result.failure);
-    page.body("no model", b.tr("There is no model: a stage before it gave up."));
-    page.tree.close();
+    b.failure();
+    page.nothing("no model", icon::kShape, b.tr("There is no model: a stage before it gave up."));
   } else if (b.view.model != nullptr) {
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
     body(b);

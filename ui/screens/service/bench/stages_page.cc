@@ -72,15 +72,11 @@ void one_picture(BenchFrame& b) {
 }
 
 std::string_view coordinates(BenchFrame& b, const pipeline::Vec2f& px) {
-  char text[64];
-  std::snprintf(text, sizeof text, "\u2066%.2f, %.2f\u00a0px\u2069", static_cast<double>(px.x), static_cast<double>(px.y));
-  return b.page.tree.keep(text);
+  return b.several({static_cast<double>(px.x), static_cast<double>(px.y)}, 2, "px");
 }
 
 std::string_view plus_minus(BenchFrame& b, double value, double sigma, int decimals, const char* unit_name) {
-  char text[64];
-  std::snprintf(text, sizeof text, "\u2066%.*f ± %.*f\u00a0%s\u2069", decimals, value, decimals, sigma, unit_name);
-  return b.page.tree.keep(text);
+  return b.joined(b.page.number(value, decimals), "\u00a0±\u00a0", b.page.number(sigma, decimals, unit_name));
 }
 
 void point_rows(BenchFrame& b) {
@@ -105,9 +101,7 @@ void point_rows(BenchFrame& b) {
   b.page.row("point likeness", b.tr("Likeness"), b.page.number(1 - static_cast<double>(point.cost), 3));
   if (!point.rejected_by.empty()) b.page.row("point rejected", b.tr("Rejected by"), point.rejected_by, Mood::Bad);
   else if (!point.by_hand) b.page.row("point accepted", b.tr("Accepted"), b.tr("yes"), Mood::Good);
-  char text[80];
-  std::snprintf(text, sizeof text, "\u2066%.1f, %.1f, %.1f\u2069", static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y), static_cast<double>(point.at_mm.z));
-  b.page.row("point space", b.tr("In space, mm"), b.page.tree.keep(text));
+  b.page.row("point space", b.tr("In space"), b.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y), static_cast<double>(point.at_mm.z)}, 1, "mm"));
   b.page.row("point sigma", b.tr("Depth uncertainty"), b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
 }
 
@@ -159,7 +153,7 @@ void recording_state(BenchFrame& b) {
 }
 
 void side_rows(BenchFrame& b) {
-  if (!b.view.result.failure.empty()) b.problem(b.view.result.failure);
+  b.failure();
   if (b.view.stage == BenchStage::Rectified) return point_rows(b);
   if (b.view.stage == BenchStage::Matches) return rule_rows(b);
   time_rows(b);

@@ -32,7 +32,7 @@ void cells(BenchFrame& b, std::span<const std::string_view> texts, bool heading,
   for (std::size_t i = 0; i < texts.size(); ++i) {
     b.page.tree.open(b.page.grown(b.page.box(Flow::Column), i == wide ? 3.0F : 1.0F));
     if (!texts[i].empty()) {
-      Node cell = b.page.text(b.left_to_right(texts[i]), 18, heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
+      Node cell = b.page.text(b.left_to_right(heading ? texts[i] : b.page.as_number(texts[i])), 18, heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
       // Columns are as wide as they are: letters of a table grow less.
       cell.style.size_px = b.page.px((b.page.portrait ? 15.0F : 18.0F) * (1 + (b.page.text_share - 1) * 0.3F));
       b.page.tree.leaf(cell);
@@ -96,9 +96,7 @@ void bench_tables_page(StaffFrame& page) {
   }
   if (rows.cells.empty() && (rows.table != BenchTable::Calibration || !b.view.calibrated)) {
     if (b.capture_state()) {
-      page.tree.open(page.grown(page.box(Flow::Column)));
-      page.body("no rows", b.tr("There is nothing: a stage before it gave up."));
-      page.tree.close();
+      page.nothing("no rows", icon::kShape, b.tr("There is nothing: a stage before it gave up."));
     }
     return b.capture_buttons(false);
   }

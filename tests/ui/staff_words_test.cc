@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Numbers, dates and what the appliance says of itself, as each language writes them.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "hal/base/sentence.h"
+#include "ui/screens/service/staff_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+class StaffWordsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { ASSERT_TRUE(prepare_languages().has_value()); }
+  StaffFrame in(Language language) {
+    visit_.language = language;
+    view_.service = &staff_;
+    tree_.begin(info_of(language).right_to_left);
+    return {tree_, view_, visit_, service_, kLight, Rect{0, 0, 1280, 800}};
+  }
+  // Without the marks that keep it apart from the direction of the words around.
+  static std::string bare(std::string_view text) {
+    std::string all(text);
+    for (const char* mark : {"\u2066", "\u2068", "\u2069"}) {
+      for (std::size_t at = all.find(mark); at != std::string::npos; at = all.find(mark)) all.erase(at, std::string(mark).size());
+    }
+    return all;
+  }
+
+  Tree tree_;
+  ViewState view_;
+  Visit visit_;
+  Service service_;
+  ServiceView staff_;
+};
+
+TEST_F(StaffWordsTest, NumbersHaveTheMarkOfTheLanguageAndGroupsOfThree) {
+  EXPECT_EQ(bare(in(Language::English).number(0.094, 3, "mm")), "0.094\u00a0mm");
+  EXPECT_EQ(bare(in(Language::German).number(0.094, 3, "mm")), "0,094\u00a0mm");
+  EXPECT_EQ(bare(in(Language::French).number(1048576)), "1\u202f048\u202f576");
+  EXPECT_EQ(bare(in(Language::Spanish).number(9999)), "9999") << "four digits are read at once";
+  EXPECT_EQ(bare(in(Language::Japanese).number(-12345.5, 1)), "\u221212\u202f345.5");
+  EXPECT_EQ(bare(in(Language::German).number(-0.5, 1)), "\u22120,5");
+}
+
+TEST_F(StaffWordsTest, OnlyWhatIsANumberGetsTheMark) {
+  StaffFrame page = in(Language::German);
+  EXPECT_EQ(bare(page.as_number("+0.42")), "+0,42");
+  EXPECT_EQ(bare(page.as_number("-6.0 px")), "\u22126,0 px");
+  for (const char* same : {"", ".", "7", "1.", ".5", "1.2.3", "4.6.0-rc1", "serial 4.2", "sample-1"}) EXPECT_EQ(page.as_number(same), same);
+}
+
+TEST_F(StaffWordsTest, DatesHaveTheOrderOfTheLanguage) {
+  EXPECT_EQ(bare(in(Language::English).date("2026-03-14 09:12")), "2026-03-14\u00a009:12");
+  EXPECT_EQ(bare(in(Language::German).date("2026-03-14 09:12")), "14.03.2026\u00a009:12");
+  EXPECT_EQ(bare(in(Language::French).date("2026-03-14")), "14/03/2026");
+  EXPECT_EQ(bare(in(Language::Chinese).date("2026-03-14")), "2026/03/14");
+  for (const char* none : {"", "2026-03", "yesterday, at 9", "20x6-03-14"}) EXPECT_EQ(in(Language::German).date(none), none);
+}
+
+TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
+  const std::string few = Sentence("only {} of {} pairs agree with each other", {"5", "14"}).packed();
+  EXPECT_EQ(bare(in(Language::English).said(few)), "Only 5 of 14 pairs agree with each other");
+  EXPECT_EQ(bare(in(Language::German).said(few)), "Nur 5 von 14 Paaren stimmen miteinander überein");
+  const std::string moved = Sentence(Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at("2.47 px")).packed();
+  EXPECT_EQ(bare(in(Language::German).said(moved)), "Eine Kamera hat sich seit der Kalibrierung bewegt: kalibrieren Sie neu (2,47 px)");
+  const std::string arabic(in(Language::Arabic).said(moved));
+  EXPECT_FALSE(arabic.starts_with("\u2068")) << "its own words tell the direction, not what stands behind them";
+  EXPECT_EQ(in(Language::German).said(""), "");
+  EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
+}
+
+TEST(SentenceTest, PackedItIsOneLine) {
+  const Sentence said("the {} of {}", {"a\tb", "c\nd"});
+  EXPECT_EQ(said.packed(), "the {} of {}\ta b\tc d");
+  EXPECT_EQ(Sentence("two {}", {"1", "2"}).text(), "two 1 (2)");
+  EXPECT_EQ(Sentence("none", {"here"}).text(), "none (here)");
+  EXPECT_EQ(decimal(0.125, 2) + decimal(1.5, 1, true), "0.12+1.5");
+}
+
+}  // namespace
+}  // namespace relievo::ui

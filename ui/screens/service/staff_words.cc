@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// StaffFrame's words: numbers and dates as the language writes them, and what the appliance says.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+
+#include "ui/screens/service/staff_frame.h"
+#include "ui/staff_views.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr std::size_t kMostValues = 8, kGroup = 3, kLeastGrouped = 5;
+constexpr std::string_view kMinus = "\u2212";
+constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+// How many digits stand at the beginning.
+std::size_t digits(std::string_view text) {
+  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+}
+
+// "2026-03-14…"
+bool begins_with_date(std::string_view text) {
+  constexpr std::string_view kShape = "dddd-dd-dd";
+  if (text.size() < kShape.size()) return false;
+  for (std::size_t i = 0; i < kShape.size(); ++i) {
+    if (kShape[i] == 'd' ? !is_digit(text[i]) : text[i] != kShape[i]) return false;
+  }
+  return true;
+}
+
+// Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
+const char* begun(Tree& tree, const char* words) {
+  if (*words < 'a' || *words > 'z') return words;
+  const char first = static_cast<char>(*words - 'a' + 'A');
+  const char* all = tree.keep({&first, 1}).data();
+  tree.keep(words + 1);
+  tree.keep({"", 1});
+  return all;
+}
+
+}  // namespace
+
+std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
+  char figures[48];
+  std::snprintf(figures, sizeof figures, "%.*f", decimals, value);
+  const std::string_view text = figures;
+  const std::size_t sign = text.starts_with('-') ? 1 : 0, whole = digits(text.substr(sign));
+  char said[128];
+  std::size_t length = 0;
+  const auto put = [&](std::string_view part) { length += part.copy(said + length, sizeof said - length); };
+  put("\u2066");
+  if (sign > 0) put(kMinus);
+  for (std::size_t i = 0; i < whole; ++i) {
+    if (i > 0 && whole >= kLeastGrouped && (whole - i) % kGroup == 0) put(kBetweenGroups);
+    put(text.substr(sign + i, 1));
+  }
+  if (decimals > 0 && sign + whole < text.size()) {
+    put({&info_of(visit.language).decimal_mark, 1});
+    put(text.substr(sign + whole + 1));
+  }
+  if (*unit_name != 0) put("\u00a0"), put(unit_name);
+  put("\u2069");
+  return tree.keep({said, length});
+}
+
+std::string_view StaffFrame::as_number(std::string_view text) {
+  const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0, whole = digits(text.substr(sign));
+  const std::size_t point = sign + whole, rest = point + 1;
+  if (whole == 0 || point >= text.size() || text[point] != '.') return text;
+  const std::size_t behind = rest + digits(text.substr(rest));
+  if (behind == rest || (behind < text.size() && text[behind] != ' ')) return text;
+  const std::string_view first = tree.keep("\u2066");
+  std::size_t length = first.size() + tree.keep(text[0] == '-' ? kMinus : text.substr(0, sign)).size();
+  for (const std::string_view part : {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1), text.substr(rest), std::string_view("\u2069")}) length += tree.keep(part).size();
+  return {first.data(), length};
+}
+
+std::string_view StaffFrame::date(std::string_view iso) {
+  if (!begins_with_date(iso)) return iso;
+  const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2), day = iso.substr(8, 2);
+  const std::string_view first = tree.keep("\u2066");
+  std::size_t length = first.size();
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const char part = shape[i] == '%' && i + 1 < shape.size() ? shape[i + 1] : '\0';
+    const std::string_view said = part == 'Y' ? year : part == 'm' ? month : part == 'd' ? day : shape.substr(i, 1);
+    if (part != '\0') ++i;
+    length += tree.keep(said).size();
+  }
+  for (const char c : iso.substr(10)) length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
+  return {first.data(), length + tree.keep("\u2069").size()};
+}
+
+std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
+  if (sentence.empty()) return sentence;   // gettext's name of nothing is its header
+  std::array<std::string_view, kMostValues> values{};
+  std::size_t count = 0;
+  const std::size_t end = std::min(sentence.find('\t'), sentence.size());
+  for (std::size_t at = end; at < sentence.size() && count < values.size();) {
+    const std::size_t next = std::min(sentence.find('\t', at + 1), sentence.size());
+    values[count++] = as_number(sentence.substr(at + 1, next - at - 1));
+    at = next;
+  }
+  const char* key = tree.keep(sentence.substr(0, end)).data();
+  tree.keep({"", 1});
+  const char* words = begins ? begun(tree, tr(key)) : tr(key);
+  std::size_t holes = 0;
+  for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
+  const std::string_view all = count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
+  if (count <= holes) return all;
+  // Where it was; the words stay outside of any isolate, so that they tell the direction.
+  const std::string_view first = tree.keep(all);
+  return {first.data(), first.size() + filled(" ({})", values[holes]).size()};
+}
+
+void StaffFrame::logged(const LogLine& what) {
+  const char* words = nullptr;
+  if (!what.key.empty()) {
+    words = tree.keep(what.key).data();
+    tree.keep({"", 1});
+    words = begun(tree, tr(words));
+  }
+  const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
+  Node row = box(Flow::Row, space::kM, 0, 6);
+  row.role = what.fault ? Role::Status : Role::Group;
+  if (what.fault) row.name = tr("Fault");
+  tree.open(row);
+  tree.leaf(text(date(what.at), 18, Weight::Regular, palette.ink_soft));
+  if (what.fault) sign(icon::kAlert, 22, ink_of(Mood::Warn));
+  tree.open(grown(box(Flow::Column)));
+  tree.leaf(text(what.key.empty() ? filled("{}", sentence) : sentence, 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+  tree.close();
+  tree.close();
+}
+
+}  // namespace relievo::ui
