@@ -20,7 +20,7 @@ struct LocalOutlierFilterOptions {
   double max_incidence_deg = 78;  // neighbours steeper than this to the line of sight do not support each other
   double min_support = 0.34;      // share of the 24 places around a point that must support it
   double spike_sigmas = 4;        // distance from the neighbours' plane, in their own scatter; 0 keeps spikes
-  double min_island = 0.02;       // islands with less than this share of the points go
+  double min_island = 0.01;       // islands with less than this share of the points go
 
   Result<void> check() const;
 };

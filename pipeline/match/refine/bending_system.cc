@@ -8,14 +8,12 @@
 #include <cstddef>
 
 #include "hal/base/simd.h"
+#include "pipeline/match/refine/multilevel_preconditioner.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 8;  // fixed, so that sums do not depend on the number of threads
-
-// Columns of a row from `begin` up to `end`.
-struct Span { int begin, end; };
 
 Span join(const Span& a, const Span& b) { return {std::min(a.begin, b.begin), std::max(a.end, b.end)}; }
 
@@ -86,27 +84,18 @@ RELIEVO_SIMD void follow_row(const float* z, float beta, float* p, Span span) {
   for (int x = span.begin; x < span.end; ++x) p[x] = z[x] + beta * p[x];
 }
 
-RELIEVO_SIMD void step_row(const float* p, const float* ap, const float* inverse_diagonal, float alpha, Span span,
-                           float* x, float* r, float* z) {
+RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, Span span, float* x, float* r) {
   for (int i = span.begin; i < span.end; ++i) {
     x[i] += alpha * p[i];
     r[i] -= alpha * ap[i];
-    z[i] = r[i] * inverse_diagonal[i];
   }
 }
 
-void invert_diagonal(const BendingSystem& s, Plane<float>& out) {
-  for (int y = 1; y < s.height() - 1; ++y)
-    for (int x = 1; x < s.width() - 1; ++x) {
-      const float* xx = s.bend_xx.row(y) + x;
-      const float d = s.data.row(y)[x] + xx[-1] + 4 * xx[0] + xx[1] + s.bend_yy.row(y - 1)[x] +
-                      4 * s.bend_yy.row(y)[x] + s.bend_yy.row(y + 1)[x] + s.bend_xy.row(y)[x] +
-                      s.bend_xy.row(y)[x - 1] + s.bend_xy.row(y - 1)[x] + s.bend_xy.row(y - 1)[x - 1];
-      out.row(y)[x] = d > 0 ? 1 / d : 0.0F;
-    }
-}
-
-double total(const std::array<double, kBands>& parts) {
+// `rows` works rows [begin, end) and says their part of the sum.
+template <typename Rows>
+double sum_over_bands(ThreadPool& pool, int height, Rows&& rows) {
+  std::array<double, kBands> parts{};
+  pool.for_each_band(height, kBands, [&](int begin, int end, int band) { parts[static_cast<std::size_t>(band)] = rows(begin, end); });
   double sum = 0;
   for (const double part : parts) sum += part;
   return sum;
@@ -155,7 +144,6 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
            Plane<float>& x) {
   const int w = s.width();
   const int h = s.height();
-  Plane<float> inverse_diagonal(&scratch, w, h);
   Plane<float> r(&scratch, w, h);
   Plane<float> z(&scratch, w, h);
   Plane<float> p(&scratch, w, h);
@@ -163,26 +151,20 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
   Plane<float> rolling(&scratch, rolling_floats(w), kBands);
   const Spans spans(s, &scratch);
   const auto span = [&spans](int y) { return spans.out[static_cast<std::size_t>(y)]; };
-  invert_diagonal(s, inverse_diagonal);
+  MultilevelPreconditioner preconditioner(s, pool, &scratch);
   std::fill(x.values.begin(), x.values.end(), 0.0F);
   r.values = s.rhs.values;
-  std::array<double, kBands> parts{};
   const auto band_of = [h](int begin) { return static_cast<int>((static_cast<long>(begin) * kBands + h - 1) / h); };
-  const auto each = [&](auto&& row_work) {
-    parts.fill(0);
-    pool.for_each_band(h, kBands, [&](int begin, int end, int band) {
-      parts[static_cast<std::size_t>(band)] = row_work(begin, end);
+  const auto each = [&](auto&& rows) { return sum_over_bands(pool, h, rows); };
+  const auto precondition = [&] {
+    preconditioner.apply(r, spans.out, z);
+    return each([&](int begin, int end) {
+      double sum = 0;
+      for (int y = begin; y < end; ++y) sum += dot_row(r.row(y), z.row(y), span(y));
+      return sum;
     });
-    return total(parts);
   };
-  double rz = each([&](int begin, int end) {
-    double sum = 0;
-    for (int y = begin; y < end; ++y) {
-      step_row(p.row(y), ap.row(y), inverse_diagonal.row(y), 0, span(y), x.row(y), r.row(y), z.row(y));
-      sum += dot_row(r.row(y), z.row(y), span(y));
-    }
-    return sum;
-  });
+  double rz = precondition();
   const double start = rz;
   double beta = 0;
   for (int k = 0; k < steps && rz > tolerance * start; ++k) {
@@ -198,14 +180,11 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
     });
     if (!(pap > 0)) break;
     const auto alpha = static_cast<float>(rz / pap);
-    const double next = each([&](int begin, int end) {
-      double sum = 0;
-      for (int y = begin; y < end; ++y) {
-        step_row(p.row(y), ap.row(y), inverse_diagonal.row(y), alpha, span(y), x.row(y), r.row(y), z.row(y));
-        sum += dot_row(r.row(y), z.row(y), span(y));
-      }
-      return sum;
+    each([&](int begin, int end) {
+      for (int y = begin; y < end; ++y) step_row(p.row(y), ap.row(y), alpha, span(y), x.row(y), r.row(y));
+      return 0.0;
     });
+    const double next = precondition();
     beta = next / rz;
     rz = next;
   }

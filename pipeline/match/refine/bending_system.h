@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The linear system of SurfaceRefiner: (diag(A) + D' W D) x = b, where D takes the second differences
-// xx, yy and xy of a field over a lattice and W weighs them. Solved by conjugate gradients with the
-// diagonal as preconditioner; reductions run in a fixed order.
+// xx, yy and xy of a field over a lattice and W weighs them. Solved by conjugate gradients,
+// preconditioned on several lattices (multilevel_preconditioner.h); reductions run in a fixed order.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kFarLevel = 2;
-// Of the squared residual: the next warp solves what is left anew. A hundredth of this changes no figure.
-constexpr double kSolved = 1e-4;
+// Of the squared residual: the next warp solves what is left anew. A tenth of this changes no figure.
+constexpr double kSolved = 1e-3;
 constexpr int kNoiseStep = 1;  // when the fit is close enough for its residuals to be noise
 
 // The node window that holds the domain with a margin, and the pixel window below it.

@@ -42,7 +42,7 @@ struct SurfaceField {
 struct SurfaceRefinerOptions {
   float bending = 0.17F;            // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
   float crease = 0.9F;              // second differences beyond this many expected ones count as creases
-  float wrinkle = 0.145F;           // at full size, patches that bend well beyond this many expected ones count as relief; 0: none do
+  float wrinkle = 0.135F;           // at full size, patches that bend well beyond this many expected ones count as relief; 0: none do
   int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
   int smallest_window_px = 9;       // and at least this many pixels of a smaller level
   int steps = 5;                    // warps at full size; one less at half, twice that at a quarter of it

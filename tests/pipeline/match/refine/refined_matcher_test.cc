@@ -60,7 +60,7 @@ Errors measure(const BumpScene& scene, int threads = 2) {
 
 TEST(RefinedMatcher, FindsTheTrueSurfaceToAFewHundredthsOfAPixel) {
   const Errors errors = measure({});
-  EXPECT_LT(errors.rms, 0.03);
+  EXPECT_LT(errors.rms, 0.032);  // with what the search for wrinkles lets in: waves of 6 mm come back for it
   EXPECT_GT(errors.covered, 0.99);
 }
 

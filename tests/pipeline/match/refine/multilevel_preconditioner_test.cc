@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/match/refine/multilevel_preconditioner.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include <Eigen/Dense>
+
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kWidth = 27, kHeight = 22;  // odd and even: the lattices above have a border on either side
+
+bool known(int x, int y) { return x >= 2 && y >= 1 && x < kWidth - 1 && y < kHeight - 2 && (x < 9 || x > 11 || y < 6 || y > 9); }
+
+void fill(BendingSystem& s) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> unit(0.1F, 1);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      if (!known(x, y)) continue;
+      s.data.row(y)[x] = 0.01F * unit(random);
+      if (known(x - 1, y) && known(x + 1, y)) s.bend_xx.row(y)[x] = unit(random);
+      if (known(x, y - 1) && known(x, y + 1)) s.bend_yy.row(y)[x] = unit(random);
+      if (known(x + 1, y) && known(x, y + 1) && known(x + 1, y + 1)) s.bend_xy.row(y)[x] = unit(random);
+    }
+}
+
+// The operator, column by column.
+Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageBench& bench) {
+  const std::pmr::vector<Span> whole(kHeight, Span{0, kWidth});
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(kWidth * kHeight, kWidth * kHeight);
+  for (int k = 0; k < kWidth * kHeight; ++k) {
+    Arena::Mark mark(bench.scratch);
+    Plane<float> r(&bench.scratch, kWidth, kHeight);
+    Plane<float> z(&bench.scratch, kWidth, kHeight);
+    if (!known(k % kWidth, k / kWidth)) continue;
+    r.values[static_cast<std::size_t>(k)] = 1;
+    preconditioner.apply(r, whole, z);
+    for (int i = 0; i < kWidth * kHeight; ++i) m(i, k) = static_cast<double>(z.values[static_cast<std::size_t>(i)]);
+  }
+  return m;
+}
+
+// Conjugate gradients converge with no other kind.
+TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
+  test::StageBench bench(1 << 20, 1 << 22);
+  BendingSystem s(&bench.scratch, kWidth, kHeight);
+  fill(s);
+  MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
+  const Eigen::MatrixXd m = dense(preconditioner, bench);
+  EXPECT_LT((m - m.transpose()).cwiseAbs().maxCoeff(), 1e-4 * m.cwiseAbs().maxCoeff());
+  for (int k = 0; k < kWidth * kHeight; ++k)
+    EXPECT_EQ(m(k, k) > 0, known(k % kWidth, k / kWidth)) << k % kWidth << ", " << k / kWidth;
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((m + m.transpose()) / 2).eigenvalues();
+  int positive = 0;
+  for (const double value : values) positive += value > 1e-4;
+  int nodes = 0;
+  for (int k = 0; k < kWidth * kHeight; ++k) nodes += known(k % kWidth, k / kWidth);
+  EXPECT_EQ(positive, nodes);
+  EXPECT_GT(values.minCoeff(), -1e-5);
+}
+
+// What one node says reaches one that is ten nodes away: the diagonal alone would leave 0 there.
+TEST(MultilevelPreconditioner, CarriesFar) {
+  test::StageBench bench(1 << 20, 1 << 22);
+  BendingSystem s(&bench.scratch, kWidth, kHeight);
+  fill(s);
+  MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
+  const std::pmr::vector<Span> whole(kHeight, Span{0, kWidth});
+  Plane<float> r(&bench.scratch, kWidth, kHeight);
+  Plane<float> z(&bench.scratch, kWidth, kHeight);
+  r.row(15)[5] = 1;
+  preconditioner.apply(r, whole, z);
+  EXPECT_GT(z.row(15)[15], 0);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
