@@ -76,6 +76,7 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
   static void every_text_has_its_room(const ui::Tree& tree);
   static void buttons_are_large_apart_and_named(const ui::Tree& tree, const ui::Rect& screen);
   static void keypad_reaches_every_button(const ui::Tree& tree);
+  static void nothing_lies_on_the_oval(const ui::Tree& tree);
   static ui::Ui* screen_;
 };
 ui::Ui* GalleryTest::screen_ = nullptr;
@@ -133,12 +134,27 @@ void GalleryTest::keypad_reaches_every_button(const ui::Tree& tree) {
   EXPECT_FALSE(modal && reached.empty());
 }
 
+// A person's face is seen in it; buttons and advice stay outside.
+void GalleryTest::nothing_lies_on_the_oval(const ui::Tree& tree) {
+  const ui::Node* oval = tree.find("oval");
+  if (oval == nullptr || tree.find("veil") != nullptr) return;
+  const float x = oval->rect.x + oval->rect.w / 2, y = oval->rect.y + oval->rect.h / 2;
+  for (const char* id : {"advice", "again", "back", "bigger", "language", "help", "leave", "shoot"}) {
+    const ui::Node* node = tree.find(id);
+    if (node == nullptr) continue;
+    // Its nearest point, where the oval is a circle.
+    const float dx = (std::clamp(x, node->rect.x, node->rect.right()) - x) / (oval->rect.w / 2), dy = (std::clamp(y, node->rect.y, node->rect.bottom()) - y) / (oval->rect.h / 2);
+    EXPECT_GT(dx * dx + dy * dy, 1) << id;
+  }
+}
+
 TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
   over_all([](const ui::Tree& tree, const ui::Rect& screen) {
     lies_on_the_screen(tree, screen);
     every_text_has_its_room(tree);
     buttons_are_large_apart_and_named(tree, screen);
     keypad_reaches_every_button(tree);
+    nothing_lies_on_the_oval(tree);
   });
 }
 

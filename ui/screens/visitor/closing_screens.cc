@@ -41,7 +41,7 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   column.box.scroll = true;
   column.id = "message";
   page.tree.open(column);
-  page.sign(letter, 88 / page.text_share, colour);
+  if (letter != nullptr) page.sign(letter, 88 / page.text_share, colour);
 }
 
 void end_message(Page& page) {
@@ -51,16 +51,18 @@ void end_message(Page& page) {
 }
 
 // The way on stands under the words; where those are so large that they may have to be scrolled, at the foot of the page.
+bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
+
 void end_message(Page& page, const char* on, const char* letter) {
-  const bool at_foot = !page.portrait && page.text_share > 1.2F;
-  if (at_foot) page.tree.close();
+  const bool foot = at_foot(page);
+  if (foot) page.tree.close();
   else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  Node row = page.box(Flow::Column, 0, 0, at_foot ? space::kS : 0.0F);
-  if (at_foot) row.box.width = page.px(std::min(kColumn, page.width_dp - 80));
+  Node row = page.box(Flow::Column, 0, 0, foot ? space::kS : 0.0F);
+  if (foot) row.box.width = page.px(std::min(kColumn, page.width_dp - 80));
   page.tree.open(row);
   page.button("finish", on, letter, ButtonLook::Main, {ActionKind::Finish, 0});
   page.tree.close();
-  if (!at_foot) page.tree.close();
+  if (!foot) page.tree.close();
   page.tree.close();
   page.tree.close();
 }
@@ -102,7 +104,8 @@ Words4 words_of(const Page& page) {
 
 void thanks_screen(Page& page) {
   const auto& tr = page.tr;
-  begin_message(page, icon::kGood, page.palette.good, true);
+  // Large words leave no room for a sign: the code must be seen whole.
+  begin_message(page, at_foot(page) ? nullptr : icon::kGood, page.palette.good, true);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
   page.body("what", tr("To have it erased, quote this code to the staff. You may take a photograph of it."), TextAlign::Centre);
   Node row = page.box(Flow::Row);

@@ -80,6 +80,13 @@ void picture(Page& page) {
   page.tree.leaf(node);
 }
 
+// What the advice takes, and in portrait the words below it: the face is seen free of both.
+float room_above(const Page& page) {
+  const float line = page.text_share * (page.visit.language == Language::Arabic ? 2.3F : 1.55F);
+  const float pill = kEdge + 26 + type::kButton * line;
+  return page.portrait && last_time(page) != nullptr ? pill + 28 + 2 * type::kSmall * line : pill;
+}
+
 void oval(Page& page, bool good, std::optional<float> countdown) {
   Node room = page.box(Flow::Row);
   room.box.along = Along::Centre;
@@ -90,7 +97,7 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
   const float aspect = live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
   const float shown = covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
   const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F : page.height_dp * 0.74F;
-  const float h = std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F});
+  const float h = std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F, page.height_dp - 2 * room_above(page)});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "oval";
   ring.mark = Mark::Ring;
@@ -128,6 +135,7 @@ void advice(Page& page, const Said& what, std::optional<float> countdown) {
     const char digit[] = {static_cast<char>('1' + std::clamp(static_cast<int>(*countdown / page.visit.countdown_s() * 3), 0, 2)), 0};
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good, TextAlign::Centre);
     number.id = "countdown";
+    number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.4F));
     page.tree.leaf(number);
   }
   page.tree.close();
