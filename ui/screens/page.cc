@@ -136,6 +136,12 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   tree.close();
 }
 
+const char* Page::kept(std::string_view words) {
+  const char* first = tree.keep(words).data();
+  tree.keep(std::string_view("\0", 1));
+  return first;
+}
+
 std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
   std::string_view rest(words);
   const std::string_view first = tree.keep({});
@@ -144,7 +150,7 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
     const std::size_t at = rest.find("{}");
     if (at == std::string_view::npos) break;
     // First strong isolate … pop: a name or number keeps its own direction.
-    for (const std::string_view part : {rest.substr(0, at), std::string_view("\u2068"), value, std::string_view("\u2069")}) length += tree.keep(part).size();
+    for (const std::string_view part : {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
     rest.remove_prefix(at + 2);
   }
   return {first.data(), length + tree.keep(rest).size()};

@@ -28,6 +28,12 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kPerson = "\uf64a", *kStill = "\uf51f";
 }  // namespace icon
 
+// What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of them alone
+// would turn round the line it is read in. First: with the direction of its first letter; Left: from the left.
+namespace isolate {
+inline constexpr char kFirst[] = {'\xe2', '\x81', '\xa8', '\0'}, kLeft[] = {'\xe2', '\x81', '\xa6', '\0'}, kEnd[] = {'\xe2', '\x81', '\xa9', '\0'};
+}  // namespace isolate
+
 enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
 
 // Lengths of a button, in dp; of the letters, as they are at 100 %.
@@ -78,6 +84,8 @@ class Page {
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
   // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
   void reading_tools();
+  // Kept for the frame, with a zero at its end, as gettext wants its keys.
+  const char* kept(std::string_view words);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
   // The same for several, in the order of their places.

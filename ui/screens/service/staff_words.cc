@@ -35,12 +35,11 @@ bool begins_with_date(std::string_view text) {
 }
 
 // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
-const char* begun(Tree& tree, const char* words) {
+const char* begun(Page& page, const char* words) {
   if (*words < 'a' || *words > 'z') return words;
   const char first = static_cast<char>(*words - 'a' + 'A');
-  const char* all = tree.keep({&first, 1}).data();
-  tree.keep(words + 1);
-  tree.keep({"", 1});
+  const char* all = page.tree.keep({&first, 1}).data();
+  page.kept(words + 1);
   return all;
 }
 
@@ -54,7 +53,7 @@ std::string_view StaffFrame::number(double value, int decimals, const char* unit
   char said[128];
   std::size_t length = 0;
   const auto put = [&](std::string_view part) { length += part.copy(said + length, sizeof said - length); };
-  put("\u2066");
+  put(isolate::kLeft);
   if (sign > 0) put(kMinus);
   for (std::size_t i = 0; i < whole; ++i) {
     if (i > 0 && whole >= kLeastGrouped && (whole - i) % kGroup == 0) put(kBetweenGroups);
@@ -65,7 +64,7 @@ std::string_view StaffFrame::number(double value, int decimals, const char* unit
     put(text.substr(sign + whole + 1));
   }
   if (*unit_name != 0) put("\u00a0"), put(unit_name);
-  put("\u2069");
+  put(isolate::kEnd);
   return tree.keep({said, length});
 }
 
@@ -75,16 +74,16 @@ std::string_view StaffFrame::as_number(std::string_view text) {
   if (whole == 0 || point >= text.size() || text[point] != '.') return text;
   const std::size_t behind = rest + digits(text.substr(rest));
   if (behind == rest || (behind < text.size() && text[behind] != ' ')) return text;
-  const std::string_view first = tree.keep("\u2066");
+  const std::string_view first = tree.keep(isolate::kLeft);
   std::size_t length = first.size() + tree.keep(text[0] == '-' ? kMinus : text.substr(0, sign)).size();
-  for (const std::string_view part : {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1), text.substr(rest), std::string_view("\u2069")}) length += tree.keep(part).size();
+  for (const std::string_view part : {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1), text.substr(rest), std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
   return {first.data(), length};
 }
 
 std::string_view StaffFrame::date(std::string_view iso) {
   if (!begins_with_date(iso)) return iso;
   const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2), day = iso.substr(8, 2);
-  const std::string_view first = tree.keep("\u2066");
+  const std::string_view first = tree.keep(isolate::kLeft);
   std::size_t length = first.size();
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const char part = shape[i] == '%' && i + 1 < shape.size() ? shape[i + 1] : '\0';
@@ -93,7 +92,7 @@ std::string_view StaffFrame::date(std::string_view iso) {
     length += tree.keep(said).size();
   }
   for (const char c : iso.substr(10)) length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
-  return {first.data(), length + tree.keep("\u2069").size()};
+  return {first.data(), length + tree.keep(isolate::kEnd).size()};
 }
 
 std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
@@ -106,9 +105,8 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
     values[count++] = as_number(sentence.substr(at + 1, next - at - 1));
     at = next;
   }
-  const char* key = tree.keep(sentence.substr(0, end)).data();
-  tree.keep({"", 1});
-  const char* words = begins ? begun(tree, tr(key)) : tr(key);
+  const char* key = kept(sentence.substr(0, end));
+  const char* words = begins ? begun(*this, tr(key)) : tr(key);
   std::size_t holes = 0;
   for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
   const std::string_view all = count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
@@ -119,12 +117,7 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
 }
 
 void StaffFrame::logged(const LogLine& what) {
-  const char* words = nullptr;
-  if (!what.key.empty()) {
-    words = tree.keep(what.key).data();
-    tree.keep({"", 1});
-    words = begun(tree, tr(words));
-  }
+  const char* words = what.key.empty() ? nullptr : begun(*this, tr(kept(what.key)));
   const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
   Node row = box(Flow::Row, space::kM, 0, 6);
   row.role = what.fault ? Role::Status : Role::Group;

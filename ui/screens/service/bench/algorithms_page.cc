@@ -25,10 +25,9 @@ const char* label_of(const Words& tr, std::string_view kind) {
 
 // A sentence in which pipeline/ describes itself, in the page's language; English, where that has none, keeps its direction.
 std::string_view described(BenchFrame& b, std::string_view sentence) {
-  const std::string_view english = b.page.tree.keep(sentence);
-  b.page.tree.keep({"", 1});  // gettext wants its end
-  const char* words = b.tr(english.data());
-  return words == english.data() ? b.left_to_right(english) : std::string_view(words);
+  const char* english = b.page.kept(sentence);
+  const char* words = b.tr(english);
+  return words == english ? b.left_to_right(english) : std::string_view(words);
 }
 
 void kinds(BenchFrame& b) {
@@ -194,7 +193,7 @@ void bench_algorithms_page(StaffFrame& page) {
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   // Large letters leave room for one of the two while an option is edited.
   if (!editing || !(page.portrait || page.text_share > 1.2F)) {
-    page.tree.open(page.grown(page.box(Flow::Column), page.portrait ? 1.0F : 1.0F));
+    page.tree.open(page.grown(page.box(Flow::Column)));
     kinds(b);
     page.tree.close();
   }

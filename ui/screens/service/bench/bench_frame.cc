@@ -35,14 +35,14 @@ std::string_view BenchFrame::id(std::string_view what, std::size_t number) const
 }
 
 std::string_view BenchFrame::left_to_right(std::string_view text) const {
-  const std::string_view first = page.tree.keep("\u2066");
-  return {first.data(), first.size() + page.tree.keep(text).size() + page.tree.keep("\u2069").size()};
+  const std::string_view first = page.tree.keep(isolate::kLeft);
+  return {first.data(), first.size() + page.tree.keep(text).size() + page.tree.keep(isolate::kEnd).size()};
 }
 
 std::string_view BenchFrame::joined(std::string_view a, std::string_view between, std::string_view b) const {
-  const std::string_view first = page.tree.keep("\u2066");
+  const std::string_view first = page.tree.keep(isolate::kLeft);
   std::size_t length = first.size();
-  for (const std::string_view part : {a, between, b, std::string_view("\u2069")}) length += page.tree.keep(part).size();
+  for (const std::string_view part : {a, between, b, std::string_view(isolate::kEnd)}) length += page.tree.keep(part).size();
   return {first.data(), length};
 }
 
