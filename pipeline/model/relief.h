@@ -27,6 +27,8 @@ struct Relief {
   int surfaces = 0;
 
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x); }
+  // Of a place between pixels; std::lround() is a call, and asked a million times a picture.
+  static int nearest(double v) { return static_cast<int>(v + 4096.5) - 4096; }
   bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
   bool known(int x, int y) const { return depth_mm[index(x, y)] > 0; }
   Vec3d point(double x, double y, double z_mm) const { return {(x - centre_px.x) * z_mm / focal_px, (y - centre_px.y) * z_mm / focal_px, z_mm}; }

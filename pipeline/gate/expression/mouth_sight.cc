@@ -54,7 +54,7 @@ Profile profile_of(const FaceWindow& w, double right_mm, double half_mm, double 
 }
 
 double value(const Profile& p, const FaceWindow& w, double down_mm) {
-  return p.value[static_cast<std::size_t>(std::clamp(static_cast<int>(std::lround(w.row(down_mm))), 0, p.rows - 1))];
+  return p.value[static_cast<std::size_t>(std::clamp(Relief::nearest(w.row(down_mm)), 0, p.rows - 1))];
 }
 
 double line_strength(const Profile& p, const FaceWindow& w, double down) {

@@ -95,7 +95,7 @@ void measure_cover(const Relief& relief, const FaceForm& form, HeadSight& head) 
       if (u * u + v * v > 1) continue;
       const Vec3d guess = minus(head.tip_mm, mix(-1, mix(right, head.right, down, head.down), -std::max(0.0, form.behind(right, down)), head.away));
       const Vec2d at = relief.pixel(guess);
-      const int x = static_cast<int>(std::lround(at.x)), y = static_cast<int>(std::lround(at.y));
+      const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       ++all;
       if (!relief.inside(x, y) || !relief.known(x, y)) {
         ++unknown;
@@ -185,7 +185,7 @@ FacePlace place_on(const Relief& relief, const HeadSight& head, double right_mm,
   FacePlace place;
   for (int round = 0; round < 3; ++round) {  // along the line of sight onto the surface
     const Vec2d at = relief.pixel(p);
-    place.x = static_cast<int>(std::lround(at.x)), place.y = static_cast<int>(std::lround(at.y));
+    place.x = Relief::nearest(at.x), place.y = Relief::nearest(at.y);
     place.inside = relief.inside(place.x, place.y);
     if (!place.inside || !relief.known(place.x, place.y)) return place;
     const double behind = dot(minus(relief.point(place.x, place.y), p), head.away);

@@ -31,8 +31,11 @@ struct Search {
 
   // Mean squared distance, in depth, between the points' mirror images and the relief behind them. An image that falls where
   // nothing is known costs a third of the limit, and more where many do: else planes that send the face away would look good.
-  double cost(const MirrorPlane& plane, std::size_t every) const {
+  // Given up, and `least` returned, as soon as it cannot be less than that any more.
+  double cost(const MirrorPlane& plane, std::size_t every, double least = 1e300) const {
     const Vec3d n = normal_of(plane, axes);
+    const double lean = upright ? plane.roll_deg / kUprightDeg : 0;
+    const double most = (least - lean * lean) * static_cast<double>((points.size() + every - 1) / every);
     double total = 0;
     int count = 0, unknown = 0;
     for (std::size_t i = 0; i < points.size(); i += every, ++count) {
@@ -40,13 +43,13 @@ struct Search {
       const double away = (p.x - tip.x) * n.x + (p.y - tip.y) * n.y + (p.z - tip.z) * n.z - plane.offset_mm;
       const Vec3d image = sum(p, -2 * away, n);
       const Vec2d at = relief.pixel(image);
-      const int x = static_cast<int>(std::lround(at.x)), y = static_cast<int>(std::lround(at.y));
+      const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       double off = limit_mm / 3;
       if (!relief.inside(x, y) || !relief.known(x, y)) ++unknown;
       else off = std::min(limit_mm, std::abs(image.z - static_cast<double>(relief.depth_mm[relief.index(x, y)])));
       total += off * off;
+      if (total > most) return least;
     }
-    const double lean = upright ? plane.roll_deg / kUprightDeg : 0;
     const double away = std::max(0.0, static_cast<double>(unknown) / std::max(1, count) - kMostUnknown);
     return total / std::max(1, count) + lean * lean + kPriceOfUnknown * away;
   }
@@ -62,7 +65,7 @@ MirrorPlane refine(const Search& search, MirrorPlane best, std::array<double, 3>
       const double by = (k % 2 == 0 ? 1 : -1) * step[static_cast<std::size_t>(k / 2)];
       (k / 2 == 0 ? tried.yaw_deg : k / 2 == 1 ? tried.roll_deg : tried.offset_mm) += by;
       if (std::abs(tried.offset_mm) > kMostOffsetMm) continue;
-      const double cost = search.cost(tried, 1);
+      const double cost = search.cost(tried, 1, least);
       if (cost >= least) continue;
       least = cost;
       best = tried;
@@ -100,7 +103,7 @@ std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<co
     for (double roll = -36; roll <= 36; roll += 9)
       for (double offset = -12; offset <= 12; offset += 6) {
         const MirrorPlane tried{yaw, roll, offset, 0};
-        const double cost = search.cost(tried, every);
+        const double cost = search.cost(tried, every, least[range]);
         if (cost >= least[range]) continue;
         least[range] = cost;
         best[range] = tried;
