@@ -60,24 +60,21 @@ struct Part {
 
 // Where the left view's region lies; in the right one, wherever the searched depths may carry it.
 Part part_of(const RectifiedPair& pair, bool right, int reach_px) {
-  int x0 = 0, y0 = 0, x1 = pair.width_px, y1 = pair.height_px;
-  if (!pair.region.empty()) {
-    x0 = pair.width_px, y0 = pair.height_px, x1 = 0, y1 = 0;
-    for (int y = 0; y < pair.height_px; ++y) {
-      const auto row = pair.region.begin() + static_cast<std::ptrdiff_t>(y) * pair.width_px;
-      const auto first = std::find_if(row, row + pair.width_px, [](std::uint8_t r) { return r != 0; });
-      if (first == row + pair.width_px) continue;
-      int last = pair.width_px - 1;
-      while (row[last] == 0) --last;
-      x0 = std::min(x0, static_cast<int>(first - row)), x1 = std::max(x1, last + 1);
-      y0 = std::min(y0, y), y1 = y + 1;
-    }
-    if (right && pair.near_mm > 0 && pair.far_mm > 0) {
-      x0 -= static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm)));
-      x1 -= static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
-    }
-    x0 -= reach_px, y0 -= reach_px, x1 += reach_px, y1 += reach_px;
+  int x0 = pair.width_px, y0 = pair.height_px, x1 = 0, y1 = 0;
+  for (int y = 0; y < pair.height_px; ++y) {
+    const auto row = pair.region.begin() + static_cast<std::ptrdiff_t>(y) * pair.width_px;
+    const auto first = std::find_if(row, row + pair.width_px, [](std::uint8_t r) { return r != 0; });
+    if (first == row + pair.width_px) continue;
+    int last = pair.width_px - 1;
+    while (row[last] == 0) --last;
+    x0 = std::min(x0, static_cast<int>(first - row)), x1 = std::max(x1, last + 1);
+    y0 = std::min(y0, y), y1 = y + 1;
   }
+  if (right && pair.near_mm > 0 && pair.far_mm > 0) {
+    x0 -= static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm)));
+    x1 -= static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
+  }
+  x0 -= reach_px, y0 -= reach_px, x1 += reach_px, y1 += reach_px;
   Part part;
   part.left = std::clamp(x0, 0, pair.width_px) / kCell;
   part.top = std::clamp(y0, 0, pair.height_px) / kCell;
@@ -235,6 +232,7 @@ Result<void> HighlightRemoverOptions::check() const {
 Result<void> HighlightRemover::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels(pair));
+  if (pair.region.empty()) return {};  // no face is looked for: what is known of skin says nothing of leaves
   const Gaussian gaussian(options_.radius_px / kCell);
   for (const bool right : {false, true}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};

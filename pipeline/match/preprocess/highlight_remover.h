@@ -10,7 +10,7 @@
 // the skin would be without; lips, blemishes and noses that are redder than the rest go by the least white nearby.
 // What is brighter than that, over `radius_px`, is subtracted: little of what is less than `least`, which stands above what
 // compressed pictures get wrong in colours, most of what is twice that. Pores and freckles, finer than that, stay. What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays.
-// Looks only where a face may be, where a region is marked. Pictures without colour stay as they are.
+// Looks only where a face may be: pictures in which no region is marked stay as they are, and those without colour.
 // The pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels), OutOfMemory,
 // Cancelled.
 #pragma once

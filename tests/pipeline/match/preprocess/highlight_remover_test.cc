@@ -22,7 +22,9 @@ const test::BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px 
 struct Bench : StageBench {
   explicit Bench(std::size_t scratch_bytes = std::size_t{1} << 20) : StageBench(std::size_t{8} << 20, scratch_bytes) {}
   RectifiedPair skin(double light = kLeftLamp.light) { return test::shining_skin(kScene, &output, light); }
+  // A pair without a region is a face all over.
   Result<void> remove(RectifiedPair& pair) {
+    if (pair.region.empty()) pair.region.assign(pair.left.grey.size(), 1);
     return run_stage(context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); });
   }
 };
@@ -89,6 +91,16 @@ TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
     const double changed = rms_apart(done.left, shining.left, shining.width_px, kLeftLamp, 1);
     if (top == 10) EXPECT_EQ(changed, 0); else EXPECT_GT(changed, 5);
   }
+}
+
+TEST(HighlightRemover, WhereNoFaceIsLookedForNothingIsSkin) {
+  Bench bench;
+  RectifiedPair pair = bench.skin();
+  pair.region.clear();
+  const auto left = pair.left.grey, right = pair.right.grey;
+  ASSERT_TRUE(run_stage(bench.context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); }));
+  EXPECT_EQ(pair.left.grey, left);
+  EXPECT_EQ(pair.right.grey, right);
 }
 
 // Of two cameras exposed unlike, the brighter one sees skin whose red has reached its end: paler than it is, as under a lamp.
