@@ -80,6 +80,10 @@ std::string name_of(const Guise& guise) {
     std::snprintf(text, sizeof text, "_glasses%.1f_%.1f_%.1f_%.1f_%.2f_%.1f", g.curve_mm, g.half_width_mm, g.half_height_mm, g.tilt_deg, g.passes, g.rim_mm);
     out += text;
   }
+  if (guise.shine != 1) {
+    std::snprintf(text, sizeof text, "_shine%.1f", guise.shine);
+    out += text;
+  }
   return out;
 }
 
@@ -155,11 +159,12 @@ Album::Album(std::filesystem::path cache) : cache_(std::move(cache)), rig_(sim::
   if (!cache_.empty()) std::filesystem::create_directories(cache_);
 }
 
-std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression) {
-  auto& model = heads_[std::to_string(seed) + name_of(Guise{expression, false, {}})];
+std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression, double shine) {
+  auto& model = heads_[std::to_string(seed) + name_of(Guise{expression, false, {}, shine})];
   if (!model) {
     sim::HeadTraits traits = sim::traits_of(seed);
     traits.expression = expression;
+    traits.shine *= shine;
     model = sim::make_head(traits, pool_);
   }
   return model;
@@ -170,7 +175,7 @@ void Album::expose(Shot& shot) {
   if (shot.pose.distance_mm <= 0) {
     scene = std::make_unique<Room>();
   } else {
-    const auto model = person(shot.seed, shot.guise.expression);
+    const auto model = person(shot.seed, shot.guise.expression, shot.guise.shine);
     scene = sim::make_head_scene(model, shot.pose, pool_);
     if (shot.guise.wears_glasses) scene = sim::make_glasses_scene(std::move(scene), sim::wearer_of(*model), shot.pose, shot.guise.glasses);
   }
@@ -190,7 +195,7 @@ void Album::expose(Shot& shot) {
   if (shot.extra == Extra::Friend || shot.extra == Extra::Twin) {
     sim::HeadPose other = shot.pose;
     other.right_mm += side * 175, other.distance_mm += 260, other.yaw_deg += side * 14;
-    scene = std::make_unique<Both>(std::move(scene), sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}), other, pool_));
+    scene = std::make_unique<Both>(std::move(scene), sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}, 1), other, pool_));
   }
   const sim::SensorOptions lens;
   shot.left = kept(sim::expose(*scene, rig_.left, lens, pool_));

@@ -32,6 +32,7 @@ struct Guise {
   hal::sim::Expression expression;
   bool wears_glasses = false;
   hal::sim::Glasses glasses;
+  double shine = 1;   // how oily the skin is, of what the person's own is
 };
 
 struct Shot {
@@ -65,7 +66,7 @@ class Album {
   ThreadPool pool_{2};
   hal::sim::SimRig rig_;
   pipeline::StereoCalibration calibration_;
-  std::shared_ptr<const hal::sim::HeadModel> person(std::uint32_t seed, const hal::sim::Expression& expression);
+  std::shared_ptr<const hal::sim::HeadModel> person(std::uint32_t seed, const hal::sim::Expression& expression, double shine);
   std::map<std::string, std::shared_ptr<const hal::sim::HeadModel>> heads_;
   std::map<std::string, Shot> shots_;
 };

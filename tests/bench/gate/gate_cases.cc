@@ -15,7 +15,14 @@ using pipeline::Advice;
 using test::Extra;
 using test::standing;
 
+constexpr double kOily = 8;            // times the person's own shine: a face wet with sweat
 constexpr double kPaleSkin = 0.45;  // mean linear reflectance
+
+test::Guise oily() {
+  test::Guise guise;
+  guise.shine = kOily;
+  return guise;
+}
 
 [[noreturn]] void fail(const Error& error) {
   std::fprintf(stderr, "gate_proof: %s\n", std::string(error.what.view()).c_str());
@@ -46,7 +53,8 @@ const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int 
     case Advice::Tilted: return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
     case Advice::FaceHidden: return album_.shoot(person, standing(560), other ? Extra::HandOnCheek : Extra::HandBefore);
     case Advice::Background: return album_.shoot(person, other ? standing(590, 30, -5, -3, 2, 2) : standing(545, -30, 5, 3), Extra::BagBeside);
-    case Advice::None: case Advice::Moved: case Advice::TooDark: case Advice::TooBright: case Advice::UnevenLight: case Advice::Highlights:
+    case Advice::Highlights: return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::None, oily());
+    case Advice::None: case Advice::Moved: case Advice::TooDark: case Advice::TooBright: case Advice::UnevenLight:
     case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::NotNeutral: break;
   }
   return other ? album_.shoot(person, standing(600, -12, 8, -4, 3, 3)) : album_.shoot(person, standing(560));

@@ -27,7 +27,9 @@ inline constexpr std::array kFaults{
     Fault{"turned", pipeline::Advice::TurnedAside}, Fault{"bowed", pipeline::Advice::LooksUpOrDown}, Fault{"tilted", pipeline::Advice::Tilted},
     Fault{"moving", pipeline::Advice::Moved}, Fault{"dark", pipeline::Advice::TooDark}, Fault{"bright", pipeline::Advice::TooBright},
     Fault{"one lamp", pipeline::Advice::UnevenLight}, Fault{"blurred", pipeline::Advice::Blurred}, Fault{"hand", pipeline::Advice::FaceHidden},
-    Fault{"beside", pipeline::Advice::Background}, Fault{"clutter", pipeline::Advice::None, true}};
+    Fault{"beside", pipeline::Advice::Background}, Fault{"clutter", pipeline::Advice::None, true},
+    Fault{"oily", pipeline::Advice::Highlights}};
+inline constexpr std::size_t kFaultsOfVisits = kFaults.size() - 1;  // nobody's skin becomes oily while they stand there
 inline constexpr int kVariants = 2;  // ways of standing with each fault
 
 class GateTrial {

@@ -3,10 +3,10 @@
 //
 // How the gate does on simulated people its limits were not set with: for every kind of advice how often it is given when its
 // fault is there (hit) and when it is not (false alarm), and whole visits (gate_visits.h).
-//   gate_proof PEOPLE CASES VISITS [FIRST_SEED] [ALBUM]
+//   gate_proof PEOPLE CASES VISITS [FIRST_SEED] [ALBUM] [CASE]
 // PEOPLE are drawn from FIRST_SEED (21) on; each is photographed in two ways a fault, once (kept in the folder ALBUM, when named);
 // CASES a fault and person differ in exposure and noise, and in how strong the fault is where developing makes it. Everything is drawn from
-// the person's own seed: ten runs of one person each add up to one run of ten.
+// the person's own seed: ten runs of one person each add up to one run of ten. CASE, a name of the table, leaves out all other rows.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -41,20 +41,21 @@ const char* name_of(Advice advice) {
   return "other";
 }
 
-void print_table(GateTrial& trial, std::uint32_t first, int people, int cases) {
+void print_table(GateTrial& trial, std::uint32_t first, int people, int cases, const std::string& only) {
   std::array<std::array<int, 32>, kFaults.size()> given{};
   for (int k = 0; k < people; ++k) {
     const std::uint32_t person = first + 2 * static_cast<std::uint32_t>(k);
     Random random(Random(person).next());
     for (std::size_t f = 0; f < kFaults.size(); ++f)
-      for (int i = 0; i < cases; ++i) ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f], person, i % kVariants, random))];
+      for (int i = 0; i < cases && (only.empty() || only == kFaults[f].name); ++i) ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f], person, i % kVariants, random))];
   }
   std::printf("| case | cases | hit | taken as good | the advice where there is no such fault | else said |\n| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t f = 0; f < kFaults.size(); ++f) {
+    if (!only.empty() && only != kFaults[f].name) continue;
     const auto own = static_cast<std::size_t>(kFaults[f].expected);
     int elsewhere = 0, others = 0;
     for (std::size_t g = 0; g < kFaults.size(); ++g)
-      if (kFaults[g].expected != kFaults[f].expected) elsewhere += given[g][own], others += people * cases;
+      if (only.empty() && kFaults[g].expected != kFaults[f].expected) elsewhere += given[g][own], others += people * cases;
     std::printf("| %s | %d | %d | %d | %d of %d |", kFaults[f].name, people * cases, given[f][own], given[f][0], elsewhere, others);
     for (std::size_t a = 1; a < given[f].size(); ++a)
       if (given[f][a] > 0 && a != own) std::printf(" %s %d", name_of(static_cast<Advice>(a)), given[f][a]);
@@ -89,13 +90,13 @@ void print_visits(GateTrial& trial, std::uint32_t first, int people, int visits)
 
 int run(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: gate_proof PEOPLE CASES VISITS [FIRST_SEED] [ALBUM]\n");
+    std::fprintf(stderr, "usage: gate_proof PEOPLE CASES VISITS [FIRST_SEED] [ALBUM] [CASE]\n");
     return 2;
   }
   const int people = std::max(1, std::atoi(argv[1])), cases = std::atoi(argv[2]), visits = std::atoi(argv[3]);
   const auto first = static_cast<std::uint32_t>(argc > 4 ? std::atoi(argv[4]) : 21);
   GateTrial trial(argc > 5 ? argv[5] : "");
-  if (cases > 0) print_table(trial, first, people, cases);
+  if (cases > 0) print_table(trial, first, people, cases, argc > 6 ? argv[6] : "");
   if (visits > 0) print_visits(trial, first, people, visits);
   return 0;
 }

@@ -32,7 +32,7 @@ std::vector<Phase> well_behaved(Random& random) {
 std::vector<Phase> misbehaved(Random& random) {
   std::vector<Phase> script{{&named(Advice::NoFace), 1}};
   for (int faults = between(random, 1, 4); faults > 0; --faults) {
-    script.push_back({&kFaults[static_cast<std::size_t>(between(random, 2, kFaults.size() - 1))], between(random, 2, 5)});
+    script.push_back({&kFaults[static_cast<std::size_t>(between(random, 2, kFaultsOfVisits - 1))], between(random, 2, 5)});
     if (random.uniform() < 0.25) script.push_back({&kFaults[0], between(random, 1, 3)});
   }
   return script;
