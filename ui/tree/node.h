@@ -63,7 +63,7 @@ struct Node {
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
   Rect rect;                 // set by layout()
   Rect clip;
-  float content_height = 0;  // of a scroller
+  float content_height = 0;  // of a scroller: what it would be high to show all, its own padding with it
 };
 
 }  // namespace relievo::ui

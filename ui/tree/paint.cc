@@ -13,6 +13,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kHeldBar = 10;  // dp
+constexpr float kFade = 56;     // dp
 
 Colour darker(Colour c) {
   const auto less = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
@@ -109,10 +110,16 @@ void paint_focus(DrawList& list, const Node& node, Colour colour, float unit) {
   list.commands.push_back(c);
 }
 
+bool overflows(const Node& node) { return node.box.scroll && node.content_height > node.rect.h + 1; }
+
+float scrolled_px(const Node& node, const Interaction& hands) {
+  return hands.scrolled == node.id ? std::clamp(hands.scroll_px, 0.0F, node.content_height - node.rect.h) : 0;
+}
+
 // More lies below, or above: a bar at the side says where one is.
 void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands, bool right_to_left, float unit) {
-  if (!node.box.scroll || node.content_height <= node.rect.h + 1) return;
-  const float scrolled = hands.scrolled == node.id ? std::clamp(hands.scroll_px, 0.0F, node.content_height - node.rect.h) : 0;
+  if (!overflows(node)) return;
+  const float scrolled = scrolled_px(node, hands);
   const float h = node.rect.h * node.rect.h / node.content_height, y = node.rect.y + node.rect.h * scrolled / node.content_height;
   Command c;
   c.mark = Mark::Shape;
@@ -121,6 +128,45 @@ void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands
   c.fill = c.fill_end = {120, 132, 156, 255};
   c.radius = 4 * unit;
   list.commands.push_back(c);
+}
+
+// What is seen behind a node at a height: the nearest box around it that is filled.
+Colour ground_of(const std::vector<Node>& nodes, std::size_t index, float y) {
+  for (auto at = static_cast<std::int32_t>(index); at >= 0; at = nodes[static_cast<std::size_t>(at)].parent) {
+    const Node& node = nodes[static_cast<std::size_t>(at)];
+    if (!node.box.fill.seen()) continue;
+    const Colour a = node.box.fill, b = node.box.fill_end.seen() ? node.box.fill_end : a;
+    const float share = std::clamp((y - node.rect.y) / std::max(1.0F, node.rect.h), 0.0F, 1.0F);
+    const auto between = [share](std::uint8_t from, std::uint8_t to) {
+      return static_cast<std::uint8_t>(std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
+    };
+    return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b), between(a.a, b.a)};
+  }
+  return {};
+}
+
+// Where a scroller goes on, its content fades into the ground: no line ends torn, and one sees that there is
+// more. The fade leaves as the end comes near, so that the last line is never veiled.
+void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t index, const Interaction& hands, float unit) {
+  const Node& node = nodes[index];
+  if (!overflows(node)) return;
+  const float above = scrolled_px(node, hands), below = node.content_height - node.rect.h - above;
+  const float h = std::round(std::min(kFade * unit, node.rect.h / 4)), edge = std::ceil(node.box.border_px);
+  const float in = std::max(node.box.pad_x, edge);
+  Command c;
+  c.mark = Mark::Flat;
+  c.clip = node.clip;
+  const auto fade = [&](float hidden, float y, float at_edge, bool down) {
+    const Colour ground = ground_of(nodes, index, at_edge);
+    if (hidden < 1 || !ground.seen()) return;
+    const Colour shut = ground.with_alpha(std::min(1.0F, hidden / h)), open = ground.with_alpha(0);
+    c.rect = {node.rect.x + in, y, node.rect.w - 2 * in, h};
+    c.fill = down ? open : shut;
+    c.fill_end = down ? shut : open;
+    list.commands.push_back(c);
+  };
+  fade(above, node.rect.y + edge, node.rect.y, false);
+  fade(below, node.rect.bottom() - edge - h, node.rect.bottom(), true);
 }
 
 // How much of the time has passed: a bar along the bottom, in the direction of reading, within the node's round corners.
@@ -164,17 +210,27 @@ std::string quoted(std::string_view text) {
 
 void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Colour focus, float unit) const {
   const Node* focused = nullptr;
-  for (const Node& node : nodes_) {
-    if (node.clip.w <= 0 || node.clip.h <= 0) continue;
-    const bool pressed = !node.id.empty() && touches(hands, node);
-    if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
-    else paint_picture(list, node);
-    if (pressed && node.hold && hands.held > 0) paint_held(list, node, hands.held, right_to_left_, unit);
-    if (!node.text.empty()) paint_text(list, node, text, right_to_left_);
-    paint_scroll_bar(list, node, hands, right_to_left_, unit);
-    if (hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const bool seen = node.clip.w > 0 && node.clip.h > 0;
+    if (seen) paint_node(list, node, text, hands, unit);
+    if (seen && hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;
+    // Behind the last one in a scroller comes what lies over all of them.
+    for (auto at = static_cast<std::int32_t>(i); node.first_child < 0 && at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
+      paint_fades(list, nodes_, static_cast<std::size_t>(at), hands, unit);
+      if (nodes_[static_cast<std::size_t>(at)].next >= 0) break;
+    }
   }
   if (focused != nullptr) paint_focus(list, *focused, focus, unit);
+}
+
+void Tree::paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands, float unit) const {
+  const bool pressed = !node.id.empty() && touches(hands, node);
+  if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
+  else paint_picture(list, node);
+  if (pressed && node.hold && hands.held > 0) paint_held(list, node, hands.held, right_to_left_, unit);
+  if (!node.text.empty()) paint_text(list, node, text, right_to_left_);
+  paint_scroll_bar(list, node, hands, right_to_left_, unit);
 }
 
 bool Tree::touches(const Interaction& hands, const Node& node) { return hands.pressed == node.id; }

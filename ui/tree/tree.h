@@ -55,6 +55,7 @@ class Tree {
 
  private:
   bool under_modal(std::size_t index) const;
+  void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands, float unit) const;
   static bool touches(const Interaction& hands, const Node& node);
 
   std::vector<Node> nodes_;

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is higher than its room: all of it can be reached, and where it goes on it fades.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "ui/tree/tree.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr Rect kScreen{0, 0, 400, 300};
+constexpr float kPad = 20, kRow = 60;
+constexpr Colour kGround{200, 210, 220, 255}, kRowFill{10, 20, 30, 255};
+
+class ScrollerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = TextEngine::make();
+    ASSERT_TRUE(made.has_value());
+    text_ = std::move(*made);
+  }
+
+  // Ten rows in a room for four; `hands` say how far they are scrolled.
+  void lay_out(const Interaction& hands) {
+    tree_.begin(false);
+    Node list;
+    list.id = "list";
+    list.box.scroll = true;
+    list.box.pad_y = kPad;
+    list.box.fill = kGround;
+    tree_.open(list);
+    Node row;
+    row.box.height = kRow;
+    row.box.fill = kRowFill;
+    for (int i = 0; i < 10; ++i) tree_.leaf(row);
+    tree_.close();
+    tree_.layout(kScreen, *text_, hands);
+  }
+
+  Interaction scrolled_to(float px) const {
+    Interaction hands;
+    hands.scrolled = "list";
+    hands.scroll_px = px;
+    return hands;
+  }
+
+  // What is drawn in the ground's colour behind the last row.
+  std::vector<Command> fades(const Interaction& hands) {
+    lay_out(hands);
+    DrawList list;
+    tree_.paint(list, *text_, hands, {}, 1);
+    std::vector<Command> found;
+    for (const Command& c : list.commands) {
+      if (c.fill == kRowFill) found.clear();
+      else if (c.fill.with_alpha(0) == kGround.with_alpha(0)) found.push_back(c);
+    }
+    return found;
+  }
+
+  std::unique_ptr<TextEngine> text_;
+  Tree tree_;
+};
+
+TEST_F(ScrollerTest, ItsEndCanBeReachedWithThePaddingBelowIt) {
+  lay_out({});
+  const Node& list = tree_.nodes().front();
+  const float most = list.content_height - list.rect.h;
+  lay_out(scrolled_to(most));
+  EXPECT_FLOAT_EQ(tree_.nodes().back().rect.bottom(), kScreen.bottom() - kPad);
+}
+
+TEST_F(ScrollerTest, FadesBelowWhereMoreLies) {
+  const auto found = fades({});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FLOAT_EQ(found[0].rect.bottom(), kScreen.bottom());
+  EXPECT_EQ(found[0].fill.a, 0);
+  EXPECT_EQ(found[0].fill_end, kGround);
+}
+
+TEST_F(ScrollerTest, FadesAboveAtItsEndAndVeilsNothingBelow) {
+  const auto found = fades(scrolled_to(1e6F));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FLOAT_EQ(found[0].rect.y, kScreen.y);
+  EXPECT_EQ(found[0].fill, kGround);
+  EXPECT_EQ(found[0].fill_end.a, 0);
+}
+
+}  // namespace
+}  // namespace relievo::ui
