@@ -9,7 +9,6 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kMargin = 40, kTop = 24;
 constexpr Colour kNone{};
 
 int number_of(Step step) {
@@ -157,7 +156,7 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
 }
 
 void Page::begin(bool with_back) {
-  Node root = box(Flow::Column, space::kM, kMargin, kTop);
+  Node root = box(Flow::Column, space::kM, kPageMargin, kPageTop);
   root.id = "page";
   root.box.fill = palette.ground;
   root.box.fill_end = palette.ground_end;

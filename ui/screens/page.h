@@ -43,6 +43,9 @@ struct ButtonSize {
   float sign = 0, text = 0;
   bool shadow = false;
 };
+// Of every page a visitor reads: what it leaves free at its sides, and above and below.
+inline constexpr float kPageMargin = 40, kPageTop = 24;
+
 namespace size {
 inline constexpr ButtonSize kMainButton{kBigTarget, kTarget, 26, 12, 14, kRadius, 34, type::kButton, true};
 inline constexpr ButtonSize kOtherButton{kTarget, kTarget, 26, 12, 14, kRadius, 30, type::kBody};

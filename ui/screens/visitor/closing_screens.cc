@@ -25,7 +25,9 @@ void tools(Page& page) {
 
 // One column in the middle of the page, with a sign on top.
 void begin_message(Page& page, const char* letter, Colour colour, bool with_tools) {
-  Node root = page.box(Flow::Column, space::kM, kCorner, kCorner);
+  // Where the tools stood on the pages before, they stay; on a page that the staff can leave, beside their lock.
+  const bool at_lock = page.visit.step == Step::Trouble;
+  Node root = page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop);
   root.id = "page";
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;
