@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "hal/base/simd.h"
+#include "pipeline/match/refine/column_span.h"
 #include "pipeline/match/refine/multilevel_preconditioner.h"
 
 namespace relievo::pipeline {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kBands = 8;  // fixed, so that sums do not depend on the number of threads
 
-Span join(const Span& a, const Span& b) { return {std::min(a.begin, b.begin), std::max(a.end, b.end)}; }
+ColumnSpan join(const ColumnSpan& a, const ColumnSpan& b) { return {std::min(a.begin, b.begin), std::max(a.end, b.end)}; }
 
 // What of every row may differ from 0: a face is no rectangle, and this work is bound by memory.
 // `out`: where a row's result may; `bent`: where its second differences are asked for by the rows around it.
@@ -24,7 +25,7 @@ struct Spans {
       : out(static_cast<std::size_t>(s.height()), memory), bent(static_cast<std::size_t>(s.height()), memory) {
     const int w = s.width();
     const int h = s.height();
-    std::pmr::vector<Span> weights(static_cast<std::size_t>(h), Span{w, 0}, memory);
+    std::pmr::vector<ColumnSpan> weights(static_cast<std::size_t>(h), ColumnSpan{w, 0}, memory);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         if (s.data.row(y)[x] == 0 && s.bend_xx.row(y)[x] == 0 && s.bend_yy.row(y)[x] == 0 && s.bend_xy.row(y)[x] == 0) continue;
@@ -33,21 +34,21 @@ struct Spans {
     widen(weights, 2, w, out);
     widen(out, 1, w, bent);
   }
-  std::pmr::vector<Span> out, bent;
+  std::pmr::vector<ColumnSpan> out, bent;
 
  private:
-  static void widen(const std::pmr::vector<Span>& from, int by, int w, std::pmr::vector<Span>& to) {
+  static void widen(const std::pmr::vector<ColumnSpan>& from, int by, int w, std::pmr::vector<ColumnSpan>& to) {
     const int h = static_cast<int>(from.size());
     for (int y = 0; y < h; ++y) {
-      Span all{w, 0};
+      ColumnSpan all{w, 0};
       for (int k = std::max(0, y - by); k <= std::min(h - 1, y + by); ++k) all = join(all, from[static_cast<std::size_t>(k)]);
-      to[static_cast<std::size_t>(y)] = all.begin < all.end ? Span{std::max(0, all.begin - by), std::min(w, all.end + by)} : Span{0, 0};
+      to[static_cast<std::size_t>(y)] = all.begin < all.end ? ColumnSpan{std::max(0, all.begin - by), std::min(w, all.end + by)} : ColumnSpan{0, 0};
     }
   }
 };
 
 RELIEVO_SIMD void bend_rows(const float* above, const float* here, const float* below, const float* wxx,
-                            const float* wyy, const float* wxy, int w, Span span, float* qxx, float* qyy, float* qxy) {
+                            const float* wyy, const float* wxy, int w, ColumnSpan span, float* qxx, float* qyy, float* qxy) {
   const int end = std::min(span.end, w - 1);
   for (int x = std::max(span.begin, 1); x < end; ++x) {
     qxx[x] = wxx[x] * (here[x - 1] - 2 * here[x] + here[x + 1]);
@@ -60,7 +61,7 @@ RELIEVO_SIMD void bend_rows(const float* above, const float* here, const float* 
 
 RELIEVO_SIMD void gather_rows(const float* a, const float* x_row, const float* qxx, const float* qyy_above,
                               const float* qyy, const float* qyy_below, const float* qxy_above,
-                              const float* qxy, int w, Span span, float* out) {
+                              const float* qxy, int w, ColumnSpan span, float* out) {
   const int end = std::min(span.end, w - 1);
   for (int x = std::max(span.begin, 1); x < end; ++x)
     out[x] = a[x] * x_row[x] + qxx[x - 1] - 2 * qxx[x] + qxx[x + 1] + qyy_above[x] - 2 * qyy[x] + qyy_below[x] +
@@ -68,7 +69,7 @@ RELIEVO_SIMD void gather_rows(const float* a, const float* x_row, const float* q
   out[0] = out[w - 1] = 0;
 }
 
-RELIEVO_SIMD double dot_row(const float* a, const float* b, Span span) {
+RELIEVO_SIMD double dot_row(const float* a, const float* b, ColumnSpan span) {
   // Eight running sums: the order is fixed, and the compiler may still use wide registers.
   float sums[8] = {};
   int x = span.begin;
@@ -80,11 +81,11 @@ RELIEVO_SIMD double dot_row(const float* a, const float* b, Span span) {
   return sum;
 }
 
-RELIEVO_SIMD void follow_row(const float* z, float beta, float* p, Span span) {
+RELIEVO_SIMD void follow_row(const float* z, float beta, float* p, ColumnSpan span) {
   for (int x = span.begin; x < span.end; ++x) p[x] = z[x] + beta * p[x];
 }
 
-RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, Span span, float* x, float* r) {
+RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnSpan span, float* x, float* r) {
   for (int i = span.begin; i < span.end; ++i) {
     x[i] += alpha * p[i];
     r[i] -= alpha * ap[i];
@@ -120,7 +121,7 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
       return;
     }
     bend_rows(x.row(y - 1), x.row(y), x.row(y + 1), s.bend_xx.row(y), s.bend_yy.row(y), s.bend_xy.row(y), w,
-              spans != nullptr ? spans->bent[static_cast<std::size_t>(y)] : Span{0, w}, q[0], q[1], q[2]);
+              spans != nullptr ? spans->bent[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, q[0], q[1], q[2]);
   };
   const int first = begin < 1 ? 1 : begin;
   const int last = end > h - 1 ? h - 1 : end;
@@ -129,7 +130,7 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
   for (int y = first; y < last; ++y) {
     bend(y + 1);
     gather_rows(with_data ? s.data.row(y) : zero, x.row(y), slot(y, 0), slot(y - 1, 1), slot(y, 1), slot(y + 1, 1),
-                slot(y - 1, 2), slot(y, 2), w, spans != nullptr ? spans->out[static_cast<std::size_t>(y)] : Span{0, w}, out.row(y));
+                slot(y - 1, 2), slot(y, 2), w, spans != nullptr ? spans->out[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, out.row(y));
   }
 }
 

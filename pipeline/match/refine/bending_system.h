@@ -3,10 +3,11 @@
 //
 // The linear system of SurfaceRefiner: (diag(A) + D' W D) x = b, where D takes the second differences
 // xx, yy and xy of a field over a lattice and W weighs them. Solved by conjugate gradients,
-// preconditioned on several lattices (multilevel_preconditioner.h); reductions run in a fixed order.
+// preconditioned on several lattices (multilevel_preconditioner.h); reductions run in a fixed order, so that the bytes do not
+// depend on the pool. Thread: one caller; apply_system: any, on rows of its own.
 #pragma once
 
-#include <cstdint>
+#include <memory_resource>
 
 #include "hal/base/thread_pool.h"
 #include "pipeline/match/image/plane.h"
@@ -33,8 +34,9 @@ constexpr int rolling_floats(int width) { return 10 * width; }
 void apply_system(const BendingSystem& system, const Plane<float>& x, bool with_data, Plane<float>& out,
                   int begin, int end, float* rolling);
 
-// Starts from x = 0 and leaves the solution there, after so many steps, or as soon as the residual's squared norm
-// (by the preconditioner) has fallen to `tolerance` of what it was.
+// x, of the system's size and whatever it holds, becomes the solution: from 0, in at most `steps` steps of conjugate gradients,
+// and in fewer when the residual's squared norm, as the preconditioner sees it, has fallen to `tolerance` of what it was at 0.
+// Takes about 8 1/3 planes of the system's size from `scratch`. Throws std::bad_alloc.
 void solve(const BendingSystem& system, int steps, double tolerance, ThreadPool& pool,
            std::pmr::memory_resource& scratch, Plane<float>& x);
 

@@ -32,7 +32,7 @@ RELIEVO_SIMD void weigh_columns(const float* line, int coarse_width, float* out)
   }
 }
 
-RELIEVO_SIMD void scale_row(const float* r, const float* inverse_diagonal, Span span, float* z) {
+RELIEVO_SIMD void scale_row(const float* r, const float* inverse_diagonal, ColumnSpan span, float* z) {
   for (int x = span.begin; x < span.end; ++x) z[x] = r[x] * inverse_diagonal[x];
 }
 
@@ -52,7 +52,7 @@ RELIEVO_SIMD void add_columns(const float* line, int begin, int end, const float
 }
 
 // Prolongs row y of the finer lattice.
-void prolong_row(const Plane<float>& coarse, int y, Span span, const float* mask, float* line, float* z) {
+void prolong_row(const Plane<float>& coarse, int y, ColumnSpan span, const float* mask, float* line, float* z) {
   const int near = y / 2 + 1;
   const int far = y % 2 == 0 ? near - 1 : near + 1;
   mix_rows(coarse.row(near), coarse.row(far), coarse.width, line);
@@ -63,7 +63,7 @@ void prolong_row(const Plane<float>& coarse, int y, Span span, const float* mask
 
 MultilevelPreconditioner::MultilevelPreconditioner(const BendingSystem& system, ThreadPool& pool, std::pmr::memory_resource* memory)
     : pool_(pool), inverse_diagonal_(memory, system.width(), system.height()), levels_(memory),
-      lines_(memory, system.width() + 2 * kMargin, kBands) {
+      lines_(memory, system.width() + 2 * kMargin, kBands), zeros_(memory, system.width(), 1) {
   levels_.reserve(kMostLevels);
   add_levels(system, memory);
 }
@@ -107,17 +107,8 @@ void MultilevelPreconditioner::restrict_to(const Plane<float>& fine, Plane<float
     float* const line = whole + kMargin;
     std::fill(whole, whole + lines_.width, 0.0F);
     for (int j = begin; j < end; ++j) {
-      const auto row = [&](int y) { return y >= 0 && y < fine.height ? fine.row(y) : nullptr; };
-      const float* rows[4] = {row(2 * j - 3), row(2 * j - 2), row(2 * j - 1), row(2 * j)};
-      if (rows[0] != nullptr && rows[3] != nullptr) {
-        weigh_rows(rows[0], rows[1], rows[2], rows[3], fine.width, line);
-      } else {
-        std::fill(line, line + fine.width, 0.0F);
-        constexpr float kWeights[4] = {kFar, kNear, kNear, kFar};
-        for (int k = 0; k < 4; ++k)
-          if (rows[k] != nullptr)
-            for (int x = 0; x < fine.width; ++x) line[x] += kWeights[k] * rows[k][x];
-      }
+      const auto row = [&](int y) { return y >= 0 && y < fine.height ? fine.row(y) : zeros_.row(0); };
+      weigh_rows(row(2 * j - 3), row(2 * j - 2), row(2 * j - 1), row(2 * j), fine.width, line);
       weigh_columns(line, coarse.width, coarse.row(j));
     }
   });
@@ -126,7 +117,7 @@ void MultilevelPreconditioner::restrict_to(const Plane<float>& fine, Plane<float
 // What this lattice and all coarser ones make of the residual.
 void MultilevelPreconditioner::finish_level(std::size_t level) {
   Level& here = levels_[level];
-  const Span all{0, here.value.width};
+  const ColumnSpan all{0, here.value.width};
   pool_.for_each_band(here.value.height, kBands, [&](int begin, int end, int band) {
     for (int y = begin; y < end; ++y) {
       scale_row(here.value.row(y), here.inverse_diagonal.row(y), all, here.value.row(y));
@@ -136,12 +127,12 @@ void MultilevelPreconditioner::finish_level(std::size_t level) {
   });
 }
 
-void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vector<Span>& spans, Plane<float>& z) {
+void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vector<ColumnSpan>& spans, Plane<float>& z) {
   for (std::size_t l = 0; l < levels_.size(); ++l) restrict_to(l == 0 ? r : levels_[l - 1].value, levels_[l].value);
   for (std::size_t l = levels_.size(); l-- > 0;) finish_level(l);
   pool_.for_each_band(z.height, kBands, [&](int begin, int end, int band) {
     for (int y = begin; y < end; ++y) {
-      const Span span = spans[static_cast<std::size_t>(y)];
+      const ColumnSpan span = spans[static_cast<std::size_t>(y)];
       scale_row(r.row(y), inverse_diagonal_.row(y), span, z.row(y));
       if (!levels_.empty()) prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));
     }

@@ -6,8 +6,9 @@
 // little, what it says spreads over many nodes, and the diagonal alone would take as many steps to carry it there.
 // Between lattices go quadratic B-splines: their second differences stay bounded, which bilinear ones' do not.
 // The operator it applies is symmetric and positive on the nodes the system knows, and 0 elsewhere.
-// Memory: `memory`, about two thirds of five planes of the system's size. Thread: one caller; its bands are fixed, so that
-// results do not depend on the pool. Throws std::bad_alloc.
+// Memory: it keeps about 1 2/3 planes of the system's size; while it is made it takes 2 2/3 more from `memory`, which an arena
+// has back with its next mark. Thread: one caller; its bands are fixed, so that results do not depend on the pool.
+// Throws std::bad_alloc.
 #pragma once
 
 #include <memory_resource>
@@ -15,18 +16,17 @@
 
 #include "hal/base/thread_pool.h"
 #include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/refine/column_span.h"
 
 namespace relievo::pipeline {
-
-// Columns of a row from `begin` up to `end`.
-struct Span { int begin, end; };
 
 class MultilevelPreconditioner {
  public:
   MultilevelPreconditioner(const BendingSystem& system, ThreadPool& pool, std::pmr::memory_resource* memory);
 
-  // z = M r; `spans`, a row of the system each, holds all of r that is not 0 and is all of z that is written.
-  void apply(const Plane<float>& r, const std::pmr::vector<Span>& spans, Plane<float>& z);
+  // z = M r; `spans`, a row of the system each, holds all of r that is not 0 and is all of z that is written. The outermost
+  // rows and columns of r are 0.
+  void apply(const Plane<float>& r, const std::pmr::vector<ColumnSpan>& spans, Plane<float>& z);
 
  private:
   struct Level {
@@ -43,6 +43,7 @@ class MultilevelPreconditioner {
   Plane<float> inverse_diagonal_;  // of the system itself
   std::pmr::vector<Level> levels_;
   Plane<float> lines_;             // a line a band
+  Plane<float> zeros_;             // a row beyond a lattice's ends
 };
 
 }  // namespace relievo::pipeline

@@ -124,5 +124,16 @@ TEST(BendingSystem, IsSolvedInFewStepsWhereLittleIsKnown) {
   EXPECT_LT(worst, 0.02 * expected.cwiseAbs().maxCoeff());
 }
 
+// As the header has it: four planes of its own and the preconditioner's, and a tenth for borders and rows.
+TEST(BendingSystem, TakesThePlanesItSays) {
+  constexpr int kWidth = 400, kHeight = 300;
+  test::StageBench bench(4 << 20, 8 << 20);
+  BendingSystem s(&bench.output, kWidth, kHeight);
+  fill(s, 5);
+  Plane<float> x(&bench.output, kWidth, kHeight);
+  solve(s, 2, kToTheEnd, bench.pool, bench.scratch, x);
+  EXPECT_LT(static_cast<double>(bench.scratch.used()), 1.1 * 25 / 3 * kWidth * kHeight * sizeof(float));
+}
+
 }  // namespace
 }  // namespace relievo::pipeline

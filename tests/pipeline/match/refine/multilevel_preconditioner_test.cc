@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -32,7 +33,7 @@ void fill(BendingSystem& s) {
 
 // The operator, column by column.
 Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageBench& bench) {
-  const std::pmr::vector<Span> whole(kHeight, Span{0, kWidth});
+  const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(kWidth * kHeight, kWidth * kHeight);
   for (int k = 0; k < kWidth * kHeight; ++k) {
     Arena::Mark mark(bench.scratch);
@@ -71,12 +72,35 @@ TEST(MultilevelPreconditioner, CarriesFar) {
   BendingSystem s(&bench.scratch, kWidth, kHeight);
   fill(s);
   MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
-  const std::pmr::vector<Span> whole(kHeight, Span{0, kWidth});
+  const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
   Plane<float> r(&bench.scratch, kWidth, kHeight);
   Plane<float> z(&bench.scratch, kWidth, kHeight);
   r.row(15)[5] = 1;
   preconditioner.apply(r, whole, z);
   EXPECT_GT(z.row(15)[15], 0);
+}
+
+TEST(MultilevelPreconditioner, IsTheSameWhateverTheThreads) {
+  std::vector<float> found[2];
+  for (const int threads : {1, 4}) {
+    test::StageBench bench(1 << 20, 1 << 20, threads);
+    BendingSystem s(&bench.scratch, kWidth, kHeight);
+    fill(s);
+    MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
+    Plane<float> z(&bench.scratch, kWidth, kHeight);
+    preconditioner.apply(s.data, std::pmr::vector<ColumnSpan>(kHeight, ColumnSpan{0, kWidth}), z);
+    found[threads == 1 ? 0 : 1].assign(z.values.begin(), z.values.end());
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+// Four and a third while it is made, and a tenth for the lattices' borders.
+TEST(MultilevelPreconditioner, TakesThePlanesItSays) {
+  constexpr int kWide = 400, kHigh = 300;
+  test::StageBench bench(4 << 20, 4 << 20);
+  const BendingSystem system(&bench.output, kWide, kHigh);
+  const MultilevelPreconditioner preconditioner(system, bench.pool, &bench.scratch);
+  EXPECT_LT(static_cast<double>(bench.scratch.used()), 1.1 * 13 / 3 * kWide * kHigh * sizeof(float));
 }
 
 }  // namespace
