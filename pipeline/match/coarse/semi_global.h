@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Semi-global matching (Hirschmueller 2008) on the census transform (Zabih and Woodfill 1994: blind
-// to gain and offset), in a band of candidates around a disparity already known for every pixel
-// (after Rothermel et al. 2012): memory is width * height * candidates, whatever the range.
+// Semi-global matching (Hirschmueller 2008) on the census transform (census.h), in a band of candidates around a
+// disparity already known for every pixel (after Rothermel et al. 2012): memory is 3 bytes * width * height * candidates,
+// whatever the range.
 //
-// Candidate k of pixel (x, y) is the disparity first(x, y) + k. Eight paths.
+// Candidate k of pixel (x, y) is the disparity first(x, y) + k. Eight paths. Thread: one caller.
 // Errors: std::bad_alloc when the arena is too small (run_stage makes it OutOfMemory).
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <memory_resource>
 
+#include "pipeline/match/coarse/census.h"
 #include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
@@ -22,18 +24,6 @@ struct SemiGlobalCosts {
 };
 
 inline constexpr float kNoDisparity = -1.0e6F;
-
-// Census of a picture: one bit a neighbour (9 x 7 without the centre) that is darker than the centre.
-// Two pixels of border stay 0.
-void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& census, int begin, int end);
-
-struct CensusPair {
-  const Plane<std::uint64_t>& from;              // the view the disparity field belongs to
-  const Plane<std::uint64_t>& to;
-  const Plane<std::uint8_t>& from_valid;
-  const Plane<std::uint8_t>& to_valid;
-  int sign;                                      // +1: x_to = x - d (left to right); -1: x_to = x + d
-};
 
 // Fills `disparity` (same size; kNoDisparity where nothing can be known) with sub-pixel minima.
 // Returns early, once `cancelled` is set: what is filled then is of no use.
