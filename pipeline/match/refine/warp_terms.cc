@@ -3,7 +3,6 @@
 #include "pipeline/match/refine/warp_terms.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "hal/base/simd.h"
@@ -14,7 +13,6 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
-constexpr float kLoud = 12;      // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
 constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer and says nothing about the surface
 
 struct Sampled { float value, slope; };
@@ -125,7 +123,7 @@ RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, i
   }
 }
 
-// A robust standard deviation of the residuals: their median absolute value, from a histogram.
+// Of the residuals, robustly: by their median absolute value, from a histogram.
 float noise_variance(const WarpTerms& terms) {
   constexpr int kBins = 512;
   constexpr float kPerGrey = 16;
@@ -145,84 +143,69 @@ float noise_variance(const WarpTerms& terms) {
   return std::max(sigma * sigma, 0.05F);
 }
 
-constexpr int kFurthest = 2;  // shift in pixels over which hanging noise is looked for
+// Sums over the window about every pixel. The results' own planes hold what leads to them: at full size every plane counts.
+struct WindowSums {
+  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms) : WindowSums(memory, terms, terms.mask.width, terms.mask.height) {}
+  Plane<float> count, left, right, left_left;
+  Plane<float>& left_right;   // the costs' plane
+  Plane<float>& right_right;  // the weights'
+  Plane<float> across;        // for box_sum
 
-// Mean products of the residuals, and of the gradients, with themselves some pixels further; 0 where none meet.
-struct Alike { double residual = 0, gradient = 0; };
+ private:
+  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms, int w, int h)
+      : count(memory, w, h), left(memory, w, h), right(memory, w, h), left_left(memory, w, h), left_right(terms.cost),
+        right_right(terms.weight), across(memory, w, h) {}
+};
 
-Alike likeness(const WarpTerms& terms, int dx, int dy) {
-  constexpr int kEvery = 3;  // rows looked at
-  const int w = terms.residual.width;
-  Alike sum;
-  double count = 0;
-  const auto calm = [](float v) { return static_cast<double>(std::clamp(v, -kLoud, kLoud)); };
-  for (int y = 0; y + dy < terms.residual.height; y += kEvery) {
-    const float* in = terms.mask.row(y);
-    const float* in_too = terms.mask.row(y + dy) + dx;
-    const float *r = terms.residual.row(y), *r_too = terms.residual.row(y + dy) + dx;
-    const float *g = terms.gradient.row(y), *g_too = terms.gradient.row(y + dy) + dx;
-    for (int x = kFurthest; x < w - kFurthest; ++x) {
-      if (in[x] == 0 || in_too[x] == 0) continue;
-      sum.residual += calm(r[x]) * calm(r_too[x]);
-      sum.gradient += calm(g[x]) * calm(g_too[x]);
-      count += 1;
-    }
-  }
-  return count > 0 ? Alike{sum.residual / count, sum.gradient / count} : Alike{};
-}
-
-}  // namespace
-
-void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
-                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
+// The right view goes to the residuals' plane and its slope to the gradients'.
+void sum_windows(const RefinerScene& scene, const SurfaceField& field, const Window& window, int radius, ThreadPool& pool,
+                 WarpTerms& terms, WindowSums& sums) {
   const int w = window.width;
-  const int h = window.height;
-  ThreadPool& pool = context.pool;
-  std::pmr::memory_resource* memory = &context.scratch;
-  Plane<float> count(memory, w, h), sum_left(memory, w, h), sum_right(memory, w, h), sum_ll(memory, w, h);
-  Plane<float> across(memory, w, h);
-  // The results' own planes hold what leads to them: at full size every plane counts.
-  Plane<float>& right = terms.residual;
-  Plane<float>& right_slope = terms.gradient;
-  Plane<float>& sum_lr = terms.cost;
-  Plane<float>& sum_rr = terms.weight;
-  Warped warped{sum_left, right, right_slope, terms.mask};
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+  Warped warped{sums.left, terms.residual, terms.gradient, terms.mask};
+  pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       warp_row(scene, field, window, y, warped);
-      multiply_row(sum_left.row(y), sum_left.row(y), w, sum_ll.row(y));
-      multiply_row(right.row(y), right.row(y), w, sum_rr.row(y));
-      multiply_row(sum_left.row(y), right.row(y), w, sum_lr.row(y));
+      multiply_row(sums.left.row(y), sums.left.row(y), w, sums.left_left.row(y));
+      multiply_row(terms.residual.row(y), terms.residual.row(y), w, sums.right_right.row(y));
+      multiply_row(sums.left.row(y), terms.residual.row(y), w, sums.left_right.row(y));
     }
   });
-  const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
-  box_sum(terms.mask, radius, pool, across, count);
-  box_sum(sum_left, radius, pool, across, sum_left);
-  box_sum(right, radius, pool, across, sum_right);
-  box_sum(sum_ll, radius, pool, across, sum_ll);
-  box_sum(sum_rr, radius, pool, across, sum_rr);
-  box_sum(sum_lr, radius, pool, across, sum_lr);
+  box_sum(terms.mask, radius, pool, sums.across, sums.count);
+  box_sum(sums.left, radius, pool, sums.across, sums.left);
+  box_sum(terms.residual, radius, pool, sums.across, sums.right);
+  box_sum(sums.left_left, radius, pool, sums.across, sums.left_left);
+  box_sum(sums.right_right, radius, pool, sums.across, sums.right_right);
+  box_sum(sums.left_right, radius, pool, sums.across, sums.left_right);
+}
 
+// Of the right view over the left, over the whole face.
+float gain_of(const WindowSums& sums, const Plane<float>& mask) {
   double all_left = 0;
   double all_right = 0;
-  for (std::size_t k = 0; k < count.values.size(); k += 7) {
-    const float n = count.values[k];
-    if (n < 30 || terms.mask.values[k] == 0) continue;
-    all_left += sum_ll.values[k] / n - (sum_left.values[k] / n) * (sum_left.values[k] / n);
-    all_right += sum_rr.values[k] / n - (sum_right.values[k] / n) * (sum_right.values[k] / n);
+  for (std::size_t k = 0; k < sums.count.values.size(); k += 7) {
+    const float n = sums.count.values[k];
+    if (n < 30 || mask.values[k] == 0) continue;
+    all_left += sums.left_left.values[k] / n - (sums.left.values[k] / n) * (sums.left.values[k] / n);
+    all_right += sums.right_right.values[k] / n - (sums.right.values[k] / n) * (sums.right.values[k] / n);
   }
   // Of pictures without any contrast, a covered lens say, rounding leaves variances below zero.
   all_left = std::max(all_left, 0.0);
   all_right = std::max(all_right, 0.0);
-  const auto gain = static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
+  return static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
+}
+
+void form_residuals(const RefinerScene& scene, const Window& window, WindowSums& sums, ThreadPool& pool, WarpTerms& terms,
+                    Plane<float>* agreed) {
+  const int w = window.width;
+  const float gain = gain_of(sums, terms.mask);
   const float level_scale = 1.0F / static_cast<float>(1 << scene.level);
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+  pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
-      const Moments m{count.row(y), sum_left.row(y), sum_right.row(y), sum_ll.row(y), sum_rr.row(y), sum_lr.row(y)};
+      const Moments m{sums.count.row(y), sums.left.row(y), sums.right.row(y), sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
       // Where nobody asks for it the product goes to a row that has had its day.
       const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
-                         agreed != nullptr ? agreed->row(y) : sum_rr.row(y)};
-      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, right.row(y), right_slope.row(y)};
+                         agreed != nullptr ? agreed->row(y) : sums.right_right.row(y)};
+      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, terms.residual.row(y), terms.gradient.row(y)};
       // A pixel on the picture's own edge has no slope, and the mask is 0 there.
       const int begin_x = window.x0 == 0 ? 1 : 0;
       const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
@@ -231,48 +214,53 @@ void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options,
         if (x < begin_x || x >= end_x) out.residual[x] = out.gradient[x] = out.agreed[x] = 0, out.cost[x] = 1;
     }
   });
-  // The offset soaks up what a slope of shading says: so must the gradient's own mean.
-  box_sum(terms.gradient, radius, pool, across, sum_left);
-  const float noise = noise_variance(terms);
-  terms.noise_variance = noise;
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < w; ++x) {
-        const float mean = terms.mask.row(y)[x] * sum_left.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+}
+
+// The offset soaks up what a slope of shading says: so must the gradient's own mean.
+void take_out_means(int radius, ThreadPool& pool, WarpTerms& terms, WindowSums& sums, Plane<float>* agreed) {
+  Plane<float>& gradient = sums.left;
+  box_sum(terms.gradient, radius, pool, sums.across, gradient);
+  pool.for_each_band(terms.mask.height, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < terms.mask.width; ++x) {
+        const float mean = terms.mask.row(y)[x] * gradient.row(y)[x] / std::max(sums.count.row(y)[x], 1.0F);
         terms.gradient.row(y)[x] -= mean;
         if (agreed != nullptr) agreed->row(y)[x] -= mean * mean;
-      }
-      multiply_row(terms.residual.row(y), terms.residual.row(y), w, sum_rr.row(y));
-    }
-  });
-  box_sum(sum_rr, kNoiseRadius, pool, across, sum_rr);
-  box_sum(terms.mask, kNoiseRadius, pool, across, sum_ll);
-  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < w; ++x) {
-        const float local = sum_rr.row(y)[x] / std::max(sum_ll.row(y)[x], 1.0F);
-        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, noise);
       }
   });
 }
 
-float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
-  constexpr float kWhite = 1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
-  constexpr float kMost = 6;
-  // A shift and its opposite say the same: half of them, after none at all.
-  constexpr int kShifts = kFurthest * (2 * kFurthest + 2) + 1;
-  std::array<Alike, kShifts> alike;
-  pool.for_each_band(kShifts, kShifts, [&](int, int, int k) {
-    const int side = 2 * kFurthest + 1;
-    const int dy = (k + kFurthest) / side;
-    alike[static_cast<std::size_t>(k)] = likeness(terms, (k + kFurthest) % side - kFurthest, dy);
+// By the noise of the pixels around, and by the whole surface's at least.
+void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
+  const int w = terms.mask.width;
+  const int h = terms.mask.height;
+  Plane<float>& squares = sums.right_right;
+  Plane<float>& count = sums.left_left;
+  terms.noise_variance = noise_variance(terms);
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y) multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
   });
-  const Alike& same = alike[0];
-  if (!(same.residual > 0 && same.gradient > 0)) return 1;
-  double sum = 1;
-  for (std::size_t k = 1; k < alike.size(); ++k)
-    sum += 2 * (alike[k].residual / same.residual) * (alike[k].gradient / same.gradient);
-  return std::clamp(static_cast<float>(sum) / kWhite, 1.0F, kMost);
+  box_sum(squares, kNoiseRadius, pool, sums.across, squares);
+  box_sum(terms.mask, kNoiseRadius, pool, sums.across, count);
+  pool.for_each_band(h, kBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < w; ++x) {
+        const float local = squares.row(y)[x] / std::max(count.row(y)[x], 1.0F);
+        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, terms.noise_variance);
+      }
+  });
+}
+
+}  // namespace
+
+void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
+                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
+  const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
+  WindowSums sums(&context.scratch, terms);
+  sum_windows(scene, field, window, radius, context.pool, terms, sums);
+  form_residuals(scene, window, sums, context.pool, terms, agreed);
+  take_out_means(radius, context.pool, terms, sums, agreed);
+  weigh(context.pool, terms, sums);
 }
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "pipeline/match/refine/warp_terms.h"
+#include "pipeline/match/refine/hanging_noise.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::pipeline {
