@@ -12,6 +12,13 @@ namespace relievo::ui {
 
 namespace type {  // sizes of text
 inline constexpr float kDisplay = 64, kTitle = 46, kHeading = 30, kButton = 28, kBody = 24, kSmall = 20;
+
+// Lines of text, in sizes of it: how far the first reaches above its baseline and the last below, and how far baselines
+// are apart: headings need less than what is read. The middle of a line is that of its capitals, in every script.
+struct Lines {
+  float above, below, apart, apart_bold;
+};
+inline constexpr Lines kLines{0.969F, 0.242F, 1.33F, 1.14F}, kArabicLines{1.06F, 0.34F, 1.58F, 1.46F}, kHanLines{0.969F, 0.242F, 1.46F, 1.25F};
 }  // namespace type
 
 namespace space {

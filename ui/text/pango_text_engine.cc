@@ -10,6 +10,7 @@
 
 #include "ui/text/phrases.h"
 #include "ui/text/text_engine.h"
+#include "ui/theme.h"
 
 namespace relievo::ui {
 namespace {
@@ -23,6 +24,9 @@ struct Unref {
 };
 template <typename T>
 using Owned = std::unique_ptr<T, Unref<T>>;
+struct UnrefAttributes {
+  void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
+};
 
 std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  // FNV-1a
   const auto* at = static_cast<const unsigned char*>(bytes);
@@ -34,7 +38,7 @@ std::uint64_t key_of(std::string_view text, const TextStyle& style, int width) {
   std::uint64_t hash = mix(14695981039346656037ULL, text.data(), text.size());
   const std::uint32_t numbers[] = {static_cast<std::uint32_t>(std::lround(style.size_px * 8)), static_cast<std::uint32_t>(width),
                                    static_cast<std::uint32_t>(style.weight), static_cast<std::uint32_t>(style.align),
-                                   static_cast<std::uint32_t>(style.icon), static_cast<std::uint32_t>(style.right_to_left)};
+                                   static_cast<std::uint32_t>(style.icon), static_cast<std::uint32_t>(style.right_to_left), static_cast<std::uint32_t>(style.tabular)};
   hash = mix(hash, numbers, sizeof numbers);
   return mix(hash, style.language, std::strlen(style.language));
 }
@@ -50,11 +54,11 @@ PangoWeight pango_weight(Weight weight) {
 
 bool is(const TextStyle& style, const char* language) { return std::strcmp(style.language, language) == 0; }
 
-// Arabic, Chinese and Japanese fonts bring much room of their own; headings need less than what is read.
-float line_spacing(const TextStyle& style) {
-  if (style.icon) return 1.0F;
-  const float script = is(style, "ar") ? 0.76F : is(style, "zh-Hans") || is(style, "ja") ? 0.92F : 1.0F;
-  return (style.weight == Weight::Bold ? 0.94F : 1.1F) * script;
+// Lines as the page's script has them, whatever fonts the letters on them come from: fonts bring room of their own, and
+// an Arabic one twice what a line needs.
+const type::Lines& lines_of(const TextStyle& style) {
+  if (is(style, "ar")) return type::kArabicLines;
+  return is(style, "zh-Hans") || is(style, "ja") ? type::kHanLines : type::kLines;
 }
 
 const char* families_of(const TextStyle& style) { return style.icon ? kIconFamily : is(style, "ja") ? kJapaneseFamilies : kFamilies; }
@@ -70,6 +74,8 @@ class PangoTextEngine final : public TextEngine {
     cairo_font_options_destroy(options);
     pango_cairo_context_set_resolution(context_.get(), 72);
     layout_.reset(pango_layout_new(context_.get()));
+    tabular_.reset(pango_attr_list_new());
+    pango_attr_list_insert(tabular_.get(), pango_attr_font_features_new("tnum=1"));
   }
 
   Result<void> check_fonts() {
@@ -108,6 +114,12 @@ class PangoTextEngine final : public TextEngine {
     TextLabel label;
     std::uint32_t generation = 0;
   };
+  struct SetLine {
+    float x = 0, baseline = 0;
+  };
+  struct SetText {   // of the paragraph in layout_; its ink from `left` to `bottom`
+    float width_px = 0, height_px = 0, left = 0, top = 0, right = 0, bottom = 0;
+  };
 
   Entry& find(std::string_view text, const TextStyle& style, float max_width_px) {
     const int width = std::max(1, static_cast<int>(std::ceil(max_width_px)));
@@ -117,11 +129,9 @@ class PangoTextEngine final : public TextEngine {
     if (labels_.size() > 4000) forget();
     Entry& entry = labels_[key];
     set_out(text, style, width);
-    PangoRectangle ink, logical;
-    pango_layout_get_extents(layout_.get(), &ink, &logical);
+    set_lines(style);
     // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
-    entry.label.size = {std::ceil(static_cast<float>(logical.width) / kScale) + 1, std::ceil(static_cast<float>(logical.height) / kScale),
-                        pango_layout_get_line_count(layout_.get())};
+    entry.label.size = {std::ceil(set_.width_px) + 1, std::ceil(set_.height_px), pango_layout_get_line_count(layout_.get())};
     entry.label.missing = pango_layout_get_unknown_glyphs_count(layout_.get());
     entry.label.torn = broken_words(false);
     return entry;
@@ -141,14 +151,14 @@ class PangoTextEngine final : public TextEngine {
     pango_layout_set_font_description(layout, font);
     pango_font_description_free(font);
     pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
-    pango_layout_set_line_spacing(layout, line_spacing(style));
     const bool at_right = style.right_to_left != (style.align == TextAlign::End);
     pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER : at_right ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
     pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
-    pango_layout_set_attributes(layout, nullptr);
+    PangoAttrList* const plain = style.tabular ? tabular_.get() : nullptr;
+    pango_layout_set_attributes(layout, plain);
     pango_layout_set_width(layout, width * PANGO_SCALE);
     const int lines = pango_layout_get_line_count(layout);
-    if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_phrases(text, is(style, "ja"), width, lines);
+    if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_phrases(text, is(style, "ja"), width, lines, plain);
     int narrow = 0, wide = width;
     if (lines > 1 && lines <= kBalancedLines) {
       for (narrow = width / 2; wide - narrow > 4;) {
@@ -165,9 +175,37 @@ class PangoTextEngine final : public TextEngine {
     pango_layout_set_width(layout, logical.width + PANGO_SCALE / 2);
   }
 
+  // Where the lines of the paragraph lie, and their ink. Lines are as high as their script has them; the first and the
+  // last give more where a letter of another script needs it.
+  void set_lines(const TextStyle& style) {
+    PangoRectangle whole;
+    pango_layout_get_extents(layout_.get(), nullptr, &whole);
+    set_ = {static_cast<float>(whole.width) / kScale, 0, 1e6F, 1e6F, -1e6F, -1e6F};
+    lines_.clear();
+    const type::Lines& lines = lines_of(style);
+    const float apart = std::round(style.size_px * (style.weight == Weight::Bold ? lines.apart_bold : lines.apart));
+    PangoLayoutIter* at = pango_layout_get_iter(layout_.get());
+    do {
+      PangoRectangle ink, logical;
+      pango_layout_iter_get_line_extents(at, &ink, &logical);
+      const float own = static_cast<float>(pango_layout_iter_get_baseline(at)) / kScale, top = static_cast<float>(ink.y) / kScale;
+      const float bottom = static_cast<float>(ink.y + ink.height) / kScale, left = static_cast<float>(ink.x - whole.x) / kScale;
+      // Whole pixels, so that letters stay sharp; a sign stands as its font has it.
+      const float first = style.icon ? own : std::round(std::max(style.size_px * lines.above, own - top));
+      const float baseline = lines_.empty() ? first : lines_.back().baseline + apart;
+      lines_.push_back({static_cast<float>(logical.x - whole.x) / kScale, baseline});
+      set_.height_px = style.icon ? static_cast<float>(whole.height) / kScale : baseline + std::max(style.size_px * lines.below, bottom - own);
+      if (ink.width <= 0 || ink.height <= 0) continue;
+      set_.left = std::min(set_.left, left), set_.right = std::max(set_.right, left + static_cast<float>(ink.width) / kScale);
+      set_.top = std::min(set_.top, baseline + top - own), set_.bottom = std::max(set_.bottom, baseline + bottom - own);
+    } while (pango_layout_iter_next_line(at) != 0);
+    pango_layout_iter_free(at);
+    if (set_.left > set_.right) set_.left = set_.top = set_.right = set_.bottom = 0;   // blanks
+  }
+
   // Lines end between phrases where that costs no line more; otherwise between any two letters.
-  void keep_phrases(std::string_view text, bool japanese, int width, int lines) {
-    PangoAttrList* whole = pango_attr_list_new();
+  void keep_phrases(std::string_view text, bool japanese, int width, int lines, PangoAttrList* plain) {
+    PangoAttrList* whole = plain != nullptr ? pango_attr_list_copy(plain) : pango_attr_list_new();
     std::vector<std::size_t> starts = phrase_starts(text, japanese);
     starts.push_back(text.size());
     std::size_t from = 0;
@@ -180,7 +218,7 @@ class PangoTextEngine final : public TextEngine {
     }
     pango_layout_set_attributes(layout_.get(), whole);
     pango_attr_list_unref(whole);
-    if (pango_layout_get_line_count(layout_.get()) > lines || breaks_words() || !is_within(width)) pango_layout_set_attributes(layout_.get(), nullptr);
+    if (pango_layout_get_line_count(layout_.get()) > lines || breaks_words() || !is_within(width)) pango_layout_set_attributes(layout_.get(), plain);
   }
 
   bool is_within(int width) {
@@ -206,13 +244,10 @@ class PangoTextEngine final : public TextEngine {
 
   void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {
     set_out(text, style, std::max(1, static_cast<int>(std::ceil(max_width_px))));
-    PangoRectangle ink, logical;
-    pango_layout_get_extents(layout_.get(), &ink, &logical);
+    set_lines(style);
     // All in whole pixels, so that letters stay sharp.
-    const int left = static_cast<int>(std::floor(static_cast<float>(ink.x - logical.x) / kScale)) - 1;
-    const int top = static_cast<int>(std::floor(static_cast<float>(ink.y - logical.y) / kScale)) - 1;
-    const int right = static_cast<int>(std::ceil(static_cast<float>(ink.x - logical.x + ink.width) / kScale)) + 1;
-    const int bottom = static_cast<int>(std::ceil(static_cast<float>(ink.y - logical.y + ink.height) / kScale)) + 1;
+    const int left = static_cast<int>(std::floor(set_.left)) - 1, top = static_cast<int>(std::floor(set_.top)) - 1;
+    const int right = static_cast<int>(std::ceil(set_.right)) + 1, bottom = static_cast<int>(std::ceil(set_.bottom)) + 1;
     const int w = std::clamp(right - left, 1, atlas_.side_px() - 2), h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
     auto at = atlas_.place(w, h);
     if (!at) {
@@ -226,8 +261,12 @@ class PangoTextEngine final : public TextEngine {
     ink_.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h), 0);
     cairo_surface_t* surface = cairo_image_surface_create_for_data(ink_.data(), CAIRO_FORMAT_A8, w, h, stride);
     cairo_t* cairo = cairo_create(surface);
-    cairo_move_to(cairo, -left - logical.x / static_cast<double>(kScale), -top - logical.y / static_cast<double>(kScale));
-    pango_cairo_show_layout(cairo, layout_.get());
+    GSList* line = pango_layout_get_lines_readonly(layout_.get());
+    for (const SetLine& one : lines_) {
+      cairo_move_to(cairo, static_cast<double>(one.x) - left, static_cast<double>(one.baseline) - top);
+      pango_cairo_show_layout_line(cairo, static_cast<PangoLayoutLine*>(line->data));
+      line = line->next;
+    }
     cairo_destroy(cairo);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -238,9 +277,12 @@ class PangoTextEngine final : public TextEngine {
   Owned<PangoFontMap> map_;
   Owned<PangoContext> context_;
   Owned<PangoLayout> layout_;
+  std::unique_ptr<PangoAttrList, UnrefAttributes> tabular_;
   TextAtlas atlas_;
   std::unordered_map<std::uint64_t, Entry> labels_;
   std::vector<unsigned char> ink_;
+  SetText set_;
+  std::vector<SetLine> lines_;
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ struct TextStyle {
   TextAlign align = TextAlign::Start;
   bool icon = false;
   bool right_to_left = false;
+  bool tabular = false;         // all digits as wide as each other: figures under figures, and those that change
   const char* language = "en";  // BCP 47: chooses the forms of Chinese and Japanese letters
 };
 

@@ -16,6 +16,7 @@ Rect meet(const Rect& a, const Rect& b) {
 // Words can be broken into more lines; a sign cannot.
 constexpr float kLeastShare = 0.5F;    // of a row: so much of it belongs to the words, or all of what they need
 constexpr float kEndless = 1e6F;
+constexpr float kRounding = 1e-3F;     // of a pixel: thirds make a whole
 constexpr float kFoldedGaps = 0.25F;   // what was a gap beside is a smaller one between lines
 
 bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
@@ -102,9 +103,14 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   const float gaps = count > 1 ? row.box.gap * static_cast<float>(count - 1) : 0;
   const float left = width - fixed - gaps;
   std::size_t i = 0;
+  float before = 0;   // of the shares: what is left is given out to the last pixel, so that rows end under each other
   for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    if (child.box.grow > 0) given.w[i] = std::floor(std::max(0.0F, left) * child.box.grow / grow);
+    if (child.box.grow > 0) {
+      const float from = std::floor(std::max(0.0F, left) * before / grow);
+      before += child.box.grow;
+      given.w[i] = std::floor(std::max(0.0F, left) * before / grow + kRounding) - from;
+    }
     else if (left < 0 && may_shrink(child) && soft > 0) given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
   }
   return given;
@@ -135,12 +141,15 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
 }
 
 void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
-  float fixed = 0, grow = 0;
+  float fixed = 0, grow = 0, growing = 0, highest = 0;   // highest: a share of what those need that grow, were all shares as high
   int count = 0;
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    fixed += need(child, inner.w).h;
-    grow += child.box.grow;
+    const float h = need(child, inner.w).h;
+    fixed += h;
+    if (child.box.grow <= 0) continue;
+    grow += child.box.grow, growing += h;
+    highest = std::max(highest, h / child.box.grow);
   }
   float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
   if (count > 1) fixed += gap * static_cast<float>(count - 1);
@@ -148,13 +157,14 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
   float y = inner.y;
   const float left = std::max(0.0F, inner.h - fixed);
   if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
+  const bool even = node.box.even && grow > 0 && highest * grow <= growing + left;
   if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
   if (grow <= 0 && node.box.along == Along::End) y += left;
   if (grow <= 0 && node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     const Need n = need(child, inner.w);
-    const float h = n.h + (grow > 0 ? left * child.box.grow / grow : 0);
+    const float more = grow > 0 ? left * child.box.grow / grow : 0, h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
     const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) && child.box.width <= 0 && child.box.max_width <= 0;
     const float w = stretch ? inner.w : std::min(node.box.across == Across::Stretch && child.box.width <= 0 ? std::min(inner.w, child.box.max_width) : n.w, inner.w);
     float x = across_start(node, inner.w, w);

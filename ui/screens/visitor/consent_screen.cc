@@ -19,8 +19,8 @@ void badge(Page& page, const char* letter) {
 }
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
-  Node row = page.box(Flow::Row, space::kM, 22, 10);
-  row.box.across = Across::Centre;
+  Node row = page.box(Flow::Row, space::kM, 22, 18);
+  row.box.across = Across::Start;   // titles of neighbours on one line
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
   row.box.border_px = page.px(1.5F);
@@ -65,7 +65,7 @@ void consent_screen(Page& page) {
   page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "points";
-  list.box.scroll = true;
+  list.box.scroll = list.box.even = true;
   page.tree.open(list);
   if (own != nullptr) own_points(page, *own);
   else points(page);
