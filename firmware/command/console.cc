@@ -46,7 +46,8 @@ std::string one_line(const Error& error) {
   if (!error.where().empty()) line.append(error.where()).append(": ");
   line.append(error.what.view());
   if (error.sys_errno != 0) line.append(" (").append(std::strerror(error.sys_errno)).append(")");
-  std::replace_if(line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '?');
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
   return line;
 }
 
