@@ -12,7 +12,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr std::string_view kGap = "  ", kFault = "  fault: ", kHole = "{}";
+constexpr std::string_view kGap = "  ", kFault = "  fault: ";
 
 // Up to the next tab, and what is behind it.
 std::string_view cut(std::string_view& text) {
@@ -50,23 +50,13 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file) : clock_
   }
 }
 
-void EventLog::say(Literal key, std::initializer_list<std::string_view> values) { put(key.view(), values, false); }
+void EventLog::say(Literal key, std::initializer_list<std::string_view> values) { put(Sentence(key, values), false); }
 
-void EventLog::fault(const Error& error) { put(error.what.view(), {}, true); }
+void EventLog::fault(const Error& error) { put(Sentence(error.what), true); }
 
-void EventLog::put(std::string_view key, std::initializer_list<std::string_view> values, bool fault) {
-  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) + std::string(fault ? kFault : kGap);
-  std::string apart = '\t' + std::string(key);
-  std::string_view rest = key;
-  for (std::string value : std::vector<std::string>(values.begin(), values.end())) {
-    std::replace_if(value.begin(), value.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
-    const std::size_t hole = rest.find(kHole);
-    if (hole == std::string_view::npos) break;
-    text.append(rest.substr(0, hole)).append(value);
-    rest.remove_prefix(hole + kHole.size());
-    apart.append(1, '\t').append(value);
-  }
-  text.append(rest);
+void EventLog::put(const Sentence& sentence, bool fault) {
+  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) + std::string(fault ? kFault : kGap) + sentence.text();
+  const std::string apart = '\t' + sentence.packed();
   if (text.size() > kTextBytes) text.resize(kTextBytes);
   if (text.size() + apart.size() <= kLineBytes) text += apart;
   const std::lock_guard lock(mutex_);

@@ -5,8 +5,8 @@
 // and a file that keeps the newest lines over a restart. Nobody's name goes into it: of an error only
 // its sentence is written, never the place, which may be somebody's.
 //
-// A line is noted as the key of its words and what stands in them, so that the page can say it in the reader's
-// language. In the file, behind the English sentence and a tab: KEY, then a tab and a value for each.
+// A line is noted as a Sentence, so that the page can say it in the reader's language. In the file, behind the English
+// text and a tab: the sentence packed.
 // Thread: any. Errors of save(): MediaFull, IoFailed.
 #pragma once
 
@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "hal/base/sentence.h"
 #include "hal/clock.h"
 
 namespace relievo::firmware {
@@ -44,7 +45,7 @@ class EventLog {
   // `file` is read where it is there; empty: nothing is kept.
   EventLog(const hal::Clock& clock, std::filesystem::path file);
 
-  // `key` has {} where a value stands; tabs and line ends in a value become blanks.
+  // Both as a Sentence has them.
   void say(Literal key, std::initializer_list<std::string_view> values = {});
   void fault(const Error& error);
 
@@ -59,7 +60,7 @@ class EventLog {
     std::size_t length = 0;
     bool fault = false;
   };
-  void put(std::string_view key, std::initializer_list<std::string_view> values, bool fault);
+  void put(const Sentence& sentence, bool fault);
 
   const hal::Clock& clock_;
   std::filesystem::path file_;

@@ -3,10 +3,10 @@
 //
 // Sentence: words for people with values in them, kept apart, so that the words can be said in another language.
 // The key is the English text with {} for each value, in their order; values are text already (a number with a
-// point for its decimals, a name), units stand in the key.
+// point for its decimals, a name), units stand in the key. Tabs and line ends in a value become blanks.
 //
-// Packed, it is one line for a store, a log or a page: KEY, then a tab and a value for each. Tabs and line ends in a
-// value become blanks. Errors: none but those of memory. Thread: any.
+// Packed, it is one line for a store, a log or a page: KEY, then a tab and a value for each.
+// Errors: none but those of memory. Thread: any.
 #pragma once
 
 #include <algorithm>
@@ -22,10 +22,12 @@ namespace relievo {
 
 class Sentence {
  public:
-  explicit Sentence(Literal key, std::initializer_list<std::string_view> values = {}) : key_(key.view()), values_(values.begin(), values.end()) {}
+  explicit Sentence(Literal key, std::initializer_list<std::string_view> values = {}) : key_(key.view()) {
+    for (const std::string_view value : values) add(value);
+  }
   // An error's words, and behind them in parentheses where it was.
   explicit Sentence(const Error& error) : key_(error.what.view()) {
-    if (!error.where().empty()) values_.emplace_back(error.where());
+    if (!error.where().empty()) add(error.where());
   }
 
   std::string_view key() const { return key_; }
@@ -49,14 +51,16 @@ class Sentence {
 
   std::string packed() const {
     std::string line(key_);
-    for (std::string value : values_) {
-      std::replace_if(value.begin(), value.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
-      line.append(1, '\t').append(value);
-    }
+    for (const std::string& value : values_) line.append(1, '\t').append(value);
     return line;
   }
 
  private:
+  void add(std::string_view value) {
+    std::string& added = values_.emplace_back(value);
+    std::replace_if(added.begin(), added.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
+  }
+
   std::string_view key_;  // a literal's
   std::vector<std::string> values_;
 };

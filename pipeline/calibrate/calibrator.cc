@@ -181,8 +181,9 @@ StereoCalibration calibration_of(const StereoFit& fit) {
   return calibration;
 }
 
-Error too_few(Literal what, std::size_t count) {
-  return Error{Errc::PoorGeometry, what}.at("n = " + std::to_string(count));
+// How many pairs there were stands behind the sentence in every language: so without a word.
+Error poor_geometry(Literal what, std::size_t pairs) {
+  return Error{Errc::PoorGeometry, what}.at("n = " + std::to_string(pairs));
 }
 
 }  // namespace
@@ -199,12 +200,12 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   std::vector<int> pairs;
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
   if (pairs.size() < kMinBoardPairs)
-    return too_few("the whole board is in both pictures of too few pairs; take at least 5, better 15",
-                   pairs.size());
+    return poor_geometry("the whole board is in both pictures of too few pairs; take at least 5, better 15",
+                         pairs.size());
 
   CameraFit left_fit;
   CameraFit right_fit;
-  const Error undetermined = too_few(
+  const Error undetermined = poor_geometry(
       "these views do not determine the cameras; tilt the board, and fill the picture with it", pairs.size());
   if (!fit_without_strays(input, false, left, left_fit, out.quality) ||
       !fit_without_strays(input, true, right, right_fit, out.quality))
@@ -212,7 +213,7 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   pairs.clear();
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
   if (pairs.size() < kMinBoardPairs)
-    return too_few("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
+    return poor_geometry("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
 
   const CameraFits cameras{left_fit, right_fit};
   Selection selection;
@@ -220,8 +221,7 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   out.calibration = calibration_of(selection.fit);
   const Vec3d stands = inverse(out.calibration.right_from_left).translation_mm;
   if (stands.x < 0 && -stands.x >= std::abs(stands.y))
-    return Error{Errc::PoorGeometry, "the left pictures come from the right camera; exchange the two"}.at(
-        std::to_string(pairs.size()) + " pairs");
+    return poor_geometry("the left pictures come from the right camera; exchange the two", pairs.size());
   RELIEVO_TRY(check_calibration(out.calibration));
   measure_quality({input, cameras, pairs, selection}, out.quality);
   out.calibration.epipolar_shift_px = out.quality.held_out_shift_px;

@@ -3,7 +3,6 @@
 #include "pipeline/calibrate/drift.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Dense>
 

@@ -11,7 +11,7 @@
 // p' (C + (e^2 + s^2) M^-1)^-1 p is then below kDriftStatistic with 99.9 %: directions in which a face
 // tells little do not hide one in which it tells much. e counts in full in every direction, though it
 // is all of them together: the judgement errs to the calibration's side.
-// Proven on simulated heads by tests/bench/drift_proof.
+// Proven on simulated heads by tests/bench/calibration/drift_proof.cc.
 //
 // What cannot be seen: the same error along the rows. It changes the depth of the face, not its
 // likeness. So beyond kRefusedPx, where a camera has certainly moved, nothing is measured any more: a
@@ -43,13 +43,14 @@ struct DriftJudgement {
   DriftVerdict verdict = DriftVerdict::Unknown;
   double residual_px = 0;  // rms of the shift over the face
   double sigma_px = 0;     // and of its standard deviation, as far as the face is to blame
-  double offset_px = 0;
+  double offset_px = 0;    // these three as EpipolarShift has them
   double slope_x = 0;
   double slope_y = 0;
   double expected_px = 0;  // what the calibration promises
-  double statistic = 0;
+  double statistic = 0;    // against kDriftStatistic
 };
 
+// Unknown where the shift was not measured, or not well enough.
 DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& calibration);
 
 std::string_view word(DriftVerdict verdict);  // unknown, ok, warn, refuse

@@ -195,7 +195,7 @@ TEST_F(WordsTest, WhatStagesAndCalibrationsSayIsInEveryLanguage) {
     }
   }
   for (const auto& [before, text] : joined_literals(pipeline / "calibrate/calibrator.cc")) {
-    if (before == "too_few" || before == "PoorGeometry") texts.insert(text);
+    if (before == "poor_geometry" || before == "PoorGeometry") texts.insert(text);
   }
   EXPECT_GE(texts.size(), 26U);
   const std::size_t reasons = texts.size();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 #include "pipeline/calibrate/quality/limits.h"
@@ -95,12 +96,12 @@ void judge_depth(const CalibrationQuality& q, Verdict& v) {
 void judge_variety(const CalibrationQuality& q, Verdict& v) {
   if (q.tilt_spread_deg < limits::kAlikeDeg)
     v.say(CalibrationVerdict::Refuse,
-          "the boards are all held alike: two of them differ by {} degrees as a rule ({} is good); tilt it "
-          "to all sides by 30 degrees",
+          "the boards are all held alike: two of them differ by {} degrees as a rule ({} is good); tilt "
+          "the board to all sides by 30 degrees",
           {decimal(q.tilt_spread_deg, 0), decimal(limits::kGoodTiltDeg, 0)});
   else if (q.tilt_spread_deg < limits::kGoodTiltDeg)
     v.say(CalibrationVerdict::Usable,
-          "two boards differ by {} degrees of tilt as a rule ({} is good); tilt it more",
+          "two boards differ by {} degrees of tilt as a rule ({} is good); tilt the board more",
           {decimal(q.tilt_spread_deg, 0), decimal(limits::kGoodTiltDeg, 0)});
   if (q.used < limits::kGoodViews)
     v.say(CalibrationVerdict::Usable, "{} pairs are few; take {} or more",
@@ -131,12 +132,10 @@ void judge_quality(CalibrationQuality& q) {
   judge_board(q, v);
   const auto pairs = std::count_if(q.views.begin(), q.views.end(),
                                    [](const ViewQuality& view) { return view.distance_mm > 0; });
-  if (2 * q.used <= pairs)
-    v.say(Refuse, "only {} of {} pairs agree with each other",
-          {std::to_string(q.used), std::to_string(static_cast<int>(pairs))});
-  else if (4 * q.used < 3 * pairs)
-    v.say(Usable, "only {} of {} pairs agree with each other",
-          {std::to_string(q.used), std::to_string(static_cast<int>(pairs))});
+  const bool half_at_most = 2 * q.used <= pairs;
+  if (half_at_most || 4 * q.used < 3 * pairs)
+    v.say(half_at_most ? Refuse : Usable, "only {} of {} pairs agree with each other",
+          {std::to_string(q.used), std::to_string(pairs)});
   if (q.held_out_epipolar_px > limits::kGoodEpipolarPx && q.held_out_epipolar_px <= limits::kWorstEpipolarPx)
     v.say(Usable, "views not used for the fit miss their epipolar lines by {} px ({} is good)",
           {decimal(q.held_out_epipolar_px, 2), decimal(limits::kGoodEpipolarPx, 2)});
