@@ -244,6 +244,12 @@ sim::PicturePair Album::develop(const Shot& shot, const Developing& how) const {
   return {one(shot.left, rig_.left, 2 * how.noise_seed), one(shot.right, rig_.right, 2 * how.noise_seed + 1)};
 }
 
+Album& shared_album() {
+  static const char* folder = std::getenv("RELIEVO_ALBUM");
+  static Album once(folder != nullptr ? folder : "");
+  return once;
+}
+
 sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, double yaw_deg, double pitch_deg, double roll_deg) {
   // Frame: x along the baseline, z the mean of both optical axes, origin in the left camera; then into the left camera's.
   static const sim::SimRig rig = sim::make_rig(rig_options());

@@ -71,6 +71,9 @@ class Album {
   std::map<std::string, Shot> shots_;
 };
 
+// One for all tests of a program. The environment's RELIEVO_ALBUM names a folder where its photographs survive the program.
+Album& shared_album();
+
 // A pose that faces the middle between the cameras from a place given in the relief's terms: `right_mm` from the rig's middle.
 hal::sim::HeadPose standing(double distance_mm, double right_mm = 0, double down_mm = 0, double yaw_deg = 0, double pitch_deg = 0, double roll_deg = 0);
 

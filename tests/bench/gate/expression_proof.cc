@@ -9,14 +9,11 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
 #include <string>
 
 #include "hal/sim/head/shape/head_field.h"
 #include "hal/sim/noise.h"
-#include "pipeline/gate/capture_gate.h"
-#include "pipeline/workspace.h"
-#include "tests/support/head_album.h"
+#include "tests/support/gate_bench.h"
 
 namespace relievo::bench {
 namespace {
@@ -69,31 +66,14 @@ void find_glasses(Kind kind, std::uint32_t seed, Posed& posed, Random& random) {
 
 struct Proof {
   test::Album album;
-  pipeline::Workspace work{2, std::size_t{8} << 20, std::size_t{64} << 20};
-  std::optional<pipeline::CaptureGate> gate;
+  test::GateBench gate;
 
-  explicit Proof(const char* folder) : album(folder) {
-    pipeline::CaptureGateOptions options;
-    options.relief.reduction = 1;
-    auto made = pipeline::CaptureGate::open(options);
-    if (!made) fail(made.error());
-    gate.emplace(*std::move(made));
-  }
-  [[noreturn]] static void fail(const Error& error) {
-    std::fprintf(stderr, "expression_proof: %s\n", std::string(error.what.view()).c_str());
-    std::exit(1);
-  }
   pipeline::GateAnswer look(const Posed& posed, std::uint32_t seed, Random& random) {
     const test::Shot& shot = album.shoot(seed, posed.pose, test::Extra::None, posed.guise);
     test::Developing how;
     how.exposure = random.uniform(0.75, 1.4);
     how.noise_seed = random.next() >> 2;
-    const auto pair = album.develop(shot, how);
-    pipeline::GateHistory history;
-    work.output.reset();
-    auto made = pipeline::run_stage(work.context, [&](auto& c) { return gate->look({pair.left.view(), pair.right.view()}, album.calibration(), pipeline::GateTime{}, history, c); });
-    if (!made) fail(made.error());
-    return made->answer;
+    return gate.first_look(album, shot, how).answer;
   }
 };
 
@@ -120,14 +100,17 @@ void print_table(const std::array<std::array<int, 32>, kKinds>& given, int cases
 
 int run(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: expression_proof PEOPLE CASES [FIRST_SEED] [ALBUM]\n");
+    std::fprintf(stderr, "usage: expression_proof PEOPLE CASES [FIRST_SEED] [ALBUM] [MEASURES]\n");
     return 2;
   }
   const int people = std::max(1, std::atoi(argv[1])), cases = std::max(1, std::atoi(argv[2]));
   const auto first = static_cast<std::uint32_t>(argc > 3 ? std::atoi(argv[3]) : 71);
-  Proof proof(argc > 4 ? argv[4] : "");
+  Proof proof{test::Album(argc > 4 ? argv[4] : ""), test::GateBench()};
   std::FILE* measures = argc > 5 ? std::fopen(argv[5], "w") : nullptr;
-  if (argc > 5 && measures == nullptr) Proof::fail(Error{Errc::InvalidInput, "the file for the measures cannot be written"});
+  if (argc > 5 && measures == nullptr) {
+    std::fprintf(stderr, "expression_proof: the file for the measures cannot be written\n");
+    return 1;
+  }
   std::array<std::array<int, 32>, kKinds> given{};
   for (int person = 0; person < people; ++person) {
     const std::uint32_t seed = first + static_cast<std::uint32_t>(person);

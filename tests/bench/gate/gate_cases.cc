@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/gate/gate_cases.h"
 
-#include <cstdio>
-#include <cstdlib>
-#include <string>
-
 #include "hal/sim/head/head_traits.h"
 
 namespace relievo::bench {
@@ -24,20 +20,7 @@ test::Guise oily() {
   return guise;
 }
 
-[[noreturn]] void fail(const Error& error) {
-  std::fprintf(stderr, "gate_proof: %s\n", std::string(error.what.view()).c_str());
-  std::exit(1);
-}
-
 }  // namespace
-
-GateTrial::GateTrial(const char* album_folder) : album_(album_folder) {
-  pipeline::CaptureGateOptions options;
-  options.relief.reduction = 1;
-  auto made = pipeline::CaptureGate::open(options);
-  if (!made) fail(made.error());
-  gate_.emplace(*std::move(made));
-}
 
 const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int variant) {
   const bool other = variant != 0;
@@ -74,11 +57,7 @@ test::Developing GateTrial::developing(Advice fault, std::uint32_t person, hal::
 }
 
 pipeline::GateAnswer GateTrial::look(const test::Shot& shot, const test::Developing& how, pipeline::GateTime now, pipeline::GateHistory& history) {
-  const auto pair = album_.develop(shot, how);
-  work_.output.reset();
-  auto made = pipeline::run_stage(work_.context, [&](auto& c) { return gate_->look({pair.left.view(), pair.right.view()}, album_.calibration(), now, history, c); });
-  if (!made) fail(made.error());
-  return made->answer;
+  return gate_.look(album_, shot, how, now, history).answer;
 }
 
 }  // namespace relievo::bench

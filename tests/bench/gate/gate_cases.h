@@ -6,12 +6,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "hal/sim/noise.h"
-#include "pipeline/gate/capture_gate.h"
-#include "pipeline/workspace.h"
-#include "tests/support/head_album.h"
+#include "tests/support/gate_bench.h"
 
 namespace relievo::bench {
 
@@ -34,7 +31,7 @@ inline constexpr int kVariants = 2;  // ways of standing with each fault
 
 class GateTrial {
  public:
-  explicit GateTrial(const char* album_folder);
+  explicit GateTrial(const char* album_folder) : album_(album_folder) {}
   // Few places a person, so that few photographs serve many cases.
   const test::Shot& shot(const Fault& fault, std::uint32_t person, int variant);
   // Exposure and noise, and how strong the fault is where developing makes it: much too dark and bright is meant of the person's own skin.
@@ -43,8 +40,7 @@ class GateTrial {
 
  private:
   test::Album album_;
-  pipeline::Workspace work_{1, std::size_t{8} << 20, std::size_t{64} << 20};
-  std::optional<pipeline::CaptureGate> gate_;
+  test::GateBench gate_;
 };
 
 }  // namespace relievo::bench

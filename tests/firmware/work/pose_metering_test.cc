@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -24,12 +23,6 @@ constexpr std::uint32_t kPerson = 3;
 constexpr double kWindow = 1;          // white at 10 ms: eight times the face
 constexpr double kShade = 0.5;         // of the light the person has in the kiosk's own
 
-test::Album& album() {
-  static const char* folder = std::getenv("RELIEVO_ALBUM");
-  static test::Album once(folder != nullptr ? folder : "");
-  return once;
-}
-
 double grey(const std::vector<std::uint16_t>& rgb, std::size_t pixel) {
   return (rgb[3 * pixel] + rgb[3 * pixel + 1] + rgb[3 * pixel + 2]) / (3 * test::kLightUnit);
 }
@@ -43,15 +36,15 @@ std::vector<double> before_window(const std::vector<std::uint16_t>& shot, const 
 }
 
 test::LitBoard::Scene scene(const hal::sim::HeadPose& pose, double shade) {
-  const test::Shot& room = album().shoot(0, {0, 0, 0, 0, 0, 0});
-  const test::Shot& shot = album().shoot(kPerson, pose);
+  const test::Shot& room = test::shared_album().shoot(0, {0, 0, 0, 0, 0, 0});
+  const test::Shot& shot = test::shared_album().shoot(kPerson, pose);
   return {before_window(shot.left, room.left, shade), before_window(shot.right, room.right, shade), kWidth};
 }
 
 class PoseMetering : public testing::Test {
  protected:
   PoseMetering() {
-    auto made = LiveJudge::open(album().calibration());
+    auto made = LiveJudge::open(test::shared_album().calibration());
     EXPECT_TRUE(made);
     judge.emplace(*std::move(made));
     pose.emplace(grabber, session, board, pool, &*judge);
@@ -74,8 +67,8 @@ class PoseMetering : public testing::Test {
   }
   // The brightest twentieth of the person's skin between brows and mouth, as the right camera shows it: their place is known from the pose.
   double face_shown(double shade) const {
-    const test::Shot& shot = album().shoot(kPerson, standing);
-    const pipeline::StereoCalibration& c = album().calibration();
+    const test::Shot& shot = test::shared_album().shoot(kPerson, standing);
+    const pipeline::StereoCalibration& c = test::shared_album().calibration();
     const pipeline::Vec3d at = apply(c.right_from_left, {standing.right_mm, standing.down_mm, standing.distance_mm});
     const double a_mm = c.right.focal_px.x / at.z, x = c.right.centre_px.x + a_mm * at.x, y = c.right.centre_px.y + a_mm * at.y;
     std::vector<double> values;

@@ -5,51 +5,29 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "hal/sim/head/shape/head_field.h"
-#include "pipeline/workspace.h"
-#include "tests/support/head_album.h"
+#include "tests/support/gate_bench.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::Album;
 using test::Developing;
+using test::shared_album;
 using test::standing;
 
 constexpr std::uint32_t kPerson = 3;  // not one of those the limits were set with
 constexpr GateTime kFrame = std::chrono::milliseconds(66);
 
-// RELIEVO_ALBUM names a folder where photographs are kept from run to run.
-Album& album() {
-  static const char* folder = std::getenv("RELIEVO_ALBUM");
-  static Album once(folder != nullptr ? folder : "");
-  return once;
-}
-
+// One picture after the other.
 struct Rig {
-  Rig() : work(2, std::size_t{8} << 20, std::size_t{64} << 20), gate(open()) {}
-  static CaptureGate open() {
-    CaptureGateOptions options;
-    options.relief.reduction = 1;  // the album's pictures are a quarter of the rig's
-    auto made = CaptureGate::open(options);
-    EXPECT_TRUE(made);
-    return *std::move(made);
-  }
   GateAnswer look(const test::Shot& shot, const Developing& how) {
-    const hal::sim::PicturePair pair = album().develop(shot, how);
-    work.output.reset();
-    const auto look = run_stage(work.context, [&](StageContext& c) { return gate.look({pair.left.view(), pair.right.view()}, album().calibration(), now, history, c); });
-    EXPECT_TRUE(look);
+    const GateLook look = gate.look(shared_album(), shot, how, now, history);
     now += every;
-    if (!look) return {};
-    truth = test::true_head(shot, look->relief);
-    return look->answer;
+    truth = test::true_head(shot, look.relief);
+    return look.answer;
   }
-  Workspace work;
-  CaptureGate gate;
+  test::GateBench gate;
   GateHistory history;
   GateTime now{}, every = kFrame;
   test::TrueHead truth{};
@@ -135,7 +113,7 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
     for (int i = 0; i < step.pictures; ++i) {
       Developing how = step.how;
       how.noise_seed = noise++;
-      answer = rig.look(album().shoot(kPerson, step.pose, step.extra, step.guise), how);
+      answer = rig.look(shared_album().shoot(kPerson, step.pose, step.extra, step.guise), how);
       if (step.expected != Advice::None || step.reason != Advice::None) {
         EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
       }
@@ -154,7 +132,7 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
 TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
   for (const double distance_mm : {400.0, 560.0}) {
     Rig rig;
-    const GateAnswer answer = rig.look(album().shoot(kPerson, standing(distance_mm)), {});
+    const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(distance_mm)), {});
     const HeadSight& head = answer.measures.head;
     ASSERT_TRUE(head.known);
     EXPECT_NEAR(head.tip_mm.z, distance_mm - 26, 10);  // the nose before the middle of the face
@@ -165,14 +143,14 @@ TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
     EXPECT_GT(head.relief_mm, 15);
   }
   Rig rig;
-  const HeadSight turned = rig.look(album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
+  const HeadSight turned = rig.look(shared_album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
   EXPECT_NEAR(turned.yaw_deg, rig.truth.yaw_deg, 9);
 }
 
 TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
   RELIEVO_MANY_TRIALS();
   Rig a, b;
-  const test::Shot& shot = album().shoot(kPerson, standing(560));
+  const test::Shot& shot = shared_album().shoot(kPerson, standing(560));
   for (int i = 0; i < 2; ++i) {
     const GateAnswer one = a.look(shot, {}), two = b.look(shot, {});
     EXPECT_EQ(one.advice, two.advice);
@@ -186,7 +164,7 @@ TEST(CaptureGate, FastPicturesDoNotMakeARestingHeadHurry) {
   Rig rig;
   rig.every = std::chrono::milliseconds(5);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const GateAnswer answer = rig.look(album().shoot(kPerson, standing(560)), {.noise_seed = seed});
+    const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(560)), {.noise_seed = seed});
     EXPECT_EQ(answer.reason, Advice::None) << "picture " << seed << ": speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
   }
 }
@@ -195,7 +173,7 @@ TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
   Rig rig;
   rig.every = std::chrono::milliseconds(10);
   GateAnswer answer;
-  for (int i = 0; i < 12; ++i) answer = rig.look(album().shoot(kPerson, standing(560, -12 + 2.0 * i)), {.noise_seed = static_cast<std::uint64_t>(i + 1)});
+  for (int i = 0; i < 12; ++i) answer = rig.look(shared_album().shoot(kPerson, standing(560, -12 + 2.0 * i)), {.noise_seed = static_cast<std::uint64_t>(i + 1)});
   EXPECT_EQ(answer.advice, Advice::Moved);
   EXPECT_NEAR(answer.measures.speed_mm_s, 200, 60) << "a cascade's box moves in steps";
 }

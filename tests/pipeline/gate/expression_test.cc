@@ -10,9 +10,7 @@
 
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/calibrator.h"
-#include "pipeline/gate/capture_gate.h"
-#include "pipeline/workspace.h"
-#include "tests/support/head_album.h"
+#include "tests/support/gate_bench.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -24,28 +22,6 @@ using test::Guise;
 using test::standing;
 
 constexpr std::uint32_t kPerson = 8;   // not one of those the limits were set with
-
-class Watch {
- public:
-  explicit Watch(int reduction) : work_(2, std::size_t{8} << 20, std::size_t{64} << 20) {
-    CaptureGateOptions options;
-    options.relief.reduction = reduction;
-    auto made = CaptureGate::open(options);
-    EXPECT_TRUE(made);
-    if (made) gate_.emplace(*std::move(made));
-  }
-  GateAnswer look(const StereoFrame& frame, const StereoCalibration& calibration) {
-    GateHistory history;
-    work_.output.reset();
-    const auto look = run_stage(work_.context, [&](StageContext& c) { return gate_->look(frame, calibration, GateTime{}, history, c); });
-    EXPECT_TRUE(look);
-    return look ? look->answer : GateAnswer{};
-  }
-
- private:
-  Workspace work_;
-  std::optional<CaptureGate> gate_;
-};
 
 std::string figures(const GateMeasures& m) {
   char text[240];
@@ -63,13 +39,12 @@ struct Case {
 // A few cases of one person; expression_proof has the many.
 TEST(GateExpression, TellsEyesMouthAndGlassesApart) {
   RELIEVO_MANY_TRIALS();
-  test::Album album(std::getenv("RELIEVO_ALBUM") != nullptr ? std::getenv("RELIEVO_ALBUM") : "");
-  Watch watch(1);
+  test::Album& album = test::shared_album();
+  test::GateBench gate;
   hal::sim::Glasses dark;
   dark.passes = 0.12;
   for (const Case& c : {Case{"at rest", {}, Advice::None}, Case{"dark glasses", {{}, true, dark}, Advice::EyesHidden}, Case{"eyes closed, a grin", {{0, 7, 1, 0}, false, {}}, Advice::EyesClosed}}) {
-    const auto pair = album.develop(album.shoot(kPerson, standing(560), test::Extra::None, c.guise), {});
-    const GateMeasures m = watch.look({pair.left.view(), pair.right.view()}, album.calibration()).measures;
+    const GateMeasures m = gate.first_look(album, album.shoot(kPerson, standing(560), test::Extra::None, c.guise)).answer.measures;
     ASSERT_TRUE(m.head.known) << c.what;
     EXPECT_EQ(judge_expression(m, {}, Advice::None), c.expected) << c.what << ": " << figures(m);
     if (c.expected == Advice::EyesClosed) { EXPECT_GT(m.mouth.steps_mm, GateLimits{}.steps_mm); }
@@ -103,12 +78,12 @@ TEST(GateExpression, RealFaces) {
   if (data == nullptr || !fs::exists(fs::path(data) / "real_faces/face_1")) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the real faces";
   const auto calibration = calibration_of(fs::path(data) / "real_faces/calibration");
   ASSERT_TRUE(calibration);
-  Watch watch(2);   // pictures of 1024 x 1024: the small ones are about as large as a rig's
+  test::GateBench gate(2);   // pictures of 1024 x 1024: the small ones are about as large as a rig's
   for (int i = 1; i <= 5; ++i) {
     const fs::path face = fs::path(data) / "real_faces" / ("face_" + std::to_string(i));
     const auto left = hal::read_picture(face / "left.jpg"), right = hal::read_picture(face / "right.jpg");
     ASSERT_TRUE(left && right) << face;
-    const GateMeasures m = watch.look({left->view(), right->view()}, *calibration).measures;
+    const GateMeasures m = gate.first_look({left->view(), right->view()}, *calibration).answer.measures;
     ASSERT_TRUE(m.head.known) << i;
     const Advice said = judge_expression(m, {}, Advice::None);
     if (i <= 3) {
@@ -122,7 +97,7 @@ TEST(GateExpression, RealFaces) {
     const fs::path boards = fs::path(data) / "real_faces/calibration";
     const auto left = hal::read_picture(boards / ("left_0" + std::to_string(i) + ".jpg")), right = hal::read_picture(boards / ("right_0" + std::to_string(i) + ".jpg"));
     ASSERT_TRUE(left && right);
-    EXPECT_NE(watch.look({left->view(), right->view()}, *calibration).reason, Advice::None) << "board " << i;
+    EXPECT_NE(gate.first_look({left->view(), right->view()}, *calibration).answer.reason, Advice::None) << "board " << i;
   }
 }
 

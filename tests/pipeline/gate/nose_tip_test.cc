@@ -3,12 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <optional>
 
-#include "pipeline/gate/capture_gate.h"
-#include "pipeline/workspace.h"
-#include "tests/support/head_album.h"
+#include "tests/support/gate_bench.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -26,22 +22,15 @@ struct Case {
 // What is nearest to the cameras is the brow of a bowed head, its bridge or a tongue: none of them is the tip of the nose.
 TEST(NoseTip, IsNeitherBrowNorBridgeNorTongue) {
   RELIEVO_MANY_TRIALS();
-  test::Album album(std::getenv("RELIEVO_ALBUM") != nullptr ? std::getenv("RELIEVO_ALBUM") : "");
-  Workspace work(2, std::size_t{8} << 20, std::size_t{64} << 20);
-  CaptureGateOptions options;
-  options.relief.reduction = 1;
-  auto gate = CaptureGate::open(options);
-  ASSERT_TRUE(gate);
+  test::Album& album = test::shared_album();
+  test::GateBench gate;
   for (const Case& c : {Case{"bowed, the mouth open", 72, {0.2, 6.5, 2.8, 630, -20, -10}, {1, 11, 0, 0}}, Case{"bowed, a smile", 73, {9.6, 5.3, -5.3, 626, -5, -4}, {1, 0, 0.79, 0}},
                         Case{"looks up, a tongue", 31, {7.1, -7, 2.2, 542, -17, -5}, {1, 12.6, 0, 20.1}}}) {
     const test::Shot& shot = album.shoot(c.person, c.pose, test::Extra::None, {c.expression, false, {}});
-    const auto pair = album.develop(shot, {});
-    GateHistory history;
-    work.output.reset();
-    const auto look = run_stage(work.context, [&](StageContext& s) { return gate->look({pair.left.view(), pair.right.view()}, album.calibration(), GateTime{}, history, s); });
-    ASSERT_TRUE(look && look->answer.measures.head.known) << c.what;
-    const HeadSight& head = look->answer.measures.head;
-    const test::TrueHead truth = test::true_head(shot, look->relief);
+    const GateLook look = gate.first_look(album, shot);
+    const HeadSight& head = look.answer.measures.head;
+    ASSERT_TRUE(head.known) << c.what;
+    const test::TrueHead truth = test::true_head(shot, look.relief);
     const Vec3d off{head.tip_mm.x - truth.tip_mm.x, head.tip_mm.y - truth.tip_mm.y, head.tip_mm.z - truth.tip_mm.z};
     EXPECT_LT(std::hypot(off.x, off.y, off.z), kTipErrorMm) << c.what << ": off by " << off.x << " right, " << off.y << " down, " << off.z << " away";
   }
