@@ -19,6 +19,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/ui.h"
 
@@ -26,24 +27,17 @@ namespace relievo::firmware::test_bench {
 
 constexpr double kScale = 0.4, kBoardScale = 0.25;  // of the rig's pictures
 
-inline hal::sim::RigOptions small_rig(double scale = kScale) {
-  hal::sim::RigOptions rig;
-  rig.width_px = static_cast<int>(rig.width_px * scale);
-  rig.height_px = static_cast<int>(rig.height_px * scale);
-  return rig;
-}
-
-inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) { return make_hand_pairs(held_board(small_rig(kBoardScale), args), 1); }
+inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) { return make_hand_pairs(held_board(test::small_rig(kBoardScale), args), 1); }
 
 class BenchRig {
  public:
   BenchRig() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     hal::SimBoardOptions options;
-    options.simulation.rig = small_rig();
+    options.simulation.rig = test::small_rig(kScale);
     board = *hal::make_sim_board(options);
     const auto file = folder.path() / "rig.yml";
-    EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(small_rig())).has_value());
+    EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(test::small_rig(kScale))).has_value());
     const auto calibration = pipeline::read_calibration(file);
     store = *storage::open_sqlite_store(folder.path() / "store", clock, {});
     EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());

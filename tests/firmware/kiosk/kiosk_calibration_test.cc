@@ -6,27 +6,23 @@
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/small_rig.h"
 
 namespace relievo::firmware {
 namespace {
 
-hal::sim::RigOptions small_rig() {
-  hal::sim::RigOptions rig;
-  rig.width_px = rig.width_px / 2;
-  rig.height_px = rig.height_px / 2;
-  return rig;
-}
+const hal::sim::RigOptions kRig = test::small_rig(0.5);
 
 class KioskCalibrationTest : public StaffHands {
  protected:
   KioskCalibrationTest() {
     services.open_board = [](std::string_view) {
       hal::SimBoardOptions options;
-      options.simulation.rig = small_rig();
+      options.simulation.rig = kRig;
       return hal::make_sim_board(options);
     };
     services.simulated_calibration = {};
-    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> { return held_board(small_rig(), held.board); };
+    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> { return held_board(kRig, held.board); };
   }
   void open() {
     auto opened = Kiosk::open(args, services);
@@ -103,7 +99,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   {
     auto store = storage::open_sqlite_store(args.store, clock, {});
     ASSERT_TRUE(store.has_value());
-    const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(small_rig()));
+    const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(kRig));
     ASSERT_TRUE((*store)->save_calibration(now, "as the cameras stand").has_value());
     // Since this one was made, the right camera has been knocked by 3 px across the rows.
     ASSERT_TRUE((*store)->save_calibration(test::turned(now, 3 / now.right.focal_px.y, 0, 0), "before the knock").has_value());

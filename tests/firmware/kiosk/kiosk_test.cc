@@ -21,19 +21,13 @@
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
 #include "tests/support/full_store.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
 namespace {
 
-constexpr double kScale = 0.5;  // of the rig's pictures: a light test
-
-hal::sim::RigOptions small_rig() {
-  hal::sim::RigOptions rig;
-  rig.width_px = static_cast<int>(rig.width_px * kScale);
-  rig.height_px = static_cast<int>(rig.height_px * kScale);
-  return rig;
-}
+const hal::sim::RigOptions kRig = test::small_rig(0.5);
 
 class KioskTest : public KioskHands {
  protected:
@@ -42,7 +36,7 @@ class KioskTest : public KioskHands {
     args.store = folder.path() / "store";
     services.open_board = [](std::string_view) {
       hal::SimBoardOptions options;
-      options.simulation.rig = small_rig();
+      options.simulation.rig = kRig;
       return hal::make_sim_board(options);
     };
     services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
@@ -51,7 +45,7 @@ class KioskTest : public KioskHands {
     };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       const Path file = folder.path() / "rig.yml";
-      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(small_rig())));
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(kRig)));
       return pipeline::read_calibration(file);
     };
     auto opened = Kiosk::open(args, services);

@@ -15,17 +15,13 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/support/played_board.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
 namespace {
 
-hal::sim::RigOptions small_rig() {
-  hal::sim::RigOptions options;
-  options.width_px = 960;
-  options.height_px = 600;
-  return options;
-}
+const hal::sim::RigOptions kRig = test::small_rig(0.5);
 
 class ScreenshotsTest : public testing::Test {
  protected:
@@ -38,12 +34,12 @@ class ScreenshotsTest : public testing::Test {
     std::filesystem::create_directories(args.screenshots);
     services.open_board = [](std::string_view) {
       hal::SimBoardOptions options;
-      options.simulation.rig = small_rig();
+      options.simulation.rig = kRig;
       return hal::make_sim_board(options);
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
-      RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig(small_rig())));
+      RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig(kRig)));
       return pipeline::read_calibration(folder.path() / "rig.yml");
     };
   }
@@ -70,7 +66,7 @@ TEST_F(ScreenshotsTest, ARunThatEndedInTheMiddleDoesNotEndTheNextOne) {
 TEST_F(ScreenshotsTest, AClockThatIsWrongIsToldAsSuch) {
   test::PlayedWorld world;
   world.wall_shift_s = -40LL * 365 * 86'400;
-  services.open_board = [&world](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, 960, 600)); };
+  services.open_board = [&world](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kRig.width_px, kRig.height_px)); };
   const Result<void> taken = take();
   ASSERT_FALSE(taken.has_value());
   EXPECT_NE(taken.error().what.view().find("clock"), std::string_view::npos) << taken.error().what.view();

@@ -24,6 +24,7 @@
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
 #include "tests/storage/sample.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -31,12 +32,7 @@ namespace relievo::firmware {
 using ui::StaffPage;
 using ui::StaffRole;
 
-inline hal::sim::RigOptions tiny_rig() {
-  hal::sim::RigOptions rig;
-  rig.width_px /= 8;
-  rig.height_px /= 8;
-  return rig;
-}
+inline hal::sim::RigOptions tiny_rig() { return test::small_rig(0.125); }
 
 // Another board with what a test changes: people stand before its cameras, its time moves by hand, its stick has faults.
 class ChangedBoard final : public hal::Board {

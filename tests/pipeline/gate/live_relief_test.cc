@@ -13,6 +13,7 @@
 #include "pipeline/gate/relief/small_pair.h"
 #include "pipeline/workspace.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/small_rig.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -43,9 +44,7 @@ class Plates final : public sim::Scene {
 struct Photographed {
   Photographed() {
     ThreadPool pool(2);
-    sim::RigOptions options;
-    options.width_px = 480, options.height_px = 300;
-    rig = sim::make_rig(options);
+    rig = sim::make_rig(test::small_rig(0.25));
     pictures = sim::render_pair(scene, rig, {}, 3, pool);
     calibration = test::true_calibration(rig);
   }

@@ -14,6 +14,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::pipeline {
@@ -97,10 +98,7 @@ TEST(RangeImage, StandsInTheHeadFrameWhereverTheFaceWas) {
 
 // The whole way, judged by the surface the pictures were drawn from.
 TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
-  hal::sim::RigOptions rig_options;
-  rig_options.width_px = 864;
-  rig_options.height_px = 540;
-  const hal::sim::SimRig rig = hal::sim::make_rig(rig_options);
+  const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(0.45));
   relievo::test::StageBench bench;
   StageContext& c = bench.context;
   hal::sim::HeadPose pose;

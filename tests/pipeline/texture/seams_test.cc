@@ -16,6 +16,7 @@
 #include "tests/support/colour_difference.h"
 #include "tests/support/proof.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/small_rig.h"
 #include "tests/support/stage_bench.h"
 #include "tests/support/texture_seams.h"
 
@@ -70,10 +71,7 @@ TEST(TextureSeams, TheMeasureSeesAStep) {
 class SeamsOfAFace : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    hal::sim::RigOptions options;
-    options.width_px = 864;
-    options.height_px = 540;
-    rig = new hal::sim::SimRig(hal::sim::make_rig(options));
+    rig = new hal::sim::SimRig(hal::sim::make_rig(test::small_rig(0.45)));
     ThreadPool pool(2);
     const auto head = hal::sim::make_head(hal::sim::traits_of(3), pool);
     scene = hal::sim::make_head_scene(head, {}, pool).release();

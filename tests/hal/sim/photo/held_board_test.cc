@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/photo/held_board.h"
+#include "tests/support/small_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,7 @@ namespace {
 
 using namespace relievo::hal::sim;
 
-RigOptions small() {
-  RigOptions rig;
-  rig.width_px = 480;
-  rig.height_px = 300;
-  return rig;
-}
+const RigOptions kRig = test::small_rig(0.25);
 
 SensorOptions quiet() {
   SensorOptions sensor;
@@ -39,7 +35,7 @@ int level(const hal::Picture& picture, Pixel p) {
 }
 
 TEST(HeldBoard, IsSeenWhereTheRigProjectsIt) {
-  HeldBoard board(small(), {}, quiet(), 2);
+  HeldBoard board(kRig, {}, quiet(), 2);
   const BoardPose pose = at(0);
   const auto pair = board.photograph(pose, pose, 1);
   for (int row = -1; row < 7; ++row)
@@ -54,7 +50,7 @@ TEST(HeldBoard, IsSeenWhereTheRigProjectsIt) {
 }
 
 TEST(HeldBoard, ALineBetweenDarkAndBrightIsInTheMiddleOfItsBlur) {
-  HeldBoard board(small(), {}, quiet(), 2);
+  HeldBoard board(kRig, {}, quiet(), 2);
   const BoardPose pose = at(0, 0);
   BoardPose closed = pose;
   closed.origin_mm.x += 8;  // 10 px
@@ -72,8 +68,8 @@ TEST(HeldBoard, ALineBetweenDarkAndBrightIsInTheMiddleOfItsBlur) {
 
 TEST(HeldBoard, TheSameSeedGivesTheSamePicturesWithAnyNumberOfThreads) {
   SensorOptions sensor;
-  HeldBoard one(small(), {}, sensor, 1);
-  HeldBoard two(small(), {}, sensor, 2);
+  HeldBoard one(kRig, {}, sensor, 1);
+  HeldBoard two(kRig, {}, sensor, 2);
   const auto a = one.photograph(at(-10), at(-9), 5);
   const auto b = two.photograph(at(-10), at(-9), 5);
   const auto c = two.photograph(at(-10), at(-9), 6);
@@ -87,7 +83,7 @@ TEST(HeldBoard, TheSameSeedGivesTheSamePicturesWithAnyNumberOfThreads) {
 TEST(HeldBoard, NoiseHasNoStripes) {
   SensorOptions sensor;
   sensor.gamma = false;
-  HeldBoard board(small(), {}, sensor, 2);
+  HeldBoard board(kRig, {}, sensor, 2);
   BoardPose away = at(0);
   away.origin_mm.x += 2000;
   const auto picture = board.photograph(away, away, 3).left;
@@ -107,7 +103,7 @@ TEST(HeldBoard, NoiseHasNoStripes) {
 }
 
 TEST(HeldBoard, BesideThePicturesItIsNotSeen) {
-  HeldBoard board(small(), {}, quiet(), 2);
+  HeldBoard board(kRig, {}, quiet(), 2);
   BoardPose away = at(0);
   away.origin_mm.x += 2000;
   const auto pair = board.photograph(away, away, 1);
