@@ -1,17 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The camera over a kernel that fails in every call, with every number a driver may give.
-#include "hal/linux/v4l2_camera.h"
-
-#include <gtest/gtest.h>
-
+// Pictures: as the driver stamped and numbered them, until the camera is unplugged.
 #include <cerrno>
-#include <memory>
+#include <vector>
 
 #include <linux/videodev2.h>
 
-#include "tests/support/kernel/v4l2_fake_kernel.h"
+#include "tests/hal/linux/v4l2_bench.h"
 
 namespace relievo::hal {
 namespace {
@@ -19,46 +15,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-const CaptureMode kMode{64, 48, microseconds(4000)};
-
-class V4l2CameraTest : public testing::Test {
- protected:
-  ~V4l2CameraTest() override {
-    camera.reset();
-    EXPECT_EQ(kernel.open_files, 0) << "the device stays open";
-    EXPECT_EQ(kernel.mapped, 0) << "a buffer stays mapped";
-    EXPECT_TRUE(kernel.complaints.empty()) << kernel.complaints.front();
-  }
-  void make(V4l2CameraOptions options = {"/dev/v4l/by-path/left", {}, 0, true}) {
-    camera = std::make_unique<V4l2Camera>(std::move(options), kernel, kernel.clock);
-  }
-  Errc error_of_open() {
-    if (!camera) make();
-    const auto opened = camera->open(kMode);
-    EXPECT_FALSE(opened);
-    if (opened) return Errc::Cancelled;
-    EXPECT_EQ(camera->state(), Camera::State::Closed);
-    EXPECT_EQ(kernel.open_files, 0);
-    EXPECT_EQ(kernel.mapped, 0);
-    EXPECT_EQ(opened.error().where(), "/dev/v4l/by-path/left");
-    return opened.error().code;
-  }
-  void run() {
-    make();
-    const auto opened = camera->open(kMode);
-    ASSERT_TRUE(opened) << opened.error().what.view();
-    ASSERT_TRUE(camera->start());
-  }
-  Result<Frame> next() { return camera->next_frame(kernel.clock.now() + milliseconds(100)); }
-  Errc error_of_next() {
-    const auto frame = next();
-    EXPECT_FALSE(frame);
-    return frame ? Errc::Cancelled : frame.error().code;
-  }
-
-  FakeKernel kernel;
-  std::unique_ptr<V4l2Camera> camera;
-};
+using V4l2CameraTest = V4l2Bench;
 
 TEST_F(V4l2CameraTest, GivesTheDriversOwnMemoryStampAndNumber) {
   run();
@@ -147,126 +104,6 @@ TEST_F(V4l2CameraTest, StopAndStartTakesEveryBufferAlong) {
     EXPECT_EQ(kernel.queued(), 3);
   }
   EXPECT_EQ(kernel.queued(), 4);
-}
-
-TEST_F(V4l2CameraTest, AnotherCameraThanTheCalibratedOneIsRefused) {
-  make({"/dev/v4l/by-path/left", "B2", 0, true});
-  EXPECT_EQ(error_of_open(), Errc::InvalidInput);
-  kernel.serial = "B2";
-  EXPECT_TRUE(camera->open(kMode));
-}
-
-TEST_F(V4l2CameraTest, SaysWhichCameraItIsAndAnewWhenItIsOpenedAgain) {
-  make({"/dev/v4l/by-path/left", {}, 0, true});
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(camera->serial(), "A1");
-  EXPECT_EQ(camera->socket(), "/dev/v4l/by-path/left");
-  camera->close();
-  kernel.serial = "B2";
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(camera->serial(), "B2");
-  camera->close();
-  make({"/dev/video0", {}, 0, true});
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(camera->socket(), "") << "another camera's name after another start";
-}
-
-TEST_F(V4l2CameraTest, DevicesThatAreNoUseAreRefusedInClearWords) {
-  struct Case {
-    std::function<void(FakeKernel&)> make;
-    Errc code;
-    const char* word;
-  };
-  const Case cases[] = {
-      {[](FakeKernel& k) { k.is_camera = false; }, Errc::Unsupported, "index0"},
-      {[](FakeKernel& k) { k.several_planes = true; }, Errc::Unsupported, "planes"},
-      {[](FakeKernel& k) { k.streams = false; }, Errc::Unsupported, "stream"},
-      {[](FakeKernel& k) { k.interlaced = true; }, Errc::Unsupported, "interlaced"},
-      {[](FakeKernel& k) { k.has_timings = k.interlaced_signal = true; }, Errc::Unsupported, "interlaced"},
-      {[](FakeKernel& k) { k.no_signal = true; }, Errc::Timeout, "signal"},
-      {[](FakeKernel& k) { k.width_px = 128; }, Errc::Unsupported, "size"},
-      {[](FakeKernel& k) { k.formats = {V4L2_PIX_FMT_H264}; }, Errc::Unsupported, "format"},
-      {[](FakeKernel& k) { k.formats.clear(); }, Errc::Unsupported, "format"},
-      {[](FakeKernel& k) { k.most_buffers = 1; }, Errc::OutOfMemory, "memory"},
-  };
-  for (const Case& c : cases) {
-    FakeKernel spoilt;
-    c.make(spoilt);
-    V4l2Camera one({"x", {}, 0, true}, spoilt, spoilt.clock);
-    const auto opened = one.open(kMode);
-    ASSERT_FALSE(opened) << c.word;
-    EXPECT_EQ(opened.error().code, c.code) << c.word;
-    EXPECT_NE(opened.error().what.view().find(c.word), std::string_view::npos) << opened.error().what.view();
-    EXPECT_EQ(spoilt.open_files + spoilt.mapped, 0) << c.word;
-  }
-}
-
-TEST_F(V4l2CameraTest, InputsWithTimingsOnlyWorkAsWell) {
-  kernel.has_timings = true;
-  run();
-  EXPECT_EQ(kernel.calls(KernelCall::SetTimings), 1);
-  EXPECT_EQ(kernel.calls(KernelCall::SetInterval), 0);
-  kernel.expose({});
-  EXPECT_TRUE(next());
-}
-
-TEST_F(V4l2CameraTest, ADriverWithoutInputsOrIntervalsWorksAsWell) {
-  kernel.fail(KernelCall::GetInput, ENOTTY);
-  kernel.fail(KernelCall::GetInterval, ENOTTY);
-  run();
-  EXPECT_EQ(kernel.calls(KernelCall::SetInterval), 0);
-}
-
-TEST_F(V4l2CameraTest, TakesTheBestFormatOrTheOneAskedFor) {
-  kernel.formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_H264, V4L2_PIX_FMT_SGBRG8};
-  run();
-  kernel.expose({});
-  EXPECT_EQ(next()->raw().format, (RawFormat{RawCoding::Bits8, ColourFilter::Gbrg}));
-  camera.reset();
-  make({"/dev/v4l/by-path/left", {}, V4L2_PIX_FMT_GREY, true});
-  ASSERT_TRUE(camera->open(kMode) && camera->start());
-  kernel.expose({});
-  EXPECT_EQ(next()->raw().format, RawFormat{});
-}
-
-TEST_F(V4l2CameraTest, TheExternalTriggerIsSetWhereTheDriverHasIt) {
-  make();
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(kernel.set_controls.count(V4L2_CID_USER_BASE + 0x1010), 1U);
-  camera.reset();
-  kernel.set_controls.clear();
-  make({"/dev/v4l/by-path/left", {}, 0, false});
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(kernel.set_controls.count(V4L2_CID_USER_BASE + 0x1010), 0U);
-  camera.reset();
-  kernel.trigger_control = "Trigger Happy Filter";
-  make();
-  EXPECT_TRUE(camera->open(kMode));
-}
-
-TEST_F(V4l2CameraTest, ExposureAndGainGoToTheSensorAndTheAutomaticsEnd) {
-  make();
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(kernel.set_controls[V4L2_CID_EXPOSURE_ABSOLUTE], 40) << "4 ms in units of 0.1 ms";
-  const auto limits = camera->exposure_limits();
-  ASSERT_TRUE(limits);
-  EXPECT_EQ(limits->least, (Exposure{microseconds(100), 1}));
-  EXPECT_EQ(limits->most, (Exposure{microseconds(500'000), kGainSpan}));
-  ASSERT_TRUE(camera->set_exposure({microseconds(8000), kGainSpan}));
-  EXPECT_EQ(kernel.set_controls[V4L2_CID_EXPOSURE_AUTO], V4L2_EXPOSURE_MANUAL);
-  EXPECT_EQ(kernel.set_controls[V4L2_CID_EXPOSURE_ABSOLUTE], 80);
-  EXPECT_EQ(kernel.set_controls[V4L2_CID_GAIN], 255);
-  ASSERT_TRUE(camera->set_exposure({microseconds(8000), 1}));
-  EXPECT_EQ(kernel.set_controls[V4L2_CID_GAIN], 1);
-  EXPECT_EQ(camera->set_exposure({microseconds(10), 1}).error().code, Errc::InvalidInput);
-  EXPECT_EQ(camera->set_exposure({microseconds(8000), 99}).error().code, Errc::InvalidInput);
-}
-
-TEST_F(V4l2CameraTest, ACameraWithoutControlsOpensAllTheSame) {
-  kernel.has_exposure = false;
-  make();
-  ASSERT_TRUE(camera->open(kMode));
-  EXPECT_EQ(camera->set_exposure({microseconds(4000), 1}).error().code, Errc::Unsupported);
 }
 
 TEST_F(V4l2CameraTest, TimeStampsOfNoKnownClockAreRefusedAndTheBufferGoesBack) {
