@@ -7,6 +7,7 @@
 
 #include "pipeline/match/rectify/rectified_geometry.h"
 #include "pipeline/match/region/three_terms.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 constexpr int kCell = 8;               // samples between places that go through the lens one by one
 constexpr double kStrangeMm = 8;       // off the plane: hair, a hand, a frame of glasses
 constexpr int kLeastPoints = 12;
-
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // How far the part of the face lies behind the tip of the nose: level + across * right + slope * down.
 struct Plane { double level = 0, across = 0, slope = 0; bool known = false; };
@@ -30,8 +29,7 @@ Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& bo
       for (double right = box.right0_mm; right <= box.right1_mm; right += step) {
         const FacePlace place = place_on(relief, head, right, down);
         if (!place.inside || !relief.known(place.x, place.y)) continue;
-        const Vec3d p = relief.point(place.x, place.y), d{p.x - head.tip_mm.x, p.y - head.tip_mm.y, p.z - head.tip_mm.z};
-        const double behind = dot(d, head.away);
+        const double behind = dot(minus(relief.point(place.x, place.y), head.tip_mm), head.away);
         if (plane.known ? std::abs(behind - plane.level - plane.across * right - plane.slope * down) > kStrangeMm : behind < -20 || behind > 60) continue;
         terms.add({1, right, down}, behind);
         ++count;

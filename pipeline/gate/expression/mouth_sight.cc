@@ -8,6 +8,8 @@
 #include <functional>
 #include <numbers>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -32,8 +34,6 @@ constexpr double kThickMm = 2.5;                       // thicker than the line 
 constexpr double kLostMm = 9;                          // so wide the middle of the line may be too faint to be followed
 constexpr double kCornerShare = 0.3;                   // of the line in the middle
 constexpr std::size_t kRows = 128;
-
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Luminance from top to bottom of a strip, as shares of the skin's.
 struct Profile {
@@ -153,7 +153,7 @@ bool behind(const FacePhoto& photo, double down_mm, double& mm) {
     const FacePlace place = place_on(photo.relief, photo.head, right, down_mm);
     if (!place.inside || !photo.relief.known(place.x, place.y)) continue;
     const Vec3d p = photo.relief.point(place.x, place.y);
-    sum += dot({p.x - photo.head.tip_mm.x, p.y - photo.head.tip_mm.y, p.z - photo.head.tip_mm.z}, photo.head.away);
+    sum += dot(minus(p, photo.head.tip_mm), photo.head.away);
     ++count;
   }
   mm = count > 0 ? sum / count : 0;

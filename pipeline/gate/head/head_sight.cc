@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "pipeline/gate/head/mirror_plane.h"
 #include "pipeline/gate/head/nose_tip.h"
 #include "pipeline/match/region/three_terms.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -24,10 +26,6 @@ constexpr double kSettledMm = 6;           // a tip found anew within that of th
 constexpr int kRounds = 3;                 // of that
 constexpr double kLeastNoseMm = 10;        // a nose stands out further
 constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3d mix(double s, const Vec3d& a, double t, const Vec3d& b) { return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z}; }
 
 std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
   std::pmr::vector<Vec3d> points(&context.scratch);
@@ -44,8 +42,8 @@ std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, Sta
   return points;
 }
 
-// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares, twice: the second time without
-// what the first calls strange.
+// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares, three times: the later ones
+// without what the one before calls strange.
 struct FaceForm {
   double level = 0, slope = 0, bend = 0;
   bool known = false;
@@ -93,7 +91,8 @@ void measure_cover(const Relief& relief, const FaceForm& form, HeadSight& head) 
     for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
       const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
       if (u * u + v * v > 1) continue;
-      const Vec3d guess = minus(head.tip_mm, mix(-1, mix(right, head.right, down, head.down), -std::max(0.0, form.behind(right, down)), head.away));
+      const Vec3d level = along(along(head.tip_mm, right, head.right), down, head.down);
+      const Vec3d guess = along(level, std::max(0.0, form.behind(right, down)), head.away);
       const Vec2d at = relief.pixel(guess);
       const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       ++all;
@@ -112,12 +111,8 @@ void measure_cover(const Relief& relief, const FaceForm& form, HeadSight& head) 
 // Axes of a head whose mirror plane this is, upright but for its roll.
 void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadSight& head) {
   head.right = normal_of(plane, axes);
-  const double along = dot(axes.down, head.right);
-  head.down = mix(1, axes.down, -along, head.right);
-  const double length = std::sqrt(dot(head.down, head.down));
-  head.down = mix(1 / length, head.down, 0, head.down);
-  head.away = {head.right.y * head.down.z - head.right.z * head.down.y, head.right.z * head.down.x - head.right.x * head.down.z,
-               head.right.x * head.down.y - head.right.y * head.down.x};
+  head.down = unit(along(axes.down, -dot(axes.down, head.right), head.right));
+  head.away = cross(head.right, head.down);
 }
 
 // What follows from the tip and the axes. False where no face can be fitted.
@@ -156,8 +151,7 @@ void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& contex
     HeadSight again = head;
     FaceForm form_again;
     if (!tip_of_profile(relief, hint, head, context, again.tip_mm)) return;
-    const Vec3d moved = minus(again.tip_mm, head.tip_mm);
-    const bool settled = dot(moved, moved) < kSettledMm * kSettledMm;
+    const bool settled = length(minus(again.tip_mm, head.tip_mm)) < kSettledMm;
     if (!(settled ? fit_face(points_about(relief, again.tip_mm, context), again, form_again) : measure_about(relief, context, again, form_again))) return;
     head = again;
     form = form_again;
@@ -180,8 +174,7 @@ HeadSight measure_head(const Relief& relief, const HeadHint& hint, StageContext&
 }
 
 FacePlace place_on(const Relief& relief, const HeadSight& head, double right_mm, double down_mm) {
-  Vec3d p = {head.tip_mm.x + right_mm * head.right.x + down_mm * head.down.x, head.tip_mm.y + right_mm * head.right.y + down_mm * head.down.y,
-             head.tip_mm.z + right_mm * head.right.z + down_mm * head.down.z};
+  Vec3d p = along(along(head.tip_mm, right_mm, head.right), down_mm, head.down);
   FacePlace place;
   for (int round = 0; round < 3; ++round) {  // along the line of sight onto the surface
     const Vec2d at = relief.pixel(p);
@@ -189,7 +182,7 @@ FacePlace place_on(const Relief& relief, const HeadSight& head, double right_mm,
     place.inside = relief.inside(place.x, place.y);
     if (!place.inside || !relief.known(place.x, place.y)) return place;
     const double behind = dot(minus(relief.point(place.x, place.y), p), head.away);
-    p = mix(1, p, behind, head.away);
+    p = along(p, behind, head.away);
   }
   return place;
 }

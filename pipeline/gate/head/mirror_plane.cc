@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr double kUprightDeg = 7;    // heads are mostly upright: one leaning by
 // Of a turned head's own plane a fifth of the images falls where nothing is known, of one that sends the face away most.
 constexpr double kMostUnknown = 0.35, kPriceOfUnknown = 100;
 constexpr double kMostOffsetMm = 15;  // of a head's mirror plane from the tip of its nose
-
-Vec3d sum(const Vec3d& a, double s, const Vec3d& b) { return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3d unit(const Vec3d& a) { return sum({}, 1 / std::sqrt(dot(a, a)), a); }
-Vec3d cross(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 struct Search {
   const Relief& relief;
@@ -40,8 +37,7 @@ struct Search {
     int count = 0, unknown = 0;
     for (std::size_t i = 0; i < points.size(); i += every, ++count) {
       const Vec3d& p = points[i];
-      const double away = (p.x - tip.x) * n.x + (p.y - tip.y) * n.y + (p.z - tip.z) * n.z - plane.offset_mm;
-      const Vec3d image = sum(p, -2 * away, n);
+      const Vec3d image = along(p, -2 * (dot(minus(p, tip), n) - plane.offset_mm), n);
       const Vec2d at = relief.pixel(image);
       const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       double off = limit_mm / 3;
@@ -82,15 +78,15 @@ MirrorPlane refine(const Search& search, MirrorPlane best, std::array<double, 3>
 HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm) {
   HeadAxes axes;
   axes.away = unit({at.x - baseline_mm / 2, at.y, at.z});
-  axes.right = unit(sum({1, 0, 0}, -axes.away.x, axes.away));
+  axes.right = unit(along({1, 0, 0}, -axes.away.x, axes.away));
   axes.down = cross(axes.away, axes.right);
   return axes;
 }
 
 Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes) {
   const double yaw = plane.yaw_deg * kDegree, roll = plane.roll_deg * kDegree;
-  const Vec3d turned = sum(sum({}, std::cos(yaw), axes.right), std::sin(yaw), axes.away);
-  return sum(sum({}, std::cos(roll), turned), -std::sin(roll), axes.down);
+  const Vec3d turned = along(scaled(axes.right, std::cos(yaw)), std::sin(yaw), axes.away);
+  return along(scaled(turned, std::cos(roll)), -std::sin(roll), axes.down);
 }
 
 std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points, const Vec3d& tip, const HeadAxes& axes, double limit_mm) {

@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/match/region/three_terms.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -29,10 +32,6 @@ constexpr double kTipMm = 8;               // about the peak,
 constexpr std::ptrdiff_t kTipPoints = 10;  // the foremost so many make the tip
 constexpr double kNoseMm = 8;              // a peak stands out before the corner below it by that
 constexpr double kCornerMm = 18;           // which lies so far below it at most
-
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec3d sum(const Vec3d& a, double s, const Vec3d& b) { return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z}; }
 
 struct PixelBox {
   int x0, x1, y0, y1;
@@ -59,8 +58,8 @@ struct HeldAxes {
   Vec3d right, down, out;
   explicit HeldAxes(const HeadSight& head) : right(head.right) {
     const double pitch = head.pitch_deg * std::numbers::pi / 180;
-    down = sum(sum({}, std::cos(pitch), head.down), std::sin(pitch), head.away);
-    out = sum(sum({}, -std::cos(pitch), head.away), std::sin(pitch), head.down);
+    down = along(scaled(head.down, std::cos(pitch)), std::sin(pitch), head.away);
+    out = along(scaled(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
   }
   NosePoint of(const Vec3d& d) const { return {dot(d, right), dot(d, down), dot(d, out)}; }
 };
@@ -119,16 +118,18 @@ double midline_at(std::span<const NosePoint> points, double midline_mm, double d
   return midline_mm + std::clamp(-(*k)[1] / (2 * (*k)[2]), -kRidgeHalfMm, kRidgeHalfMm);
 }
 
-// The mean of the foremost points about the peak: the mean of all would lie under the skin.
-NosePoint foremost(std::span<NosePoint> points, double midline_mm, double down_mm) {
+struct NoseEnd { double down = 0, out = 0; };
+
+// About the peak: the mean of the foremost points, since that of all would lie under the skin. Nothing where there are none.
+std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, double down_mm) {
   const auto about = [&](const NosePoint& p) { return std::hypot(p.right - midline_mm, p.down - down_mm) < kTipMm; };
   const auto end = std::partition(points.begin(), points.end(), about);
   const auto count = std::min<std::ptrdiff_t>(kTipPoints, end - points.begin());
+  if (count == 0) return std::nullopt;
   std::nth_element(points.begin(), points.begin() + count - 1, end, [](const NosePoint& a, const NosePoint& b) { return a.out > b.out; });
-  NosePoint mean{0, 0, 0};
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const NosePoint& p = points[static_cast<std::size_t>(i)];
-    mean.right += p.right / static_cast<double>(count), mean.down += p.down / static_cast<double>(count), mean.out += p.out / static_cast<double>(count);
+  NoseEnd mean;
+  for (const NosePoint& p : points.first(static_cast<std::size_t>(count))) {
+    mean.down += p.down / static_cast<double>(count), mean.out += p.out / static_cast<double>(count);
   }
   return mean;
 }
@@ -200,8 +201,9 @@ bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadSight&
     if (peak < 0) return false;
     midline = std::clamp(midline_at(points, midline, Profile::down(peak)), -kNoseAsideMm, kNoseAsideMm);
   }
-  const NosePoint at = foremost(points, midline, Profile::down(peak));
-  tip = sum(sum(sum(head.tip_mm, midline, axes.right), at.down, axes.down), at.out, axes.out);
+  const std::optional<NoseEnd> at = foremost(points, midline, Profile::down(peak));
+  if (!at) return false;
+  tip = along(along(along(head.tip_mm, midline, axes.right), at->down, axes.down), at->out, axes.out);
   return true;
 }
 

@@ -12,6 +12,7 @@
 
 namespace relievo::pipeline {
 
+// By the hint alone. False where the most of the box about it is not known, or is not as wide as a face.
 bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context, Vec3d& tip);
 
 // Asks of `head` the axes, the pitch and a tip that may be wrong; the new one lies on the surface within kNoseAsideMm of its mirror plane.

@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 namespace {
-
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3d scaled(const Vec3d& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-Vec3d unit(const Vec3d& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 
 Vec2d undistorted(const CameraIntrinsics& camera, Vec2d pixel) {
   const double* k = camera.distortion;
@@ -79,19 +74,18 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
                          RectifiedPair& pair) {
   const RigidTransform left_from_right = inverse(calibration.right_from_left);
   const Vec3d baseline = left_from_right.translation_mm;  // right camera's centre, left frame
-  const double length = std::sqrt(dot(baseline, baseline));
+  const double baseline_mm = length(baseline);
   // Sensors that lie on their side have the baseline along y, either way: the rows of the window are the
   // baseline's, so the window stands upright as the people do.
   const double sideways = std::hypot(baseline.x, baseline.y);
-  if (!(length > 1) || sideways < 0.5 * length)
+  if (!(baseline_mm > 1) || sideways < 0.5 * baseline_mm)
     return Error{Errc::InvalidInput, "the cameras must stand beside each other, not behind"};
   if (baseline.x <= 0 && -baseline.x >= std::abs(baseline.y))
     return Error{Errc::InvalidInput, "the right camera must stand to the right of the left one: are the cameras swapped?"};
-  const Vec3d x = scaled(baseline, 1 / length);
+  const Vec3d x = scaled(baseline, 1 / baseline_mm);
   const Vec3d right_axis = apply(left_from_right.rotation, {0, 0, 1});
   Vec3d z = {right_axis.x, right_axis.y, right_axis.z + 1};
-  const double along = dot(z, x);
-  z = unit({z.x - along * x.x, z.y - along * x.y, z.z - along * x.z});
+  z = unit(along(z, -dot(z, x), x));
   const Vec3d y = cross(z, x);
   pair.rectified_from_left = {{x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}};
   // rectified_from_right = rectified_from_left * left_from_right
@@ -105,7 +99,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
     pair.rectified_from_right.m[3 * row + 2] = q.z;
   }
   pair.right_from_left = calibration.right_from_left;
-  pair.baseline_mm = length;
+  pair.baseline_mm = baseline_mm;
   pair.near_mm = options.near_mm;
   pair.far_mm = options.far_mm;
   pair.focal_px = (calibration.left.focal_px.x + calibration.left.focal_px.y +
