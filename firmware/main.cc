@@ -120,13 +120,7 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
 
 // A hand's pose in the world of the simulated rig.
 hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& board) {
-  using hal::sim::radians;
-  using hal::sim::rotation;
-  hal::sim::BoardPose pose;
-  pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
-  const hal::sim::Vec3 middle{0.5 * (board.corners_x - 1) * board.square_mm, 0.5 * (board.corners_y - 1) * board.square_mm, 0};
-  pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
-  return pose;
+  return hal::sim::HeldPlace{held.right_mm, held.down_mm, held.distance_mm, held.yaw_deg, held.pitch_deg, held.roll_deg}.pose(board);
 }
 
 Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {

@@ -18,13 +18,7 @@ inline HeldBoard held_board(const hal::sim::RigOptions& rig, const BoardArgs& ar
   sensor.grey = true;
   const auto board = std::make_shared<hal::sim::HeldBoard>(rig, pattern, sensor, 2);
   const auto pose_of = [pattern](const HeldPose& held) {
-    using hal::sim::radians;
-    using hal::sim::rotation;
-    hal::sim::BoardPose pose;
-    pose.world_from_board = rotation(0, -radians(held.yaw_deg), 0) * (rotation(radians(held.pitch_deg), 0, 0) * rotation(0, 0, radians(held.roll_deg)));
-    const hal::sim::Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
-    pose.origin_mm = hal::sim::Vec3{held.right_mm, held.down_mm, held.distance_mm} - pose.world_from_board * middle;
-    return pose;
+    return hal::sim::HeldPlace{held.right_mm, held.down_mm, held.distance_mm, held.yaw_deg, held.pitch_deg, held.roll_deg}.pose(pattern);
   };
   return [board, pose_of](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
     auto pair = board->photograph(pose_of(opened), pose_of(closed), number);

@@ -145,6 +145,14 @@ class HeldBoard::Shot {
   int left_ = 1'000'000, right_ = -1'000'000, top_ = 1'000'000, bottom_ = -1'000'000;
 };
 
+BoardPose HeldPlace::pose(const BoardPattern& pattern) const {
+  const Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
+  BoardPose pose;
+  pose.world_from_board = rotation(0, -radians(yaw_deg), 0) * (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
+  pose.origin_mm = Vec3{right_mm, down_mm, distance_mm} - pose.world_from_board * middle;
+  return pose;
+}
+
 HeldBoard::HeldBoard(const RigOptions& rig, const BoardPattern& pattern, const SensorOptions& sensor, int threads)
     : rig_(make_rig(rig)), pattern_(pattern), print_(pattern), sensor_(sensor), pool_(threads) {
   prepare(rig_.left, left_);

@@ -18,6 +18,14 @@
 
 namespace relievo::hal::sim {
 
+// The board's middle in the world, mm. Turned by roll about the line of sight (clockwise in the picture), then by pitch (upper
+// edge nearer), then by yaw (left edge nearer).
+struct HeldPlace {
+  double right_mm = 0, down_mm = 0, distance_mm = 560;
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+  BoardPose pose(const BoardPattern& pattern) const;
+};
+
 class HeldBoard {
  public:
   // Options and pattern have been checked. `threads` counts the caller.

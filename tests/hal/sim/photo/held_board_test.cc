@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/photo/held_board.h"
-#include "tests/support/small_rig.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/small_rig.h"
 
 namespace relievo::tests {
 namespace {
@@ -32,6 +33,18 @@ BoardPose at(double right_mm, double about_y = 0.3) {
 int level(const hal::Picture& picture, Pixel p) {
   return std::to_integer<int>(picture.bytes[static_cast<std::size_t>(std::lround(p.y)) * static_cast<std::size_t>(picture.width_px) +
                                             static_cast<std::size_t>(std::lround(p.x))]);
+}
+
+TEST(HeldBoard, IsHeldAsSaid) {
+  const BoardPattern pattern;
+  const double right = (pattern.corners_x - 1) * pattern.square_mm, down = (pattern.corners_y - 1) * pattern.square_mm;
+  const auto depth = [&](const HeldPlace& place, double x, double y) { return place.pose(pattern).to_world({x, y, 0}).z; };
+  const Vec3 middle = HeldPlace{30, -20, 600, 10, 20, 30}.pose(pattern).to_world({right / 2, down / 2, 0});
+  EXPECT_NEAR(length(middle - Vec3{30, -20, 600}), 0, 1e-9);
+  const HeldPlace yaw{0, 0, 600, 10, 0, 0}, pitch{0, 0, 600, 0, 10, 0}, roll{0, 0, 600, 0, 0, 10};
+  EXPECT_LT(depth(yaw, 0, down / 2), depth(yaw, right, down / 2)) << "left edge nearer";
+  EXPECT_LT(depth(pitch, right / 2, 0), depth(pitch, right / 2, down)) << "upper edge nearer";
+  EXPECT_GT(roll.pose(pattern).to_world({right, down / 2, 0}).y, 0) << "clockwise in the picture";
 }
 
 TEST(HeldBoard, IsSeenWhereTheRigProjectsIt) {

@@ -13,15 +13,8 @@
 namespace relievo::tests {
 
 inline hal::sim::BoardPose pose_of(const BoardAt& at, const pipeline::BoardPattern& pattern) {
-  using hal::sim::radians;
-  using hal::sim::rotation;
-  hal::sim::BoardPose pose;
-  pose.world_from_board = rotation(0, -radians(at.yaw_deg), 0) *
-                          (rotation(radians(at.pitch_deg), 0, 0) * rotation(0, 0, radians(at.roll_deg)));
-  const hal::sim::Vec3 middle{0.5 * (pattern.columns - 1) * pattern.square_mm,
-                              0.5 * (pattern.rows - 1) * pattern.square_mm, 0};
-  pose.origin_mm = hal::sim::Vec3{at.right_mm, at.down_mm, at.distance_mm} - pose.world_from_board * middle;
-  return pose;
+  const hal::sim::HeldPlace place{at.right_mm, at.down_mm, at.distance_mm, at.yaw_deg, at.pitch_deg, at.roll_deg};
+  return place.pose(hal::sim::BoardPattern{pattern.columns, pattern.rows, pattern.square_mm});
 }
 
 class HeldBoardPictures {
