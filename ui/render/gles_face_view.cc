@@ -13,7 +13,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kDistanceMm = 640;     // of the viewer: a face is seen like this across a table
-constexpr float kSeenHeightMm = 250;   // of the window, at zoom 1
+constexpr float kSeenHeightMm = 272;   // of the window, at zoom 1: a face that is turned or nods stays inside
 constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
 constexpr int kMostSidePx = 2048;
 

@@ -107,9 +107,10 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     if (child.box.grow > 0) {
-      const float from = std::floor(std::max(0.0F, left) * before / grow);
+      const float own = row.box.grid ? row.box.gap : 0, all = std::max(0.0F, row.box.grid ? left + own * static_cast<float>(count) : left);
+      const float from = std::floor(all * before / grow);
       before += child.box.grow;
-      given.w[i] = std::floor(std::max(0.0F, left) * before / grow + kRounding) - from;
+      given.w[i] = std::max(0.0F, std::floor(all * before / grow + kRounding) - from - own);
     }
     else if (left < 0 && may_shrink(child) && soft > 0) given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
   }

@@ -29,6 +29,7 @@ struct Box {
   float width = 0, height = 0;          // 0: as its content is
   float min_width = 0, min_height = 0, max_width = 0;
   float grow = 0;                       // share of what is left over
+  bool grid = false;                    // a row of columns alike: a child that grows by n covers n of them and the gaps between
   bool even = false;                    // a column whose growing children are as high as their shares, not higher by them
   bool scroll = false;                  // a column that may be higher than its room
   bool left_to_right = false;           // a row that is not mirrored: digits, keys

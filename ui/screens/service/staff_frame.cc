@@ -50,7 +50,8 @@ void StaffFrame::begin(const char* title, const char* letter) {
     tree.open(name);
     if (letter != nullptr) sign(letter, 34 / text_share, palette.accent);
     tree.open(grown(box(Flow::Column)));
-    heading("title", title, portrait || text_share < 1.3F ? type::kHeading : type::kBody);
+    if (staff.leaves_in_s > 0) leaving();
+    else heading("title", title, portrait || text_share < 1.3F ? type::kHeading : type::kBody);
     tree.close();
     tree.close();
   };
@@ -60,18 +61,23 @@ void StaffFrame::begin(const char* title, const char* letter) {
   square_button("sign out", tr("Sign out"), kLeaveSign, {ActionKind::StaffLeave, 0});
   tree.close();
   if (portrait) {
-    tree.open(box(Flow::Row));
+    Node row = box(Flow::Row);
+    row.box.min_height = px(2 * type::kSmall * text_share) * type::kLines.apart;   // of what may stand in the title's place
+    tree.open(row);
     name_page();
     tree.close();
   }
-  if (staff.leaves_in_s > 0) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%d", staff.leaves_in_s);
-    Node soon = this->text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.", "You are signed out in {} seconds. Touch the screen to stay.", static_cast<unsigned long>(staff.leaves_in_s)), text), type::kSmall, Weight::Bold, palette.warn);
-    soon.id = "leaves";
-    soon.role = Role::Status;
-    tree.leaf(soon);
-  }
+}
+
+// In the title's place: nothing on the page moves away from the finger that stays.
+void StaffFrame::leaving() {
+  char seconds[16];
+  std::snprintf(seconds, sizeof seconds, "%d", staff.leaves_in_s);
+  Node soon = text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.", "You are signed out in {} seconds. Touch the screen to stay.", static_cast<unsigned long>(staff.leaves_in_s)), seconds), type::kSmall, Weight::Bold, palette.warn);
+  soon.id = "leaves";
+  soon.role = Role::Status;
+  soon.style.tabular = true;
+  tree.leaf(soon);
 }
 
 void StaffFrame::progress(std::string_view id, float share) {

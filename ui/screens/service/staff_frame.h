@@ -67,12 +67,15 @@ class StaffFrame : public Page {
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
   // What is a number with a point, behind it perhaps a unit, with the language's decimal mark; else as it is.
   std::string_view as_number(std::string_view text);
+  // The same of every number in a text, between blanks.
+  std::string_view with_numbers(std::string_view text);
   // "2026-03-14 09:12", as the language has it; what does not begin with a date, as it is.
   std::string_view date(std::string_view iso);
   Colour ink_of(Mood mood) const;
   const char* sign_of(Mood mood) const;
 
  private:
+  void leaving();
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void digit(const char* letter);

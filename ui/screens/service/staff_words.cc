@@ -13,7 +13,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::size_t kMostValues = 8, kGroup = 3, kLeastGrouped = 5;
+constexpr std::size_t kMostValues = 8, kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
 constexpr std::string_view kMinus = "\u2212";
 constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
 
@@ -72,11 +72,32 @@ std::string_view StaffFrame::as_number(std::string_view text) {
   const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0, whole = digits(text.substr(sign));
   const std::size_t point = sign + whole, rest = point + 1;
   if (whole == 0 || point >= text.size() || text[point] != '.') return text;
-  const std::size_t behind = rest + digits(text.substr(rest));
-  if (behind == rest || (behind < text.size() && text[behind] != ' ')) return text;
+  std::size_t behind = rest + digits(text.substr(rest));
+  if (behind == rest) return text;
+  if (behind < text.size() && text[behind] == 'e') {   // 2.5e-05
+    const std::size_t power = behind + 1 + (behind + 1 < text.size() && (text[behind + 1] == '-' || text[behind + 1] == '+') ? 1 : 0);
+    behind = power + digits(text.substr(std::min(power, text.size())));
+  }
+  if (behind < text.size() && text[behind] != ' ') return text;
   const std::string_view first = tree.keep(isolate::kLeft);
   std::size_t length = first.size() + tree.keep(text[0] == '-' ? kMinus : text.substr(0, sign)).size();
   for (const std::string_view part : {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1), text.substr(rest), std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
+  return {first.data(), length};
+}
+
+std::string_view StaffFrame::with_numbers(std::string_view text) {
+  if (text.find(' ') == std::string_view::npos) return as_number(text);
+  std::array<std::string_view, kMostWords> words{};
+  std::size_t count = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    if (count == words.size()) return text;
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    words[count++] = as_number(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < count; ++i) length += tree.keep(i > 0 ? " " : "").size() + tree.keep(words[i]).size();
   return {first.data(), length};
 }
 
@@ -119,12 +140,20 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
 void StaffFrame::logged(const LogLine& what) {
   const char* words = what.key.empty() ? nullptr : begun(*this, tr(kept(what.key)));
   const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
-  Node row = box(Flow::Row, space::kM, 0, 6);
+  Node row = box(Flow::Row, space::kS, 0, 6);
+  row.box.across = Across::Start;
   row.role = what.fault ? Role::Status : Role::Group;
   if (what.fault) row.name = tr("Fault");
   tree.open(row);
-  tree.leaf(text(date(what.at), 18, Weight::Regular, palette.ink_soft));
-  if (what.fault) sign(icon::kAlert, 22, ink_of(Mood::Warn));
+  // Columns: all times are as wide as each other, and the sign has its room where there is none.
+  Node time = text(date(what.at), 18, Weight::Regular, palette.ink_soft);
+  time.style.tabular = true;
+  tree.leaf(time);
+  Node mark = sized(box(Flow::Column), 24 * text_share, 0);
+  mark.box.across = Across::Centre;
+  tree.open(mark);
+  if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
+  tree.close();
   tree.open(grown(box(Flow::Column)));
   tree.leaf(text(what.key.empty() ? filled("{}", sentence) : sentence, 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
   tree.close();

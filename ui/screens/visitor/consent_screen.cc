@@ -7,6 +7,8 @@
 namespace relievo::ui {
 namespace {
 
+bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
+
 void badge(Page& page, const char* letter) {
   Node box = page.sized(page.box(Flow::Column), 48, 48);
   box.box.along = Along::Centre;
@@ -20,7 +22,7 @@ void badge(Page& page, const char* letter) {
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
   Node row = page.box(Flow::Row, space::kM, 22, 18);
-  row.box.across = Across::Start;   // titles of neighbours on one line
+  row.box.across = side_by_side(page) ? Across::Start : Across::Centre;   // titles of neighbours on one line
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
   row.box.border_px = page.px(1.5F);
@@ -38,7 +40,7 @@ void point(Page& page, const char* letter, std::string_view title, std::string_v
 
 void points(Page& page) {
   const auto& tr = page.tr;
-  const bool two = !page.portrait && page.text_share < 1.3F;
+  const bool two = side_by_side(page);
   const auto open_row = [&] { if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS))); };
   const auto close_row = [&] { if (two) page.tree.close(); };
   open_row();

@@ -3,6 +3,11 @@
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
+namespace {
+
+constexpr float kAsked = 38;   // the size of the question above the field
+
+}  // namespace
 
 void name_screen(Page& page) {
   const auto& tr = page.tr;
@@ -21,9 +26,10 @@ void name_screen(Page& page) {
     note.id = "wrong_code";
     note.role = Role::Status;
     note.box.max_width = page.px(abreast ? 520.0F : page.width_dp - 80);
+    note.box.min_height = abreast ? 0 : page.px(kAsked * page.text_share) * (type::kLines.above + type::kLines.below);   // the field stays where it is
     page.tree.leaf(note);
   } else {
-    page.heading("title", asked, abreast ? type::kBody : 38);
+    page.heading("title", asked, abreast ? type::kBody : kAsked);
   }
   Node field = page.box(Flow::Row, 3, 26, 14);
   field.box.grow = abreast ? 1.0F : 0.0F;

@@ -76,7 +76,7 @@ void card(Page& page, int stage, const char* words) {
   row.box.along = Along::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
-  page.tree.leaf(page.text(words, 22, stage == now ? Weight::Bold : Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft, TextAlign::Centre));
+  page.tree.leaf(page.text(words, 22, Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft, TextAlign::Centre));
   page.tree.close();
   page.tree.close();
 }

@@ -72,6 +72,17 @@ void rejected(BenchFrame& b) {
   for (std::size_t i = 0; i < r.rule_count; ++i) b.page.row(b.id("rejected", i), b.left_to_right(r.rules[i].name), b.page.number(static_cast<double>(r.rules[i].rejected)));
 }
 
+// With the language's decimal mark, as it is typed.
+std::string_view value_of(BenchFrame& b, const BenchOption& option) { return b.left_to_right(option.text ? option.value : b.page.as_number(option.value)); }
+
+std::string_view as_typed(BenchFrame& b, std::string_view typed) {
+  const char mark = info_of(b.tr.language()).decimal_mark;
+  const std::string_view first = b.page.tree.keep({});
+  std::size_t length = 0;
+  for (const char c : typed) length += b.page.tree.keep({c == '.' ? &mark : &c, 1}).size();
+  return b.left_to_right({first.data(), length});
+}
+
 void options(BenchFrame& b) {
   const BenchChoice& choice = b.view.choice;
   names(b);
@@ -82,7 +93,7 @@ void options(BenchFrame& b) {
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
     const BenchOption& option = choice.options[i];
     const Action action = option.text ? Action{} : bench(BenchAct::EditOption, static_cast<std::int32_t>(i));
-    b.page.row(b.id("option", i), b.left_to_right(option.key), b.left_to_right(option.value), option.changed ? Mood::Warn : Mood::Plain, action);
+    b.page.row(b.id("option", i), b.left_to_right(option.key), value_of(b, option), option.changed ? Mood::Warn : Mood::Plain, action);
   }
   if (choice.kinds[choice.kind].several && b.view.result.there) rejected(b);
   b.page.tree.close();
@@ -105,16 +116,17 @@ void key(BenchFrame& b, std::string_view id, const char* letter, Action action) 
 
 void keys(BenchFrame& b) {
   constexpr const char* kKeys[4][4] = {{"1", "2", "3", "."}, {"4", "5", "6", "-"}, {"7", "8", "9", "e"}, {"0", nullptr, nullptr, nullptr}};
+  const char* const decimal_mark = info_of(b.tr.language()).decimal_mark == ',' ? "," : ".";
   for (const auto& line : kKeys) {
     Node row = b.page.box(Flow::Row, 8);
-    row.box.left_to_right = true;
+    row.box.left_to_right = row.box.grid = true;
     b.page.tree.open(row);
     for (const char* letter : line) {
       if (letter == nullptr) continue;
-      key(b, b.id("type", static_cast<std::size_t>(*letter)), letter, bench(BenchAct::TypeDigit, *letter));
+      key(b, b.id("type", static_cast<std::size_t>(*letter)), *letter == '.' ? decimal_mark : letter, bench(BenchAct::TypeDigit, *letter));
     }
     if (*line[0] == '0') {
-      Node erase = b.page.grown(b.page.box(Flow::Row), 3.1F);
+      Node erase = b.page.grown(b.page.box(Flow::Row), 3);
       erase.id = "type erase";
       erase.name = b.tr("Erase");
       erase.role = Role::Key;
@@ -148,11 +160,11 @@ void editor(BenchFrame& b) {
   }
   b.page.tree.leaf(b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
   char text[96];
-  std::snprintf(text, sizeof text, "\u2066%g … %g\u2069", option.least, option.most);
-  b.page.row("option range", b.tr("Possible values"), b.page.tree.keep(text));
-  b.page.row("option value", b.tr("Now"), b.left_to_right(option.value));
+  std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
+  b.page.row("option range", b.tr("Possible values"), b.left_to_right(b.page.with_numbers(text)));
+  b.page.row("option value", b.tr("Now"), value_of(b, option));
   b.page.tree.close();
-  Node field = b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : b.left_to_right(b.view.choice.typed), type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
+  Node field = b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : as_typed(b, b.view.choice.typed), type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
   field.id = "option typed";
   field.role = Role::Field;
   field.name = b.tr("New value");
@@ -203,9 +215,9 @@ void bench_algorithms_page(StaffFrame& page) {
   page.tree.close();
   page.tree.close();
   if (editing) return;
-  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
-  page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet), page.portrait ? 0.0F : 1.0F);
-  if (b.view.calibrated) page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), page.portrait ? 0.0F : 1.0F);
+  const float grow = b.open_buttons();
+  page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet), grow);
+  if (b.view.calibrated) page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), grow);
   page.tree.close();
   b.capture_buttons(true);
 }

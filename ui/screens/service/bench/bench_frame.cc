@@ -56,6 +56,15 @@ std::string_view BenchFrame::several(std::initializer_list<double> values, int d
   return all;
 }
 
+std::string_view BenchFrame::rule_name(std::string_view key) const {
+  if (key == "similarity") return tr("Similarity");
+  if (key == "uniqueness") return tr("Uniqueness");
+  if (key == "continuity") return tr("Continuity");
+  if (key == "ordering") return tr("Order");
+  if (key == "left-right") return tr("Left against right");
+  return key == "statistical" ? std::string_view(tr("Statistics of the neighbours")) : key;
+}
+
 std::string_view BenchFrame::breakable(std::string_view names) const {
   const std::string_view first = page.tree.keep({});
   std::size_t length = 0;
@@ -64,6 +73,12 @@ std::string_view BenchFrame::breakable(std::string_view names) const {
     if (c == '.' || c == '_' || c == '+') length += page.tree.keep("\u200b").size();
   }
   return {first.data(), length};
+}
+
+float BenchFrame::open_buttons() const {
+  const bool stacked = page.portrait && page.text_share > 1.2F;
+  page.tree.open(page.box(stacked ? Flow::Column : Flow::Row, space::kS));
+  return stacked ? 0 : 1;
 }
 
 void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow) {
@@ -144,7 +159,7 @@ void BenchFrame::failure() {
 }
 
 void BenchFrame::alert(std::string_view words) {
-  Node row = page.box(Flow::Row, space::kS, 0, 4);
+  Node row = page.box(Flow::Row, space::kS, 0, 8);
   row.id = "problem";
   row.role = Role::Status;
   row.box.across = Across::Centre;
@@ -193,8 +208,7 @@ bool BenchFrame::capture_state() {
 void BenchFrame::capture_buttons(bool with_run, bool with_record) {
   if (!view.calibrated) return;
   const bool busy = view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running;
-  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
-  const float grow = page.portrait ? 0.0F : 1.0F;
+  const float grow = open_buttons();
   if (busy) {
     page.small_button("stop", tr("Stop"), icon::kClose, ButtonLook::Main, bench(BenchAct::Stop), grow);
   } else {

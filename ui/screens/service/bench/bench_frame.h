@@ -32,8 +32,12 @@ class BenchFrame {
   std::string_view joined(std::string_view a, std::string_view between, std::string_view b) const;
   // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands between them.
   std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name) const;
+  // What a rule for matches is called (pipeline/algorithms); a name nobody knows, as it is.
+  std::string_view rule_name(std::string_view key) const;
   // Names of algorithms and options, which may be divided where their parts meet.
   std::string_view breakable(std::string_view names) const;
+  // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows by.
+  float open_buttons() const;
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.

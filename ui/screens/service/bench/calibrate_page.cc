@@ -86,9 +86,10 @@ void live_pictures(BenchFrame& b) {
 }
 
 void bar(BenchFrame& b, std::string_view id, const char* label, float share) {
-  Node name = b.page.text(label, 18, Weight::Medium, b.page.palette.ink);
-  b.page.tree.leaf(name);
+  b.page.tree.open(b.page.box(Flow::Column, 4, 0, 7));
+  b.page.tree.leaf(b.page.text(label, 18, Weight::Medium, b.page.palette.ink));
   b.page.progress(id, share);
+  b.page.tree.close();
 }
 
 void running(BenchFrame& b) {
@@ -111,8 +112,7 @@ void running(BenchFrame& b) {
   b.page.tree.close();
   b.page.tree.close();
   b.page.tree.close();
-  b.page.tree.open(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kS));
-  const float grow = b.page.portrait ? 0.0F : 1.0F;
+  const float grow = b.open_buttons();
   b.page.small_button("calibration cancel", b.tr("Cancel"), icon::kClose, ButtonLook::Quiet, bench(BenchAct::CancelCalibration), grow);
   b.page.small_button("calibration finish", b.tr("Enough: work it out"), icon::kCheck, ButtonLook::Main, bench(BenchAct::StopCalibration), grow);
   b.page.tree.close();
@@ -195,8 +195,7 @@ void at_rest(BenchFrame& b) {
   b.page.row("charuco", b.tr("With markers (ChArUco)"), c.charuco ? b.tr("yes") : b.tr("no"), Mood::Plain, bench(BenchAct::Charuco));
   history(b);
   b.page.tree.close();
-  b.page.tree.open(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kS));
-  const float grow = b.page.portrait ? 0.0F : 1.0F;
+  const float grow = b.open_buttons();
   const bool store = c.ended && !c.stored && c.verdict != BenchVerdict::Refuse && c.verdict != BenchVerdict::None;
   b.page.small_button("calibration begin", b.tr("Calibrate"), icon::kCamera, store ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::BeginCalibration), grow);
   if (store) b.page.small_button("calibration store", b.tr("Store and use it"), icon::kDisk, ButtonLook::Main, bench(BenchAct::StoreCalibration), grow);

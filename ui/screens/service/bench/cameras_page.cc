@@ -89,11 +89,11 @@ void bench_cameras_page(StaffFrame& page) {
   page.tree.close();
   page.tree.close();
   page.tree.close();
-  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
-  const float grow = page.portrait ? 0.0F : 1.0F;
+  const float grow = b.open_buttons();
   if (b.view.cameras.can_be_set) {
     page.small_button("darker", b.tr("Darker"), icon::kDark, ButtonLook::Quiet, bench(BenchAct::DarkerShot), grow);
     page.small_button("brighter", b.tr("Brighter"), icon::kSun, ButtonLook::Quiet, bench(BenchAct::BrighterShot), grow);
+    if (page.portrait) page.tree.close(), b.open_buttons();   // two and two
   }
   if (b.view.cameras.watched) b.choice("show relief", b.tr("Relief"), b.view.cameras.relief_shown, bench(BenchAct::ShowRelief), grow);
   page.small_button("watch", b.view.cameras.watched ? b.tr("Stop") : b.tr("Watch"), b.view.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main, bench(BenchAct::WatchCameras), grow);

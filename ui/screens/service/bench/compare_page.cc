@@ -3,7 +3,7 @@
 //
 // Two sets of algorithms on the same test capture, side by side: pictures of a stage, times, counts, and what
 // each result says of itself.
-#include <cstdio>
+#include <algorithm>
 
 #include "ui/screens/service/bench/bench_frame.h"
 
@@ -36,20 +36,38 @@ void figures(BenchFrame& b, const Row& row, bool heading = false) {
   line.box.min_height = b.page.px(38);
   line.box.across = Across::Centre;
   b.page.tree.open(line);
-  const auto cell = [&](std::string_view text, float share, Weight weight) {
+  const auto cell = [&](std::string_view text, float share, Weight weight, TextAlign align) {
     b.page.tree.open(b.page.grown(b.page.box(Flow::Column), share));
-    if (!text.empty()) b.page.tree.leaf(b.page.text(text, 18, weight, b.page.palette.ink));
+    Node said = b.page.text(text, 18, weight, b.page.palette.ink, align);
+    said.style.tabular = true;
+    if (!text.empty()) b.page.tree.leaf(said);
     b.page.tree.close();
   };
-  cell(row.label, 1.5F, Weight::Medium);
-  cell(row.kept, 1, heading ? Weight::Bold : Weight::Regular);
-  cell(row.now, 1, heading ? Weight::Bold : Weight::Regular);
+  cell(row.label, 1.5F, Weight::Medium, TextAlign::Start);
+  cell(row.kept, 1, heading ? Weight::Bold : Weight::Regular, TextAlign::End);
+  cell(row.now, 1, heading ? Weight::Bold : Weight::Regular, TextAlign::End);
   b.page.tree.close();
 }
 
-std::string_view chosen(BenchFrame& b, const BenchResult& r) {
-  if (!r.there) return "–";
-  return r.algorithms.empty() ? std::string_view(b.tr("as delivered")) : b.left_to_right(b.breakable(r.algorithms));
+// What a result was made with, over the width of both columns of figures: a line for each option that was changed.
+void algorithms(BenchFrame& b, std::string_view id, const char* title, const BenchResult& r) {
+  Node line = b.page.box(Flow::Row, space::kXs, 0, 5);
+  line.id = id;
+  b.page.tree.open(line);
+  const auto said = [&](std::string_view text, Weight weight) { b.page.tree.leaf(b.page.text(text, 18, weight, b.page.palette.ink)); };
+  b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
+  said(title, Weight::Medium);
+  b.page.tree.close();
+  b.page.tree.open(b.page.grown(b.page.box(Flow::Column), 2.5F));
+  if (!r.there) said("–", Weight::Regular);
+  else if (r.algorithms.empty()) said(b.tr("as delivered"), Weight::Regular);
+  for (std::string_view rest = r.there ? r.algorithms : std::string_view(); !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    said(b.left_to_right(b.breakable(rest.substr(0, end))), Weight::Regular);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  b.page.tree.close();
+  b.page.tree.close();
 }
 
 void table(BenchFrame& b) {
@@ -58,8 +76,11 @@ void table(BenchFrame& b) {
     return r.there && known ? b.page.number(value, decimals, unit_name) : std::string_view("–");
   };
   b.page.begin_list("figures");
+  b.page.section(b.tr("Algorithms"));
+  algorithms(b, "kept set", b.tr("Put aside"), k);
+  algorithms(b, "present set", b.tr("Now"), n);
+  b.page.rule();
   figures(b, {"head", "", b.tr("Put aside"), b.tr("Now")}, true);
-  figures(b, {"sets", b.tr("Algorithms"), chosen(b, k), chosen(b, n)});
   for (std::size_t i = 0; i < k.seconds.size(); ++i)
     figures(b, {b.id("seconds", i), work_of(b.tr, i), figure(k, static_cast<double>(k.seconds[i]), 2, "s"), figure(n, static_cast<double>(n.seconds[i]), 2, "s")});
   figures(b, {"all matches", b.tr("Matches"), figure(k, static_cast<double>(k.matches), 0, ""), figure(n, static_cast<double>(n.matches), 0, "")});
@@ -92,8 +113,7 @@ void bench_compare_page(StaffFrame& page) {
     table(b);
     page.tree.close();
     page.tree.close();
-    page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
-    const float grow = page.portrait ? 0.0F : 1.0F;
+    const float grow = b.open_buttons();
     page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet, bench(BenchAct::KeepResult), grow);
     const auto next = static_cast<std::int32_t>((static_cast<std::size_t>(b.view.stage) + 1) % kBenchStages);
     page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet, bench(BenchAct::ShowStage, next), grow);

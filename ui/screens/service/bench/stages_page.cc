@@ -99,7 +99,7 @@ void point_rows(BenchFrame& b) {
   b.page.row("point right", b.tr("Right"), coordinates(b, point.right_px));
   b.page.row("point disparity", b.tr("Disparity"), plus_minus(b, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
   b.page.row("point likeness", b.tr("Likeness"), b.page.number(1 - static_cast<double>(point.cost), 3));
-  if (!point.rejected_by.empty()) b.page.row("point rejected", b.tr("Rejected by"), point.rejected_by, Mood::Bad);
+  if (!point.rejected_by.empty()) b.page.row("point rejected", b.tr("Rejected by"), b.rule_name(point.rejected_by), Mood::Bad);
   else if (!point.by_hand) b.page.row("point accepted", b.tr("Accepted"), b.tr("yes"), Mood::Good);
   b.page.row("point space", b.tr("In space"), b.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y), static_cast<double>(point.at_mm.z)}, 1, "mm"));
   b.page.row("point sigma", b.tr("Depth uncertainty"), b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
@@ -121,7 +121,7 @@ void rule_rows(BenchFrame& b) {
     patch.box.radius = b.page.px(6);
     b.page.tree.leaf(patch);
     b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
-    b.page.tree.leaf(b.page.text(rule.name, type::kSmall, Weight::Medium, b.page.palette.ink));
+    b.page.tree.leaf(b.page.text(b.rule_name(rule.name), type::kSmall, Weight::Medium, b.page.palette.ink));
     b.page.tree.close();
     b.page.tree.leaf(b.page.text(b.page.number(static_cast<double>(rule.rejected)), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
     b.page.tree.close();

@@ -22,18 +22,30 @@ const char* name_of_table(const Words& tr, BenchTable table) {
   return tr("Calibration");
 }
 
+struct Wide {   // a column of words, and how much wider than one of numbers
+  std::size_t column = ~std::size_t{0};
+  float share = 1;
+};
+
+// A number, several of them, or the rule that judged.
+std::string_view said(BenchFrame& b, std::string_view text) {
+  const std::string_view numbers = b.page.with_numbers(text);
+  return numbers == text ? b.rule_name(text) : numbers;
+}
+
 // Numbers stay left to right, as in any table of measurements.
-void cells(BenchFrame& b, std::span<const std::string_view> texts, bool heading, std::size_t wide) {
+void cells(BenchFrame& b, std::span<const std::string_view> texts, bool heading, const Wide& wide) {
   Node row = b.page.box(Flow::Row, 6, 4, 0);
   row.box.left_to_right = true;
   row.box.min_height = b.page.px(36);
   row.box.across = Across::Centre;
   b.page.tree.open(row);
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column), i == wide ? 3.0F : 1.0F));
+    b.page.tree.open(b.page.grown(b.page.box(Flow::Column), i == wide.column ? wide.share : 1.0F));
     if (!texts[i].empty()) {
-      Node cell = b.page.text(b.left_to_right(heading ? texts[i] : b.page.as_number(texts[i])), 18, heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
+      Node cell = b.page.text(b.left_to_right(heading ? texts[i] : said(b, texts[i])), 18, heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
       // Columns are as wide as they are: letters of a table grow less.
+      cell.style.tabular = true;
       cell.style.size_px = b.page.px((b.page.portrait ? 15.0F : 18.0F) * (1 + (b.page.text_share - 1) * 0.3F));
       b.page.tree.leaf(cell);
     }
@@ -100,11 +112,12 @@ void bench_tables_page(StaffFrame& page) {
     }
     return b.capture_buttons(false);
   }
-  const std::size_t columns = rows.heads.size(), wide = rows.table == BenchTable::Calibration ? 3 : columns;
+  const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
+  const Wide wide = rows.table == BenchTable::Calibration ? Wide{3, 3} : rows.table == BenchTable::Matches ? Wide{columns - 1, 1.8F} : Wide{};
   page.begin_list("table");
   cells(b, rows.heads, true, wide);
-  for (std::size_t at = 0; at + columns <= rows.cells.size(); at += columns) cells(b, rows.cells.subspan(at, columns), false, wide);
+  for (std::size_t at = 0; at + columns <= places; at += columns) cells(b, rows.cells.subspan(at, columns), false, wide);
   page.tree.close();
   pager(b);
 }
