@@ -7,6 +7,7 @@
 
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/detail_search.h"
+#include "pipeline/match/refine/occluding_contour.h"
 #include "pipeline/match/region/face_reach.h"
 
 namespace relievo::pipeline {
@@ -131,6 +132,7 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   }
   RELIEVO_TRY(refine(1, field2));
   for (int look = 0; look < kLooks && search_by_detail(scene_at(1), context, field2); ++look) RELIEVO_TRY(refine(1, field2));
+  cut_at_occluding_contours(scene_at(1), context, field2);
   if (rows.motion().seen) rows.align_motion(field2);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
   RELIEVO_TRY(refine(0, field2));

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A near surface before a far one, the contour known, and a field that hangs from the one to the other.
+#include "pipeline/match/refine/occluding_contour.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "pipeline/match/image/box_filter.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::StageBench;
+
+constexpr int kWidth = 240;
+constexpr int kHeight = 160;
+constexpr int kLevel = 1;
+constexpr int kTop = 30, kBottom = 130;  // rows between which the near surface ends before the far one
+constexpr int kNear = 24, kFar = 12;     // disparity in pixels of the level
+constexpr int kHang = 6;                 // nodes the curtain reaches to either side of the contour
+
+// The near surface's last pixel and one: a contour that leans, as the ridge of a nose does.
+int contour(int y) { return 100 + (y - kTop) / 4; }
+
+struct Scene {
+  StageBench bench{std::size_t{16} << 20, std::size_t{32} << 20};
+  Plane<float> left{&bench.output, kWidth, kHeight}, right{&bench.output, kWidth, kHeight};
+  Plane<std::uint8_t> valid{&bench.output, kWidth, kHeight, 1};
+  SurfaceField field{&bench.output, kWidth, kHeight, 1 << kLevel};
+
+  // `brighter`: of the right view; `texture`, `noise`: standard deviations, grey levels.
+  explicit Scene(float texture = 4, float brighter = 6, float noise = 0.7F) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal(0, 1);
+    Plane<float> near(&bench.output, kWidth + 64, kHeight), far(&bench.output, kWidth + 64, kHeight), across(&bench.output, kWidth + 64, kHeight);
+    for (Plane<float>* skin : {&near, &far}) {
+      for (float& v : skin->values) v = normal(random);
+      box_sum(*skin, 1, bench.context.pool, across, *skin);
+    }
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const Plane<float>& seen = x < contour(y) ? near : far;
+        left.row(y)[x] = 90 + texture / 3 * seen.row(y)[x] + noise * normal(random);
+        const bool near_too = x + kNear < contour(y);
+        const float there = near_too ? near.row(y)[x + kNear] : far.row(y)[x + kFar];
+        right.row(y)[x] = 90 + brighter + texture / 3 * there + noise * normal(random);
+      }
+    for (int y = kTop; y < kBottom; ++y)
+      for (int x = 50; x < kWidth - 20; ++x) {
+        field.domain.row(y)[x] = 1;
+        const float share = std::clamp((static_cast<float>(x - contour(y)) + kHang) / (2 * kHang), 0.0F, 1.0F);
+        field.disparity_px.row(y)[x] = (1 << kLevel) * (kNear + share * (kFar - kNear));
+      }
+  }
+  RefinerScene views() const { return {left, right, valid, kLevel, 1}; }
+  int cut() { return cut_at_occluding_contours(views(), bench.context, field); }
+  float true_disparity(int x, int y) const { return static_cast<float>((1 << kLevel) * (x < contour(y) ? kNear : kFar)); }
+  // Nodes further than half a pixel of the level from the truth.
+  int wrong() const {
+    int count = 0;
+    for (int y = kTop; y < kBottom; ++y)
+      for (int x = 50; x < kWidth - 20; ++x)
+        count += std::abs(field.disparity_px.row(y)[x] - true_disparity(x, y)) > 1 ? 1 : 0;
+    return count;
+  }
+};
+
+TEST(OccludingContour, ACurtainIsTakenDownAndTheContourFound) {
+  Scene scene;
+  const int rows = kBottom - kTop;
+  ASSERT_GT(scene.wrong(), 10 * rows);
+  EXPECT_EQ(scene.cut(), rows);
+  EXPECT_LT(scene.wrong(), rows) << "a node a row";
+}
+
+TEST(OccludingContour, DullSkinUnderOtherLightToo) {
+  Scene scene(2, -12);
+  const int before = scene.wrong();
+  EXPECT_GT(scene.cut(), (kBottom - kTop) / 2);
+  EXPECT_LT(scene.wrong(), before / 3);
+}
+
+TEST(OccludingContour, SteepSkinStays) {
+  Scene scene;
+  // Skin that falls as steeply as the curtain, and both views say so: the right one shows it stretched.
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const int at = x - static_cast<int>(scene.field.disparity_px.row(y)[x]) / (1 << kLevel);
+      if (scene.field.domain.row(y)[x] != 0 && at >= 0) scene.right.row(y)[at] = scene.left.row(y)[x] + 6;
+    }
+  // Between the pixels that were written the stretched picture is what lies beside them.
+  for (int y = kTop; y < kBottom; ++y)
+    for (int x = 51; x < kWidth - 20; ++x) {
+      const float from = static_cast<float>(x - 1) - scene.field.disparity_px.row(y)[x - 1] / (1 << kLevel);
+      const float to = static_cast<float>(x) - scene.field.disparity_px.row(y)[x] / (1 << kLevel);
+      for (int k = std::max(0, static_cast<int>(std::ceil(from))); k <= static_cast<int>(std::floor(to)); ++k) {
+        const float t = (static_cast<float>(k) - from) / (to - from);
+        scene.right.row(y)[k] = 6 + scene.left.row(y)[x - 1] + t * (scene.left.row(y)[x] - scene.left.row(y)[x - 1]);
+      }
+    }
+  const auto before = scene.field.disparity_px.values;
+  EXPECT_EQ(scene.cut(), 0);
+  EXPECT_EQ(scene.field.disparity_px.values, before);
+}
+
+TEST(OccludingContour, NothingSteepNothingCut) {
+  Scene scene;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) scene.field.disparity_px.row(y)[x] = static_cast<float>((1 << kLevel) * kNear);
+  const auto before = scene.field.disparity_px.values;
+  EXPECT_EQ(scene.cut(), 0);
+  EXPECT_EQ(scene.field.disparity_px.values, before);
+}
+
+// Where the field ends beside a curtain nobody knows how the surface goes on.
+TEST(OccludingContour, ACurtainAtTheFieldsEdgeIsLeftAlone) {
+  Scene scene;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = contour(y) + kHang + 3; x < kWidth; ++x) scene.field.domain.row(y)[x] = 0;
+  EXPECT_EQ(scene.cut(), 0);
+}
+
+TEST(OccludingContour, IsTheSameForAnyNumberOfThreads) {
+  Scene one, two;
+  ThreadPool alone(1), many(3);
+  StageContext first{one.bench.output, one.bench.scratch, alone, one.bench.progress, one.bench.cancelled};
+  StageContext second{two.bench.output, two.bench.scratch, many, two.bench.progress, two.bench.cancelled};
+  EXPECT_EQ(cut_at_occluding_contours(one.views(), first, one.field), cut_at_occluding_contours(two.views(), second, two.field));
+  EXPECT_EQ(one.field.disparity_px.values, two.field.disparity_px.values);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
