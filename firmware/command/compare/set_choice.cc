@@ -75,9 +75,12 @@ Result<std::vector<SetWords>> all_words(const CompareArgs& args) {
 
 Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
   RELIEVO_TRY_ASSIGN(auto all, all_words(args));
+  // Algorithms are judged here, not people: a set that makes hardly a face of one is a row with its figures.
+  AlgorithmArgs base = args.algorithms;
+  base.settings.insert(base.settings.begin(), "relief=off");
   if (all.empty()) {
-    RELIEVO_TRY_ASSIGN(const auto base, choose_algorithms(args.algorithms));
-    all.push_back({base.get("matcher"), {}});
+    RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(base));
+    all.push_back({only.get("matcher"), {}});
   }
   if (all.size() > kMostSets) return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(std::to_string(all.size()));
   std::vector<NamedSet> sets;
@@ -85,7 +88,7 @@ Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
     const auto same = [&words](const NamedSet& set) { return set.name == words.name; };
     if (std::any_of(sets.begin(), sets.end(), same))
       return Error{Errc::InvalidInput, "is the name of two sets: give each its own"}.at(words.name);
-    RELIEVO_TRY_ASSIGN(NamedSet set, named_set(args.algorithms, words));
+    RELIEVO_TRY_ASSIGN(NamedSet set, named_set(base, words));
     sets.push_back(std::move(set));
   }
   return sets;

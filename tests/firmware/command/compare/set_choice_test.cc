@@ -36,6 +36,19 @@ TEST(SetChoice, AllSetsStartFromTheSettingsForAll) {
   for (const NamedSet& set : *sets) EXPECT_EQ(set.set.get("dense.step_px"), "3");
 }
 
+// Scattered places make hardly a face of one, and the page is to say how good they are.
+TEST(SetChoice, NobodyIsRefusedAsAPictureUnlessAskedFor) {
+  CompareArgs args;
+  args.suites = {"dissertation-face"};
+  const auto sets = choose_sets(args);
+  ASSERT_TRUE(sets);
+  for (const NamedSet& set : *sets) EXPECT_EQ(set.set.get("relief"), "off") << set.name;
+  args.algorithms.settings = {"relief=check"};
+  const auto asked = choose_sets(args);
+  ASSERT_TRUE(asked);
+  for (const NamedSet& set : *asked) EXPECT_EQ(set.set.get("relief"), "check") << set.name;
+}
+
 TEST(SetChoice, AFilesSetsKeepItsOrder) {
   const test::TemporaryFolder here;
   test::write_text(here / "sets.toml", "[zebra]\nmatcher = \"refined\"\nrefined.bending = 0.5\n\n[\"ant 1\"]\n[\"ant 1\".dense]\nstep_px = 4\n");
