@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <span>
+#include <string>
 #include <thread>
 
 #include "firmware/command/interrupt.h"
 #include "firmware/kiosk/gallery.h"
 #include "hal/picture_file.h"
+#include "hal/whole_file.h"
 #include "ui/render/offscreen.h"
 #include "ui/render/renderer.h"
 
@@ -151,9 +154,12 @@ class Photographer {
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);
       renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, size.width_px, size.height_px);
       target->end();
-      char file[96];
-      std::snprintf(file, sizeof file, "%02d_%.*s.png", ++number, static_cast<int>(exhibit.name.size()), exhibit.name.data());
-      RELIEVO_TRY(hal::write_picture(folder_ / words / file, picture.view()));
+      char page[96];
+      std::snprintf(page, sizeof page, "%02d_%.*s", ++number, static_cast<int>(exhibit.name.size()), exhibit.name.data());
+      const Path file = folder_ / words / page;
+      RELIEVO_TRY(hal::write_picture(Path(file) += ".png", picture.view()));
+      const std::string nodes = ui_.tree().to_json();
+      RELIEVO_TRY(hal::write_whole_file(Path(file) += ".json", std::as_bytes(std::span(nodes))));
       sheet.add(picture);
     }
     const std::string name = std::string("sheet_") + words + ".png";
