@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <SDL2/SDL.h>
 
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
+#include "ui/platform/missing_screen.h"
 #include "ui/platform/sdl_display.h"
 
 namespace relievo::ui {
@@ -20,7 +23,9 @@ class SdlDisplay final : public Display {
   Result<void> open(const DisplayOptions& options) {
     SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // a finger is a finger, a mouse a mouse
     SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    // Without a desktop SDL need not look for one. Its signal handlers stay: they give the console's keyboard back when we
+    // crash. Signals that ask us to end are the firmware's, which takes them afterwards.
+    if (without_desktop()) SDL_SetHint(SDL_HINT_VIDEODRIVER, "kmsdrm");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return failed();
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
@@ -61,7 +66,19 @@ class SdlDisplay final : public Display {
   }
 
  private:
-  static Error failed() { return Error{Errc::LibraryFailed, "no screen can be opened: check SDL_VIDEODRIVER and the graphics driver"}.at(SDL_GetError()); }
+  // A whole screen, and no desktop to ask for it: the machine itself says more than SDL.
+  static bool without_desktop() {
+    const char* const driver = std::getenv("SDL_VIDEODRIVER");
+    if (driver != nullptr) return std::string_view(driver) == "kmsdrm";
+    return std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr;
+  }
+
+  static Error failed() {
+    if (without_desktop()) {
+      if (auto why = why_no_screen()) return *why;
+    }
+    return Error{Errc::LibraryFailed, "no screen can be opened: check SDL_VIDEODRIVER and the graphics driver"}.at(SDL_GetError());
+  }
 
   std::pair<int, int> size() const {
     int w = 0, h = 0;
