@@ -64,6 +64,12 @@ class Glass {
   std::chrono::steady_clock::time_point drawn_at_{};
 };
 
+// What may change the page: the next finger is for the page it leads to, however long a frame takes.
+bool is_a_deed(const ui::Input& input) {
+  using Kind = ui::Input::Kind;
+  return input.kind == Kind::Up || input.kind == Kind::Activate || input.kind == Kind::Back;
+}
+
 Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
   RELIEVO_TRY_ASSIGN(const auto renderer, ui::Renderer::make());
   Glass glass(display, *renderer);
@@ -80,6 +86,7 @@ Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
     while (const auto input = display.poll()) {
       if (input->kind == ui::Input::Kind::Quit) return {};
       kiosk.feed(*input);
+      if (is_a_deed(*input)) break;
     }
     kiosk.ui().resize(display.width_px(), display.height_px());
     kiosk.turn();
