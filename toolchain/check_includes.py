@@ -62,7 +62,7 @@ SYSTEM = re.compile(
     r"^[a-z0-9_]+$"                                    # C++: <vector>
     r"|^(errno|fcntl|poll|pthread|sched|signal|spawn|stdint|stdio|stdlib|string|strings|termios|time|unistd"
     r"|dirent|limits|math|glob|fenv|getopt|malloc|ucontext|execinfo)\.h$"
-    r"|^sys/[a-z0-9_]+\.h$|^linux/(dma-buf|dma-heap|fs|magic|input|media|watchdog)\.h$"
+    r"|^sys/[a-z0-9_]+\.h$|^linux/(dma-buf|dma-heap|fs|magic|input|media|uinput|watchdog)\.h$"
     r"|^(imm|x86|arm_neon|xmm|emm|nmm|smm|tmm|pmm|cpuid)[a-z]*\.h$")
 # An implementation may be named only by the one file that chooses it (and by tests).
 CHOSEN_BY = {

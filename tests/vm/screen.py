@@ -1,0 +1,204 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The Relievo authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The kiosk on a whole screen: KMS and a touch panel in a real kernel, the simulated rig before it. README.md says what holds.
+
+Called by toolchain/vm, which builds what this needs.
+"""
+import os
+import pathlib
+import shutil
+import sqlite3
+import subprocess
+import sys
+import time
+
+from kiosk import Kiosk, Panel
+from machine import Failed, Machine, accelerator, until
+from pages import Pages, different_pixels
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILT = ROOT / "build/release"
+GUEST = ROOT / "build/vm"
+RELIEVO = BUILT / "firmware/relievo"
+NAME = "Ada Lovelace"    # as the gallery's page has it
+SLOW = 300               # seconds for what is computed: a played processor takes twenty times as long
+
+
+def check(holds, otherwise):
+    if not holds:
+        raise Failed(otherwise)
+
+
+def drawn_headless(size):
+    """The same pages without a screen, each with the places of its nodes; drawn anew when the program is newer."""
+    folder = GUEST / "headless" / f"{size}_100_en"
+    done = folder / "done"
+    if not done.exists() or done.stat().st_mtime < RELIEVO.stat().st_mtime:
+        shutil.rmtree(folder, ignore_errors=True)
+        subprocess.run([RELIEVO, "--screenshots", folder.parent, "--only", folder.name, "--store", folder / "store"], check=True, timeout=900,
+                       env={**os.environ, "SDL_VIDEODRIVER": "offscreen"}, stdout=subprocess.DEVNULL)
+        shutil.rmtree(folder / "store")
+        done.touch()
+    return Pages(folder)
+
+
+def photographed():
+    """A pair of pictures of the simulated rig: to make the head is the work of minutes where processors are played."""
+    folder = GUEST / "rig"
+    if not (folder / "rig.yml").exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        subprocess.run([RELIEVO, "simulate", "face", "--scale", "0.5", "-o", folder], check=True, timeout=900, stdout=subprocess.DEVNULL)
+    return f"--board folder:{folder} --calibration {folder}/rig.yml"
+
+
+def walk_in(kiosk):
+    """From the page that invites to the live picture; fingers count where they are, to the pixel's neighbour."""
+    kiosk.see("attract", SLOW, ["showpiece"])
+    button = kiosk.pages["attract"].nodes["start"]
+    kiosk.tap(button["x"] - 4, button["y"] + button["h"] / 2)
+    kiosk.tap(button["x"] + button["w"] / 2, button["y"] + button["h"] + 4)
+    kiosk.stays("attract", 3, ["showpiece"])
+    kiosk.tap(button["x"] + 4, button["y"] + button["h"] - 5)
+    kiosk.see("consent", 60)
+    kiosk.tap_node("consent", "agree")
+    kiosk.see("name_empty", 60)
+    kiosk.type(NAME)
+    kiosk.see("name", 60)
+    kiosk.tap_node("name", "done")
+    kiosk.see("position_look", SLOW, only=["shoot"])
+    kiosk.see("working", SLOW, only=["title"])
+
+
+def look_at_it(kiosk):
+    """The face on the screen turns under one finger and grows under two."""
+    page = kiosk.pages["review"]
+    straight = kiosk.see("review", SLOW, ["face"])
+    x, y = page.middle("face")
+    step = page.nodes["face"]["w"] / 24
+    kiosk.panel.tell(("down 0", x, y), *[("move 0", x + step * i, y) for i in range(1, 7)], ("up 0",))
+    turned = face_changes(kiosk, straight, "turned")
+    apart = [(f"move {finger}", x + side * step * i, y) for i in range(2, 6) for finger, side in ((0, -1), (1, 1))]
+    kiosk.panel.tell(("down 0", x - step, y), ("down 1", x + step, y), *apart, ("up 0",), ("up 1",))
+    face_changes(kiosk, turned, "larger")
+
+
+def face_changes(kiosk, before, how):
+    page = kiosk.pages["review"]
+
+    def look():
+        seen = kiosk.machine.screen()
+        return seen if different_pixels(page.part(seen, "face"), page.part(before, "face")).mean() > 0.02 else None
+    seen = until(f"the face is {how}", 60, look)
+    kiosk.keep(how, seen)
+    return seen
+
+
+def visit(machine, pages):
+    """A whole visit, another panel for the next one, and the end by a signal: the console is as it was."""
+    machine.run("echo 'The console of this machine.' >/dev/tty1")
+    before, keys_before = machine.screen(), machine.run("kbd_mode -C /dev/tty1")
+    with Panel(machine, BUILT / "tests/vm/touch_panel") as panel:
+        kiosk = Kiosk(machine, RELIEVO, pages, panel)
+        kiosk.keep("console", before)
+        kiosk.start(words=photographed())
+        walk_in(kiosk)
+        look_at_it(kiosk)
+        kiosk.tap_node("review", "accept")
+        kiosk.see("thanks", SLOW, only=["title", "what", "finish"])   # the box for the code is as wide as its digits
+        kiosk.tap_node("thanks", "finish")
+        kiosk.see("attract", 20, ["showpiece"])
+    with Panel(machine, BUILT / "tests/vm/touch_panel") as panel:
+        kiosk.panel = panel
+        kiosk.tap_node("attract", "start")
+        kiosk.see("consent", 60)
+    shown = machine.run("grep -c 'crtc=crtc' /sys/kernel/debug/dri/0/state")
+    check(shown == "1", f"{shown} planes are shown: the picture alone should be, and no mouse's arrow")
+    kiosk.stop()
+    check(machine.run("kbd_mode -C /dev/tty1") == keys_before, "the console's keyboard was not given back")
+    until("the console comes back", 30, lambda: True if not different_pixels(machine.screen(), before).any() else None)
+    machine.run("echo 'It is in use again.' >/dev/tty1")
+    after = until("the console can be written to", 30, lambda: seen if different_pixels(seen := machine.screen(), before).any() else None)
+    kiosk.keep("console_again", after)
+    rows(machine, kiosk)
+
+
+def rows(machine, kiosk):
+    """One person, one enrolment, with a consent and a model, in a store that is whole."""
+    kept = machine.results / "relievo.db"
+    machine.run(f"cp {kiosk.store()}/relievo.db {kept}")
+    with sqlite3.connect(f"file:{kept}?mode=ro", uri=True) as store:
+        counts = {table: store.execute(f"SELECT count(*) FROM {table}").fetchone()[0] for table in ("subject", "consent", "enrolment", "model")}
+        whole = store.execute("PRAGMA integrity_check").fetchone()[0]
+    kept.unlink()
+    check(whole == "ok", f"the store: {whole}")
+    check(set(counts.values()) == {1}, f"the store should have one row of each: {counts}")
+
+
+def faults(machine, pages):
+    """No right to the screen, a crash, and no screen at all: what is said, and that the console can be used afterwards."""
+    kiosk = Kiosk(machine, RELIEVO, pages, None)
+    keys = machine.run("kbd_mode -C /dev/tty1")
+    refused(kiosk, "stranger", "relievo: /dev/dri/card0: this user may not use the screen: ")
+    with Panel(machine, BUILT / "tests/vm/touch_panel"):
+        kiosk.start(words=photographed())
+        kiosk.see("attract", SLOW, ["showpiece"])
+        machine.run("kill -SEGV $(busybox pidof relievo)")
+        code, _ = kiosk.ended(60)
+        check(code != 0, "a crash should not look like an end")
+    check(machine.run("kbd_mode -C /dev/tty1") == keys, "after a crash the console's keyboard is dead")
+    machine.run("cd /sys/bus/virtio/drivers/virtio_gpu && echo virtio[0-9]* >unbind; udevadm settle --timeout=30")
+    refused(kiosk, "kiosk", "relievo: /dev/dri: there is no graphics device: ")
+
+
+def refused(kiosk, user, line):
+    kiosk.start(user, photographed())
+    code, said = kiosk.ended(SLOW)
+    check(code == 1 and said.startswith(line) and "\n" not in said, f"should have ended with 1 and {line!r}: {code}, {said!r}")
+    print(said, flush=True)
+
+
+CASES = {
+    "faults": ("1280x800", faults),
+    "visit-1280x800": ("1280x800", visit),
+    "visit-1080x1920": ("1080x1920", visit),
+}
+
+
+def play(name, accel):
+    size, case = CASES[name]
+    pages = drawn_headless(size)
+    results = GUEST / "seen" / name
+    shutil.rmtree(results, ignore_errors=True)
+    results.mkdir(parents=True)
+    with Machine(GUEST, ROOT, results, accel, *map(int, size.split("x"))) as machine:
+        case(machine, pages)
+
+
+def main(names):
+    if names == ["--list"]:
+        print("\n".join(CASES))
+        return 0
+    unknown = [name for name in names if name not in CASES]
+    if unknown:
+        print(f"vm: there is no case {unknown[0]}: toolchain/vm --list names them", file=sys.stderr)
+        return 2
+    accel = accelerator(GUEST)
+    print(f"vm: processors by {accel.split(',')[0]}", flush=True)
+    failed = 0
+    for name in names or CASES:
+        begin = time.monotonic()
+        print(f"== {name}", flush=True)
+        try:
+            play(name, accel)
+            print(f"held, {time.monotonic() - begin:.0f} s", flush=True)
+        except Failed as why:
+            failed += 1
+            print(f"FAILED: {why}", flush=True)
+    count = len(names or CASES)
+    print(f"vm: {count - failed} passed, {failed} failed; what was seen: {GUEST / 'seen'}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
