@@ -1,14 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the algorithms say of their options, in every language: every sentence of the catalogue of algorithms.
+// What the algorithms say of their options, in every language: every sentence of the catalogue of algorithms, and why
+// values are refused; and what cameras cannot do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "hal/sim/rig.h"
 #include "pipeline/algorithms.h"
+#include "pipeline/pipeline.h"
+#include "tests/support/rig_calibration.h"
 #include "ui/language/language.h"
 
 namespace relievo::firmware {
@@ -47,6 +56,97 @@ TEST(OptionWords, EverySentenceIsInEveryLanguage) {
       }
     }
   }
+}
+
+void every_language_knows(const std::set<std::string>& texts) {
+  for (std::size_t i = 0; i < ui::kLanguages; ++i) {
+    const auto language = static_cast<ui::Language>(i);
+    for (const std::string& text : texts) EXPECT_TRUE(language == ui::Language::English || ui::Words(language).knows(text.c_str())) << ui::info_of(language).code << ".po lacks: " << text;
+  }
+}
+
+std::string section_of(const std::string& option) { return option.substr(0, option.find('.')); }
+
+// The set with the algorithm chosen whose option it is.
+pipeline::AlgorithmSet set_for(const std::vector<pipeline::OptionDescription>& all, const std::string& section) {
+  pipeline::AlgorithmSet set;
+  const std::string name = section.substr(0, section.find("-points"));
+  for (const auto& kind : all) {
+    const bool there = std::find(kind.names.begin(), kind.names.end(), name) != kind.names.end();
+    EXPECT_TRUE(!there || set.set(kind.key, name));
+  }
+  return set;
+}
+
+std::vector<std::string> values_of(const pipeline::OptionDescription& option) {
+  if (option.text) return {"?"};
+  const double least = option.least, most = option.most;
+  std::vector<std::string> values;
+  for (const double value : {least, most, (least + most) / 2, least + 1, most - 1, std::floor(std::sqrt(std::max(0.0, least * most)))}) values.push_back(std::to_string(value));
+  return values;
+}
+
+void note(const Error& error, std::set<std::string>& refusals) {
+  if (error.code == Errc::InvalidInput) refusals.insert(std::string(error.what.view()));
+}
+
+void ask(const pipeline::AlgorithmSet& set, std::set<std::string>& refusals) {
+  const auto judge = [&](const auto& made) {
+    if (!made) note(made.error(), refusals);
+  };
+  judge(pipeline::make_preprocessor(set));
+  judge(pipeline::make_selector(set));
+  judge(pipeline::make_matcher(set));
+  judge(pipeline::make_constraints(set));
+  judge(pipeline::make_triangulator(set));
+  judge(pipeline::make_outlier_filter(set));
+  judge(pipeline::make_face_crop(set));
+  judge(pipeline::make_mesher(set));
+  judge(pipeline::make_completion(set));
+  judge(pipeline::make_relief_check(set));
+  judge(pipeline::make_texturer(set));
+}
+
+// Each value is possible by itself, and yet an algorithm may refuse it, or two of them beside each other: then a page says why.
+TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  const auto all = pipeline::describe_algorithms();
+  std::set<std::string> refusals;
+  for (const auto& one : all) {
+    if (!one.names.empty()) continue;
+    pipeline::AlgorithmSet chosen = set_for(all, section_of(one.key));
+    for (const std::string& value : values_of(one)) {
+      pipeline::AlgorithmSet set = chosen;
+      if (set.set(one.key, value)) ask(set, refusals);
+    }
+    if (one.text || !chosen.set(one.key, std::to_string(one.least))) continue;
+    for (const auto& other : all) {
+      pipeline::AlgorithmSet set = chosen;
+      const bool beside = other.names.empty() && !other.text && other.key != one.key && section_of(other.key) == section_of(one.key);
+      if (beside && set.set(other.key, std::to_string(other.most))) ask(set, refusals);
+    }
+  }
+  pipeline::AlgorithmSet scattered;
+  ASSERT_TRUE(scattered.set("selector", "harris"));
+  const auto made = pipeline::Pipeline::make(scattered, test::true_calibration(hal::sim::make_rig({})));
+  ASSERT_FALSE(made);
+  note(made.error(), refusals);
+  EXPECT_GE(refusals.size(), 10U);
+  every_language_knows(refusals);
+}
+
+// What a camera's driver cannot do stands on the technician's pages, however rare.
+TEST(OptionWords, EveryFaultOfACameraIsInEveryLanguage) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  static const std::regex fault(R"rx(Errc::\w+,\s*"([^"]+)")rx");
+  std::set<std::string> faults;
+  for (const char* file : {"v4l2_camera.cc", "v4l2_controls.cc", "v4l2_setup.cc"}) {
+    std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / "hal" / "linux" / file);
+    const std::string source{std::istreambuf_iterator<char>(in), {}};
+    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) faults.insert((*at)[1]);
+  }
+  ASSERT_GE(faults.size(), 30U);
+  every_language_knows(faults);
 }
 
 }  // namespace

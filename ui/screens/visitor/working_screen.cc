@@ -66,7 +66,7 @@ void card(Page& page, int stage, const char* words) {
     picture.aspect = static_cast<float>(born.picture.width_px) / static_cast<float>(born.picture.height_px);
     picture.covers = true;
   }
-  if (stage < now) picture.box.along = Along::End, picture.box.across = Across::End;
+  if (stage < now) picture.box.along = Along::End, picture.box.across = Across::End, picture.box.pad_x = picture.box.pad_y = page.px(8);
   page.tree.open(picture);
   if (stage < now) tick(page);
   else if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
@@ -112,6 +112,7 @@ void working_screen(Page& page) {
   page.body("what", tr("It takes a few seconds. You need not stand still any more."));
   const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"), tr("The colours of your skin")};
   Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
+  all.box.even = true;   // a tick moves nothing
   page.tree.open(all);
   for (int i = 0; i < 4; ++i) {
     if (page.portrait && i % 2 == 0) page.tree.open(page.grown(page.box(Flow::Row, space::kM)));
