@@ -8,6 +8,7 @@ Called by toolchain/vm, which builds what this needs.
 import os
 import pathlib
 import shutil
+import signal
 import sqlite3
 import subprocess
 import sys
@@ -112,7 +113,7 @@ def visit(machine, pages):
         kiosk.panel = panel
         kiosk.tap_node("attract", "start")
         kiosk.see("consent", 60)
-    shown = machine.run("grep -c 'crtc=crtc' /sys/kernel/debug/dri/0/state")
+    shown = machine.run("awk '/^[a-z]/ {part = $1} part ~ /^plane/ && /crtc=crtc/ {shown++} END {print shown + 0}' /sys/kernel/debug/dri/0/state")
     check(shown == "1", f"{shown} planes are shown: the picture alone should be, and no mouse's arrow")
     kiosk.stop()
     check(machine.run("kbd_mode -C /dev/tty1") == keys_before, "the console's keyboard was not given back")
@@ -201,4 +202,5 @@ def main(names):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))   # the machine ends with us
     sys.exit(main(sys.argv[1:]))
