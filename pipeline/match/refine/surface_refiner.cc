@@ -98,17 +98,23 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
-// Skin is smoother than the prior that keeps its wrinkles expects: errors of rendered heads of two makers come to this share.
-constexpr float kSigmaShare = 0.96F;
+// The prior expects bends of every length alike; of skin the short ones are less (relief and pores apart, it is smooth), so that
+// the less far the fit reaches down, the more the posterior overstates. Errors of rendered heads of two makers, from half the
+// contrast to twice and up to twice the noise, come to this share of it for a reach of a node, and go with its fourth root. Where hardly
+// anything is seen the prior is all there is, and it is believed.
+constexpr float kShareAtANode = 1.2F;
+constexpr float kShareOfReach = 0.25F;
+constexpr float kLeastReach = 0.15F;
 
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
 // with A the information that the gradients seem to carry, noise in them included, and a what both views'
-// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A.
+// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A. reach = (a / lambda)^(1/4) a node.
 float posterior_sigma(double seeming, double agreed, double bend) {
   const double real = std::clamp(agreed, static_cast<double>(kLeastReal) * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
-  return static_cast<float>(std::sqrt(variance));
+  const float reach = std::sqrt(std::sqrt(static_cast<float>(real / bend)));
+  return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) * static_cast<float>(std::sqrt(variance));
 }
 
 // sigma and cost of every node.
@@ -136,7 +142,7 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
       const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
       const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          kSigmaShare * posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
+          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
