@@ -45,6 +45,19 @@ class SdlDisplayTest : public testing::Test {
   std::unique_ptr<Display> display;
 };
 
+// A kiosk without a mouse must not show an arrow; who moves a mouse has to see it.
+TEST_F(SdlDisplayTest, TheArrowIsThereWhileAMouseMovesAndGoesWithAFinger) {
+  EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_DISABLE);
+  SDL_Event moved{};
+  moved.type = SDL_MOUSEMOTION;
+  SDL_PushEvent(&moved);
+  EXPECT_FALSE(display->poll().has_value());
+  EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_ENABLE);
+  push_finger(SDL_FINGERDOWN, 0.5F, 0.25F);
+  EXPECT_TRUE(display->poll().has_value());
+  EXPECT_EQ(SDL_ShowCursor(SDL_QUERY), SDL_DISABLE);
+}
+
 TEST_F(SdlDisplayTest, AFingerIsToldInPixels) {
   push_finger(SDL_FINGERDOWN, 0.5F, 0.25F);
   push_finger(SDL_FINGERMOTION, 1.0F, 0.5F);

@@ -27,6 +27,7 @@ class SdlDisplay final : public Display {
     // crash. Signals that ask us to end are the firmware's, which takes them afterwards.
     if (without_desktop()) SDL_SetHint(SDL_HINT_VIDEODRIVER, "kmsdrm");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return failed();
+    SDL_ShowCursor(SDL_DISABLE);  // KMS shows an arrow from the start where a mouse could be; ours comes when one moves
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
@@ -87,6 +88,7 @@ class SdlDisplay final : public Display {
   }
 
   std::optional<Input> finger(Input::Kind kind, const SDL_TouchFingerEvent& touch) const {
+    SDL_ShowCursor(SDL_DISABLE);
     const auto [w, h] = size();
     return Input{kind, touch.fingerId, touch.x * static_cast<float>(w), touch.y * static_cast<float>(h)};
   }
@@ -125,6 +127,7 @@ class SdlDisplay final : public Display {
         held_ = false;
         return Input{Input::Kind::Up, kMouse, static_cast<float>(event.button.x), static_cast<float>(event.button.y)};
       case SDL_MOUSEMOTION:
+        SDL_ShowCursor(SDL_ENABLE);
         if (!held_) return std::nullopt;
         return Input{Input::Kind::Move, kMouse, static_cast<float>(event.motion.x), static_cast<float>(event.motion.y)};
       default: return std::nullopt;
