@@ -90,7 +90,7 @@ class Machine:
             self.qmp = self._connect("qmp").makefile("rw")
             self.qmp.readline()
             self._ask("qmp_capabilities")
-            self._read_until(rb"guest: ready\n", 180, "the guest does not boot")
+            self._read_until(rb"guest: ready\n", 600, "the guest does not boot")
         except BaseException:
             self.__exit__()
             raise
