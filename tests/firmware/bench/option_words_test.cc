@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the algorithms say of their options, in every language: every sentence of the catalogue of algorithms, and why
-// values are refused; and what cameras cannot do.
+// What the algorithms say of their options, in every language: every sentence of the catalogue of algorithms,
+// and why values are refused; and what the machine beneath cannot do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,9 @@ namespace {
 
 // A byte that begins a letter of a script.
 bool has_lead(const std::string& text, unsigned first, unsigned last) {
-  return std::any_of(text.begin(), text.end(), [=](char c) { return static_cast<unsigned char>(c) >= first && static_cast<unsigned char>(c) <= last; });
+  return std::any_of(text.begin(), text.end(), [=](char c) {
+    return static_cast<unsigned char>(c) >= first && static_cast<unsigned char>(c) <= last;
+  });
 }
 
 bool is_arabic(const std::string& text) { return has_lead(text, 0xD8, 0xDB); }
@@ -35,7 +37,8 @@ bool is_east_asian(const std::string& text) { return has_lead(text, 0xE4, 0xE9);
 TEST(OptionWords, EverySentenceIsInEveryLanguage) {
   ASSERT_TRUE(ui::prepare_languages().has_value());
   std::set<std::string> sentences;
-  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms()) sentences.insert(option.sentence);
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
+    sentences.insert(option.sentence);
   ASSERT_GT(sentences.size(), 100U);
   for (std::size_t i = 0; i < ui::kLanguages; ++i) {
     const auto language = static_cast<ui::Language>(i);
@@ -49,7 +52,8 @@ TEST(OptionWords, EverySentenceIsInEveryLanguage) {
       EXPECT_TRUE(said.insert(other).second) << "two sentences became one: " << other;
       EXPECT_EQ(is_arabic(other), language == ui::Language::Arabic) << other;
       EXPECT_EQ(is_hebrew(other), language == ui::Language::Hebrew) << other;
-      EXPECT_EQ(is_east_asian(other), language == ui::Language::Chinese || language == ui::Language::Japanese) << other;
+      EXPECT_EQ(is_east_asian(other), language == ui::Language::Chinese || language == ui::Language::Japanese)
+          << other;
       // Figures and the words of files are the same everywhere.
       for (const char* kept : {"MODE_HH", "QUALITY:DISTANCE_PX", "2^scales", "195"}) {
         EXPECT_EQ(sentence.find(kept) == std::string::npos, other.find(kept) == std::string::npos) << other;
@@ -61,14 +65,17 @@ TEST(OptionWords, EverySentenceIsInEveryLanguage) {
 void every_language_knows(const std::set<std::string>& texts) {
   for (std::size_t i = 0; i < ui::kLanguages; ++i) {
     const auto language = static_cast<ui::Language>(i);
-    for (const std::string& text : texts) EXPECT_TRUE(language == ui::Language::English || ui::Words(language).knows(text.c_str())) << ui::info_of(language).code << ".po lacks: " << text;
+    for (const std::string& text : texts)
+      EXPECT_TRUE(language == ui::Language::English || ui::Words(language).knows(text.c_str()))
+          << ui::info_of(language).code << ".po lacks: " << text;
   }
 }
 
 std::string section_of(const std::string& option) { return option.substr(0, option.find('.')); }
 
 // The set with the algorithm chosen whose option it is.
-pipeline::AlgorithmSet set_for(const std::vector<pipeline::OptionDescription>& all, const std::string& section) {
+pipeline::AlgorithmSet set_for(const std::vector<pipeline::OptionDescription>& all,
+                               const std::string& section) {
   pipeline::AlgorithmSet set;
   const std::string name = section.substr(0, section.find("-points"));
   for (const auto& kind : all) {
@@ -82,7 +89,9 @@ std::vector<std::string> values_of(const pipeline::OptionDescription& option) {
   if (option.text) return {"?"};
   const double least = option.least, most = option.most;
   std::vector<std::string> values;
-  for (const double value : {least, most, (least + most) / 2, least + 1, most - 1, std::floor(std::sqrt(std::max(0.0, least * most)))}) values.push_back(std::to_string(value));
+  for (const double value : {least, most, (least + most) / 2, least + 1, most - 1,
+                             std::floor(std::sqrt(std::max(0.0, least * most)))})
+    values.push_back(std::to_string(value));
   return values;
 }
 
@@ -107,7 +116,8 @@ void ask(const pipeline::AlgorithmSet& set, std::set<std::string>& refusals) {
   judge(pipeline::make_texturer(set));
 }
 
-// Each value is possible by itself, and yet an algorithm may refuse it, or two of them beside each other: then a page says why.
+// Each value is possible by itself, and yet an algorithm may refuse it, or two of them beside each other:
+// then a page says why.
 TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
   ASSERT_TRUE(ui::prepare_languages().has_value());
   const auto all = pipeline::describe_algorithms();
@@ -122,7 +132,8 @@ TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
     if (one.text || !chosen.set(one.key, std::to_string(one.least))) continue;
     for (const auto& other : all) {
       pipeline::AlgorithmSet set = chosen;
-      const bool beside = other.names.empty() && !other.text && other.key != one.key && section_of(other.key) == section_of(one.key);
+      const bool beside = other.names.empty() && !other.text && other.key != one.key &&
+                          section_of(other.key) == section_of(one.key);
       if (beside && set.set(other.key, std::to_string(other.most))) ask(set, refusals);
     }
   }
@@ -135,17 +146,27 @@ TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
   every_language_knows(refusals);
 }
 
-// What a camera's driver cannot do stands on the technician's pages, however rare.
-TEST(OptionWords, EveryFaultOfACameraIsInEveryLanguage) {
-  ASSERT_TRUE(ui::prepare_languages().has_value());
+// Every fault a file of the source can tell of.
+void collect_faults(const std::filesystem::path& file, std::set<std::string>& faults) {
   static const std::regex fault(R"rx(Errc::\w+,\s*"([^"]+)")rx");
+  std::ifstream in(file);
+  const std::string source{std::istreambuf_iterator<char>(in), {}};
+  for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at)
+    faults.insert((*at)[1]);
+}
+
+// What the machine's drivers cannot do stands on the technician's pages, however rare: cameras, their
+// pictures, the trigger's wire, the watchdog, the stick, the words of a rig.
+TEST(OptionWords, EveryFaultOfTheMachineIsInEveryLanguage) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  const std::filesystem::path hal = std::filesystem::path(RELIEVO_SOURCE_DIR) / "hal";
   std::set<std::string> faults;
-  for (const char* file : {"v4l2_camera.cc", "v4l2_controls.cc", "v4l2_setup.cc"}) {
-    std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / "hal" / "linux" / file);
-    const std::string source{std::istreambuf_iterator<char>(in), {}};
-    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) faults.insert((*at)[1]);
-  }
-  ASSERT_GE(faults.size(), 30U);
+  collect_faults(hal / "trigger_line.h", faults);
+  for (const char* room : {"linux", "raw"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(hal / room))
+      if (entry.path().extension() == ".cc" || entry.path().extension() == ".h")
+        collect_faults(entry.path(), faults);
+  ASSERT_GE(faults.size(), 90U);
   every_language_knows(faults);
 }
 
