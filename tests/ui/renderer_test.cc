@@ -137,16 +137,21 @@ TEST_F(RendererTest, LettersComeFromTheAtlas) {
   EXPECT_EQ(at(20, 12), (Colour{0, 0, 0, 255}));
 }
 
-TEST_F(RendererTest, AModelIsSeenFromTheFront) {
+// A square of 80 mm before the camera, its middle at a height; the head frame looks back at it.
+pipeline::FaceModel square_at(float middle_mm) {
   pipeline::FaceModel model(std::pmr::get_default_resource());
-  // A square of 80 mm before the camera; the head frame looks back at it.
   for (const float x : {-40.0F, 40.0F})
     for (const float y : {-40.0F, 40.0F}) {
-      model.mesh.vertices_mm.push_back({x, y, 0});
+      model.mesh.vertices_mm.push_back({x, y + middle_mm, 0});
       model.mesh.normals.push_back({0, 0, 1});
     }
   model.mesh.triangles.push_back({0, 1, 2});
   model.mesh.triangles.push_back({1, 3, 2});
+  return model;
+}
+
+TEST_F(RendererTest, AModelIsSeenFromTheFront) {
+  const pipeline::FaceModel model = square_at(0);
   list.face = &model;
   list.face_version = 1;
   add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
@@ -156,6 +161,33 @@ TEST_F(RendererTest, AModelIsSeenFromTheFront) {
   list.face_look.yaw_deg = 85;
   draw();
   EXPECT_EQ(at(80, 60), (Colour{0, 0, 0, 255})) << "turned away it is narrow";
+}
+
+// Wherever its origin lies: in the middle of the window, or of what is free of it.
+TEST_F(RendererTest, AModelStandsInTheMiddleOfWhatIsFree) {
+  const auto middle_of_lit = [&] {
+    int first = -1, last = -1;
+    for (int y = 0; y < 120; ++y) {
+      if (at(100, y).r <= 60) continue;
+      if (first < 0) first = y;
+      last = y;
+    }
+    EXPECT_GT(last, first + 20);
+    return static_cast<float>(first + last) / 2;
+  };
+  list.face_version = 7;
+  for (const float middle_mm : {0.0F, 30.0F, -30.0F}) {
+    const pipeline::FaceModel model = square_at(middle_mm);
+    list.face = &model;
+    ++list.face_version;
+    list.commands.clear();
+    add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
+    draw();
+    EXPECT_NEAR(middle_of_lit(), 59.5F, 1.5F) << middle_mm;
+    list.commands.back().share = 2.0F / 3;   // the lower third is covered
+    draw();
+    EXPECT_NEAR(middle_of_lit(), 39.5F, 1.5F) << middle_mm;
+  }
 }
 
 }  // namespace

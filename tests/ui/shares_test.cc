@@ -4,6 +4,7 @@
 // What is left over is given out to the last pixel; lines and figures are as high and as wide as each other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -133,6 +134,67 @@ TEST_F(SharesTest, TabularFiguresStandUnderEachOther) {
   EXPECT_GT(wide("20:48:06"), wide("11:11:11") + 4) << "by itself a one is narrow";
   style.tabular = true;
   EXPECT_EQ(wide("20:48:06"), wide("11:11:11"));
+}
+
+// What belongs to a picture stands directly above and below it, however much room there is.
+TEST_F(SharesTest, ALabelStandsAtItsPicture) {
+  for (const float height : {300.0F, 700.0F}) {
+    tree_.begin(false);
+    Node column;
+    column.id = "column";
+    column.box.gap = 6;
+    column.box.along = Along::Centre;
+    tree_.open(column);
+    Node label;
+    label.box.height = 24;
+    tree_.leaf(label);
+    Node picture = growing(1);
+    picture.box.flow = Flow::Stack;
+    picture.aspect = 1.6F;
+    tree_.leaf(picture);
+    tree_.leaf(label);
+    tree_.close();
+    tree_.layout({0, 0, 400, height}, *text_, {});
+    const std::vector<Rect> seen = children("column");
+    ASSERT_EQ(seen.size(), 3U);
+    EXPECT_NEAR(seen[1].w / seen[1].h, 1.6F, 0.01F);
+    EXPECT_NEAR(seen[1].y - seen[0].bottom(), 6, 1) << height;
+    EXPECT_NEAR(seen[2].y - seen[1].bottom(), 6, 1) << height;
+    EXPECT_NEAR(seen[0].y, height - seen[2].bottom(), 1) << "in the middle of " << height;
+  }
+}
+
+// A scroller that yields is as high as its words, and no higher than what the others leave.
+TEST_F(SharesTest, AScrollerThatYieldsIsAsHighAsItsWordsWhereThereIsRoom) {
+  for (const float words_px : {120.0F, 900.0F}) {
+    tree_.begin(false);
+    Node veil;
+    veil.box.along = Along::Centre;
+    tree_.open(veil);
+    Node card;
+    card.id = "card";
+    card.box.yields = true;
+    tree_.open(card);
+    Node scroller;
+    scroller.id = "words";
+    scroller.box.scroll = scroller.box.yields = true;
+    tree_.open(scroller);
+    Node words;
+    words.box.height = words_px;
+    tree_.leaf(words);
+    tree_.close();
+    Node button;
+    button.box.height = 80;
+    tree_.leaf(button);
+    tree_.close();
+    tree_.close();
+    tree_.layout({0, 0, 600, 400}, *text_, {});
+    const std::vector<Rect> seen = children("card");
+    EXPECT_NEAR(seen[0].h, std::min(words_px, 320.0F), 1);
+    EXPECT_NEAR(seen[1].h, 80, 1);
+    EXPECT_NEAR(tree_.find("card")->rect.y, 400 - tree_.find("card")->rect.bottom(), 1);
+    EXPECT_EQ(tree_.find("words")->content_height > tree_.find("words")->rect.h + 1, words_px > 320);
+  }
 }
 
 }  // namespace

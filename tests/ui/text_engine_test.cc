@@ -86,6 +86,15 @@ std::vector<std::string> phrases(const std::string& text, bool japanese) {
   return all;
 }
 
+TEST(Phrases, SentencesBeginBehindWhatEndsOne) {
+  using Starts = std::vector<std::size_t>;
+  EXPECT_EQ(sentence_starts("Thank you. Your portrait is stored"), Starts{11});
+  EXPECT_EQ(sentence_starts("Is it you? Yes! 3.5 mm, e.g.x"), (Starts{11, 16}));
+  EXPECT_EQ(sentence_starts("شكرًا. حُفظت"), Starts{std::string_view("شكرًا. ").size()});
+  EXPECT_TRUE(sentence_starts("One sentence.").empty());
+  EXPECT_TRUE(sentence_starts("").empty());
+}
+
 TEST(Phrases, AreWhatIsReadInOneBreath) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(phrases("正面を見て動かないでください", true), (Words{"正面を", "見て", "動かないでください"}));

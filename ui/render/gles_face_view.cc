@@ -80,13 +80,13 @@ class GlesFaceView final : public FaceView {
     return {};
   }
 
-  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px) override {
+  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px, float covered) override {
     if (subject.model == nullptr || subject.version == 0) return 0;
     const std::uint32_t version = subject.version;
     const int most = std::max(width_px, height_px);
     const int times = most * 2 <= kMostSidePx ? 2 : 1;
     const int w = width_px * times, h = height_px * times;
-    const bool same = version == version_ && look == look_ && w == width_ && h == height_;
+    const bool same = version == version_ && look == look_ && covered == covered_ && w == width_ && h == height_;
     if (same && colour_ != 0) return colour_;
     if (version != version_) upload(*subject.model);
     if (look.points && version != points_version_) upload_points(subject);
@@ -95,6 +95,7 @@ class GlesFaceView final : public FaceView {
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
     version_ = version;
     look_ = look;
+    covered_ = covered;
     render();
     glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
     return colour_;
@@ -118,6 +119,8 @@ class GlesFaceView final : public FaceView {
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model);
     count_ = static_cast<int>(corners.size());
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [](const Corner& one, const Corner& other) { return one.y < other.y; });
+    middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
     glBindTexture(GL_TEXTURE_2D, texture_);
@@ -189,11 +192,11 @@ class GlesFaceView final : public FaceView {
       clip[4 * c + 2] = a * turned[3 * c + 2];
       clip[4 * c + 3] = -turned[3 * c + 2];
     }
-    const float down = 6;  // the nose stands a little above the middle of the window
     clip[12] = 0;
-    clip[13] = f * down;
+    clip[13] = -f * middle_mm_;
     clip[14] = -a * kDistanceMm + b;
     clip[15] = kDistanceMm;
+    for (std::size_t c = 0; c < 4; ++c) clip[4 * c + 1] += covered_ * clip[4 * c + 3];   // half the window is 1
     return t;
   }
 
@@ -244,6 +247,7 @@ class GlesFaceView final : public FaceView {
   GLuint program_ = 0, point_program_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0;
   FaceLook look_;
+  float covered_ = 0, middle_mm_ = 0;   // where the middle of the model is, upwards, as it looks ahead
   int count_ = 0, point_count_ = 0, width_ = 0, height_ = 0;
   bool textured_ = false;
 };

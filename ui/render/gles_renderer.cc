@@ -177,7 +177,7 @@ class GlesRenderer final : public Renderer {
     const Command& c = list.commands[first];
     GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[static_cast<std::size_t>(c.picture)];
     if (c.mark == Mark::Face) {
-      texture = face_->draw({list.face, list.cloud, list.face_version}, list.face_look, static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)));
+      texture = face_->draw({list.face, list.cloud, list.face_version}, list.face_look, static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)), 1 - c.share);
       if (texture == 0) return;
       glViewport(0, 0, width_, height_);
       glEnable(GL_BLEND);

@@ -158,7 +158,8 @@ class PangoTextEngine final : public TextEngine {
     pango_layout_set_attributes(layout, plain);
     pango_layout_set_width(layout, width * PANGO_SCALE);
     const int lines = pango_layout_get_line_count(layout);
-    if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_phrases(text, is(style, "ja"), width, lines, plain);
+    if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_whole(phrase_starts(text, is(style, "ja")), text, width, lines, plain);
+    else if (lines == 2 && style.weight == Weight::Bold) keep_whole(sentence_starts(text), text, width, lines, plain);
     int narrow = 0, wide = width;
     if (lines > 1 && lines <= kBalancedLines) {
       for (narrow = width / 2; wide - narrow > 4;) {
@@ -203,10 +204,10 @@ class PangoTextEngine final : public TextEngine {
     if (set_.left > set_.right) set_.left = set_.top = set_.right = set_.bottom = 0;   // blanks
   }
 
-  // Lines end between phrases where that costs no line more; otherwise between any two letters.
-  void keep_phrases(std::string_view text, bool japanese, int width, int lines, PangoAttrList* plain) {
+  // Lines end between phrases (or sentences) where that costs no line more; otherwise as the script has it.
+  void keep_whole(std::vector<std::size_t> starts, std::string_view text, int width, int lines, PangoAttrList* plain) {
+    if (starts.empty()) return;
     PangoAttrList* whole = plain != nullptr ? pango_attr_list_copy(plain) : pango_attr_list_new();
-    std::vector<std::size_t> starts = phrase_starts(text, japanese);
     starts.push_back(text.size());
     std::size_t from = 0;
     for (const std::size_t to : starts) {

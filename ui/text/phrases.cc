@@ -66,4 +66,13 @@ std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese) {
   return starts;
 }
 
+std::vector<std::size_t> sentence_starts(std::string_view text) {
+  const std::vector<Letter> letters = letters_of(text);
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 2; i < letters.size(); ++i) {
+    if (letters[i - 1].code == U' ' && is_one_of(letters[i - 2].code, U".!?\u061f")) starts.push_back(letters[i].at);
+  }
+  return starts;
+}
+
 }  // namespace relievo::ui

@@ -19,4 +19,7 @@ namespace relievo::ui {
 // The bytes at which the phrases after the first begin, in order.
 std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese);
 
+// The same of sentences in a script that is written with spaces: behind ". ", "! ", "? " and the Arabic question mark.
+std::vector<std::size_t> sentence_starts(std::string_view text);
+
 }  // namespace relievo::ui

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace relievo::ui {
 namespace {
@@ -45,7 +46,7 @@ Layout::Need Layout::need(const Node& node, float width) {
   n.h = std::max(n.h, box.min_height);
   if (box.width > 0) n.w = box.width;
   if (box.height > 0) n.h = box.height;
-  if (box.scroll) n.h = std::max(box.min_height, box.height);
+  if (box.scroll && !box.yields) n.h = std::max(box.min_height, box.height);
   return n;
 }
 
@@ -142,7 +143,8 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
 }
 
 void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
-  float fixed = 0, grow = 0, growing = 0, highest = 0;   // highest: a share of what those need that grow, were all shares as high
+  float fixed = 0, grow = 0, growing = 0, highest = 0, shown = 0;   // highest: a share of what those need that grow, were all shares as high
+                                                              // shown: the height of a picture, when it alone grows
   int count = 0;
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
@@ -150,21 +152,27 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     fixed += h;
     if (child.box.grow <= 0) continue;
     grow += child.box.grow, growing += h;
+    shown = child.aspect > 0 && child.box.flow == Flow::Stack && grow == child.box.grow ? inner.w / child.aspect : 0;
     highest = std::max(highest, h / child.box.grow);
   }
   float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
   if (count > 1) fixed += gap * static_cast<float>(count - 1);
   node.content_height = fixed + 2 * node.box.pad_y;
-  float y = inner.y;
-  const float left = std::max(0.0F, inner.h - fixed);
+  float y = inner.y, over = node.box.scroll ? 0 : std::max(0.0F, fixed - inner.h);
+  float left = std::max(0.0F, inner.h - fixed);
   if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
   const bool even = node.box.even && grow > 0 && highest * grow <= growing + left;
   if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
+  if (shown > 0 && node.box.along == Along::Centre && growing + left > shown) {   // what belongs to a picture stands beside it
+    y += (growing + left - shown) / 2;
+    left = std::max(0.0F, shown - growing);
+  }
   if (grow <= 0 && node.box.along == Along::End) y += left;
   if (grow <= 0 && node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    const Need n = need(child, inner.w);
+    Need n = need(child, inner.w);
+    if (child.box.yields) n.h -= std::exchange(over, 0.0F);
     const float more = grow > 0 ? left * child.box.grow / grow : 0, h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
     const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) && child.box.width <= 0 && child.box.max_width <= 0;
     const float w = stretch ? inner.w : std::min(node.box.across == Across::Stretch && child.box.width <= 0 ? std::min(inner.w, child.box.max_width) : n.w, inner.w);

@@ -32,6 +32,7 @@ struct Box {
   bool grid = false;                    // a row of columns alike: a child that grows by n covers n of them and the gaps between
   bool even = false;                    // a column whose growing children are as high as their shares, not higher by them
   bool scroll = false;                  // a column that may be higher than its room
+  bool yields = false;                  // in a column: as high as its content is where there is room, else as high as is left
   bool left_to_right = false;           // a row that is not mirrored: digits, keys
   bool folds = false;                   // a row whose first child grows: the others stand under it where it would be narrow
   Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
@@ -62,6 +63,7 @@ struct Node {
   bool mirrored = false;     // the picture, as in a mirror
   bool covers = false;       // the picture fills its box and is cut; else it is seen whole
   float share = 1, line_px = 0;
+  float covered_px = 0;      // of a Face, at its lower end: the model stands in the middle of the rest
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
   Rect rect;                 // set by layout()
   Rect clip;

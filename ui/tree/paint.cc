@@ -55,7 +55,7 @@ void paint_picture(DrawList& list, const Node& node) {
   c.border = node.box.border;
   c.border_px = node.line_px;
   c.radius = node.mark == Mark::Ring ? node.line_px / 2 : node.box.radius;
-  c.share = node.share;
+  c.share = node.mark == Mark::Face ? 1 - std::min(1.0F, node.covered_px / std::max(1.0F, node.rect.h)) : node.share;
   c.picture = node.picture;
   if (node.mark == Mark::Ring) {
     c.fill = node.colour;

@@ -62,10 +62,7 @@ void said(StaffFrame& page, const RecordsView& seen) {
   const bool done = page.staff.work.outcome == Outcome::Done;
   if (done && (seen.erased || seen.exported)) {
     const char* words = seen.erased ? page.tr("Erased. Nothing of this person is left.") : page.tr("It is all there, and read back. You may pull out the stick.");
-    Node line = page.text(words, type::kSmall, Weight::Medium, page.palette.good);
-    line.id = "outcome";
-    line.role = Role::Status;
-    page.tree.leaf(line);
+    page.status("outcome", words, Mood::Good);
     return;
   }
   // Of an export it matters what the stick has; one that was pulled out has nothing that is sure.
@@ -133,7 +130,7 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.tree.close();
   said(page, seen);
   page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main, ask(kRecordExport, seen.shown->number));
-  page.small_button("erase", tr("Erase this record"), "\uf1c0", ButtonLook::Quiet, {ActionKind::StaffMode, kErasing});
+  page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet, {ActionKind::StaffMode, kErasing});
   page.tree.close();
   page.tree.close();
 }

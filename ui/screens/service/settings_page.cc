@@ -80,10 +80,7 @@ void group(StaffFrame& page, const char* title, std::span<const Setting> setting
 
 void said(StaffFrame& page) {
   if (page.staff.work.outcome != Outcome::Done) return page.outcome();
-  Node line = page.text(page.tr("Saved. It holds from now on."), type::kSmall, Weight::Medium, page.palette.good);
-  line.id = "outcome";
-  line.role = Role::Status;
-  page.tree.leaf(line);
+  page.status("outcome", page.tr("Saved. It holds from now on."), Mood::Good);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kMargin = 32, kTop = 20;
-constexpr const char *kLeaveSign = "\uf343", *kBin = "\uf1c0";
+constexpr const char* kLeaveSign = "\uf343";
 constexpr Colour kNone{};
 
 }  // namespace
@@ -187,7 +187,7 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
   node.box.border = palette.bad;
   node.box.border_px = std::max(2.0F, px(3));
   tree.open(node);
-  sign(kBin, kSize.sign, palette.bad);
+  sign(icon::kBin, kSize.sign, palette.bad);
   tree.leaf(text(label, kSize.text, Weight::Medium, palette.bad, TextAlign::Centre));
   tree.close();
 }

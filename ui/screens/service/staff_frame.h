@@ -75,6 +75,8 @@ class StaffFrame : public Page {
   const char* sign_of(Mood mood) const;
 
  private:
+  bool rule_due_ = false;   // a row stands above what comes next
+  void due_rule();
   void leaving();
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);

@@ -18,10 +18,12 @@ void StaffFrame::begin_list(std::string_view id) {
   list.box.border_px = px(1.5F);
   list.box.radius = px(size::kRadius);
   tree.open(list);
+  rule_due_ = false;
 }
 
 // Beside each other where both have room; else the value under its label, at the same end.
 void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
+  due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.id = id;
   row.box.across = Across::Centre;
@@ -51,7 +53,13 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   tree.close();
   if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
   tree.close();
-  rule();
+  rule_due_ = true;
+}
+
+// Between two rows, not below the last: the card ends there.
+void StaffFrame::due_rule() {
+  if (rule_due_) rule();
+  rule_due_ = false;
 }
 
 void StaffFrame::rule() {
@@ -84,6 +92,7 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
 }
 
 void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more) {
+  due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.across = Across::Centre;
   row.box.folds = true;
@@ -109,7 +118,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   tree.close();
   tree.close();
   tree.close();
-  rule();
+  rule_due_ = true;
 }
 
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
@@ -125,6 +134,7 @@ void StaffFrame::nothing(std::string_view id, const char* letter, std::string_vi
 }
 
 void StaffFrame::section(std::string_view words) {
+  due_rule();
   tree.leaf(sized(box(Flow::Column), 1, 14));
   Node name = text(words, type::kSmall, Weight::Bold, palette.link);
   name.role = Role::Heading;
@@ -132,6 +142,7 @@ void StaffFrame::section(std::string_view words) {
 }
 
 void StaffFrame::line(std::string_view words, Mood mood) {
+  due_rule();
   // Apart from the page's direction: each runs as its own words do.
   Node said = text(filled("{}", words), 18, Weight::Regular, ink_of(mood));
   said.box.pad_y = px(4);

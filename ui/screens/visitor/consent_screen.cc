@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What happens, what is kept, and the question. No camera has run before the answer.
+#include <algorithm>
+
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
@@ -10,10 +12,12 @@ namespace {
 bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
 
 void badge(Page& page, const char* letter) {
-  Node box = page.sized(page.box(Flow::Column), 48, 48);
+  // Beside words that begin at the top: as high as their title's line, so that it stands on it.
+  const float high = side_by_side(page) ? 32 : 48;
+  Node box = page.sized(page.box(Flow::Column), 48, high);
   box.box.along = Along::Centre;
   page.tree.open(box);
-  Node sign = page.text(letter, 38 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  Node sign = page.text(letter, std::min(38.0F, high) / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
   sign.role = Role::Icon;
   sign.style.icon = true;
   page.tree.leaf(sign);
@@ -49,7 +53,7 @@ void points(Page& page) {
   close_row();
   open_row();
   point(page, icon::kDisk, tr("You decide what is kept"), tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
-  point(page, icon::kErase, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything of you is erased."));
+  point(page, icon::kBin, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything of you is erased."));
   close_row();
 }
 

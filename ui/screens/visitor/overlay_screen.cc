@@ -26,8 +26,6 @@ const char* help_for(const Page& page) {
   return tr("Please tell the staff.");
 }
 
-bool fills_screen(const Page& page) { return page.visit.overlay == Overlay::Help && page.text_share > 1.3F && !page.portrait; }
-
 void begin_card(Page& page) {
   Node veil = page.box(Flow::Column, 0, 40, 32);
   veil.id = "veil";
@@ -39,7 +37,7 @@ void begin_card(Page& page) {
   Node card = page.box(Flow::Column, space::kM, 44, 40);
   card.id = "card";
   card.box.width = page.px(std::min(820.0F, page.width_dp - 80));
-  if (fills_screen(page)) card.box.height = page.px(page.height_dp - 64);
+  card.box.yields = true;
   card.box.fill = page.palette.card;
   card.box.border = page.palette.card_border;
   card.box.border_px = page.px(2);
@@ -67,8 +65,7 @@ void help(Page& page) {
   page.heading("overlay_title", page.tr("Help"));
   Node words = page.box(Flow::Column, space::kM);
   words.id = "overlay_words";
-  words.box.scroll = fills_screen(page);
-  words.box.grow = words.box.scroll ? 1.0F : 0.0F;
+  words.box.scroll = words.box.yields = true;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
   if (page.visit.step == Step::Name) page.body("overlay_code", page.tr("You may also hold a QR code with your name or number before the cameras."));

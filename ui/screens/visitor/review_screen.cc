@@ -7,6 +7,7 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kToolsEdge = 16;   // dp, above and below the tools that lie on the face
 constexpr double kWholeFace = 0.9, kMostOfTheFace = 0.7;   // share of the front that was measured
 constexpr double kSharp = 0.25;                            // of the photographed texels
 
@@ -46,10 +47,11 @@ void face(Page& page) {
   node.name = page.tr("Your face: turn it with a finger");
   node.role = Role::Picture;
   node.mark = page.view.model != nullptr ? Mark::Face : Mark::Shape;
+  node.covered_px = page.px(size::kTarget + 2 * kToolsEdge);
   node.box.radius = page.px(size::kCardRadius);
   node.action = {ActionKind::TurnFace, 0};
   page.tree.leaf(node);
-  Node column = page.box(Flow::Column, 0, 12, 16);
+  Node column = page.box(Flow::Column, 0, 12, kToolsEdge);
   page.tree.open(column);
   page.space(1);
   tools(page);

@@ -188,11 +188,7 @@ void status(BenchFrame& b) {
   b.problem(b.view.problem);
   const bool running = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
   if (running) return b.page.progress("run progress", b.view.phase == BenchPhase::Running ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4 : 0);
-  if (!b.view.applied) return;
-  Node done = b.page.text(b.tr("Visitors are measured with these algorithms now."), type::kSmall, Weight::Medium, b.page.palette.good);
-  done.id = "applied";
-  done.role = Role::Status;
-  b.page.tree.leaf(done);
+  if (b.view.applied) b.page.status("applied", b.tr("Visitors are measured with these algorithms now."), Mood::Good);
 }
 
 }  // namespace

@@ -76,7 +76,9 @@ void live_pictures(BenchFrame& b) {
   row.box.left_to_right = true;
   b.page.tree.open(row);
   for (std::size_t side = 0; side < 2; ++side) {
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column, space::kXs)));
+    Node column = b.page.grown(b.page.box(Flow::Column, space::kXs));
+    column.box.along = Along::Centre;
+    b.page.tree.open(column);
     b.open_picture(side == 0 ? "left board" : "right board", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), b.view.calibration.pictures[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
     b.close_picture();
     coverage(b, side);

@@ -12,7 +12,9 @@ namespace {
 constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 
 void live(BenchFrame& b, std::string_view id, const char* title, const BenchPicture& picture, PictureSlot slot) {
-  b.page.tree.open(b.page.grown(b.page.box(Flow::Column, 6)));
+  Node column = b.page.grown(b.page.box(Flow::Column, 6));
+  column.box.along = Along::Centre;
+  b.page.tree.open(column);
   b.page.tree.leaf(b.page.text(title, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
   b.open_picture(id, title, picture, slot);
   b.close_picture();

@@ -15,7 +15,9 @@ void pictures(BenchFrame& b) {
   b.page.tree.open(row);
   const char* const titles[] = {b.tr("Put aside"), b.tr("Now")};
   for (std::size_t i = 0; i < 2; ++i) {
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column, 6)));
+    Node column = b.page.grown(b.page.box(Flow::Column, 6));
+    column.box.along = Along::Centre;
+    b.page.tree.open(column);
     b.page.tree.leaf(b.page.text(titles[i], type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
     b.open_picture(i == 0 ? "kept picture" : "present picture", titles[i], b.view.compared[i], i == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
     b.close_picture();

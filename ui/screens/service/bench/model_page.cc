@@ -24,7 +24,7 @@ void switches(BenchFrame& b) {
 }
 
 void hands(BenchFrame& b) {
-  Node row = b.page.box(Flow::Row, 8, 8, 8);
+  Node row = b.page.box(Flow::Row, space::kXs, space::kXs, space::kXs);
   row.box.along = Along::Centre;
   b.page.tree.open(row);
   b.page.square_button("turn_left", b.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
@@ -45,6 +45,7 @@ void body(BenchFrame& b) {
   face.name = b.tr("The model: turn it with a finger");
   face.role = Role::Picture;
   face.mark = b.view.model != nullptr ? Mark::Face : Mark::Shape;
+  face.covered_px = b.page.px(size::kTarget + 2 * space::kXs);   // by the tools
   face.box.radius = b.page.px(size::kRadius);
   face.action = {ActionKind::TurnFace, 0};
   b.page.tree.leaf(face);

@@ -143,11 +143,7 @@ void recording_state(BenchFrame& b) {
   const BenchRecording& r = b.view.recording;
   if (r.running) return b.page.progress("record progress", r.progress);
   if (r.outcome == Outcome::Done) {
-    Node done = b.page.text(b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)), type::kSmall, Weight::Medium, b.page.palette.good);
-    done.id = "recorded";
-    done.role = Role::Status;
-    b.page.tree.leaf(done);
-    return;
+    return b.page.status("recorded", b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)), Mood::Good);
   }
   b.page.outcome();
 }
