@@ -179,7 +179,7 @@ void stepper(BenchFrame& b, std::string_view id, const char* label, std::string_
   };
   change(0, "−", b.tr("Less"), -step);
   Node shown = b.page.text(value, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
-  shown.box.min_width = b.page.px(96);
+  shown.box.min_width = b.page.px(96 * b.page.text_share);
   b.page.tree.leaf(shown);
   change(1, "+", b.tr("More"), step);
   b.page.tree.close();
