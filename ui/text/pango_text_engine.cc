@@ -159,7 +159,7 @@ class PangoTextEngine final : public TextEngine {
     pango_layout_set_width(layout, width * PANGO_SCALE);
     const int lines = pango_layout_get_line_count(layout);
     if (lines > 1 && (is(style, "zh-Hans") || is(style, "ja"))) keep_whole(phrase_starts(text, is(style, "ja")), text, width, lines, plain);
-    else if (lines == 2) keep_whole(sentence_starts(text), text, width, lines, plain);
+    else if (lines == 2 && style.weight == Weight::Bold) keep_whole(sentence_starts(text), text, width, lines, plain);
     int narrow = 0, wide = width;
     if (lines > 1 && lines <= kBalancedLines) {
       for (narrow = width / 2; wide - narrow > 4;) {
