@@ -123,6 +123,58 @@ TEST_F(TextEngineTest, ChineseAndJapaneseBreakBetweenPhrases) {
   }
 }
 
+TEST(Phrases, FillLinesFullOrEvenly) {
+  using Starts = std::vector<std::size_t>;
+  const std::vector<float> widths = {40, 30, 20, 10, 60};
+  EXPECT_EQ(fill_lines(widths, 100, false), (Starts{4})) << "40 30 20 10 | 60";
+  EXPECT_EQ(fill_lines(widths, 100, true), (Starts{3})) << "40 30 20 | 10 60";
+  EXPECT_EQ(fill_lines(widths, 65, true), (Starts{1, 4})) << "40 | 30 20 10 | 60";
+  EXPECT_EQ(fill_lines(widths, 200, true), Starts{});
+  EXPECT_EQ(fill_lines(widths, 15, true), (Starts{1, 2, 3, 4})) << "each too wide: a line of its own";
+  EXPECT_EQ(fill_lines({}, 15, true), Starts{});
+}
+
+// Whatever an operator writes in a heading and whoever's name stands in it: every language, both directions mixed,
+// every width. Pango itself ended the program at some of these when it was told where it must not break.
+TEST_F(TextEngineTest, HeadingsOfMixedScriptsAreSetAtEveryWidth) {
+  const char* const texts[] = {
+      "תודה, Ada-Marie Lovelace-Byron. הדיוקן שלכם נשמר.", "שלום! Portrait 3D של أحمد بن يوسف. הבט קדימה?", "شكرًا يا Grace Hopper. حُفظت صورتك (ID-148 220).",
+      "Thank you, أحمد بن عبد الله. Your portrait is stored. 谢谢。", "ありがとうございます、Ada Lovelaceさん。אברהם様の「肖像」は保存されました。", "谢谢，محمد。您的 3D 肖像（第 2 版）已保存。",
+      "Donau­dampf­schiff­fahrts­gesell­schaft. ב", "A. B. C! D? E. \u2067א. ב.\u2069 \u2066c. d.\u2069", ". . ? ! .", "x. \u202eabc. def\u202c. y", "\u2028. \u2029. a\n. b. c"};
+  for (const char* language : {"en", "ar", "he", "zh-Hans", "ja"}) {
+    for (const Weight weight : {Weight::Regular, Weight::Bold}) {
+      TextStyle style;
+      style.language = language;
+      style.weight = weight;
+      style.size_px = 40;
+      style.right_to_left = std::string_view(language) == "ar" || std::string_view(language) == "he";
+      for (const char* text : texts) {
+        const float whole = engine->measure(text, style, 5000).width_px;
+        for (float width = 30; width < whole + 40; width += 17) {
+          const TextSize size = engine->measure(text, style, width);
+          EXPECT_GE(size.lines, 1);
+          EXPECT_TRUE(size.lines > 1 || size.width_px <= width + 1) << text << ' ' << width;
+        }
+      }
+    }
+  }
+}
+
+// Two lines end the first with its sentence where both fit, in either direction.
+TEST_F(TextEngineTest, TwoLinesArePartedBetweenTheirSentences) {
+  for (const bool right_to_left : {false, true}) {
+    TextStyle style;
+    style.weight = Weight::Bold;
+    style.right_to_left = right_to_left;
+    style.language = right_to_left ? "he" : "en";
+    const std::string first = right_to_left ? "תודה." : "Thank you.", second = right_to_left ? "הדיוקן שלכם נשמר במכשיר הזה" : "Your portrait is stored on this kiosk";
+    const float longest = engine->measure(second, style, 5000).width_px;
+    const TextSize size = engine->measure(first + " " + second, style, longest + 8);
+    EXPECT_EQ(size.lines, 2);
+    EXPECT_NEAR(size.width_px, longest, 2);
+  }
+}
+
 TEST_F(TextEngineTest, InkLiesInsideTheBox) {
   for (const bool right_to_left : {false, true}) {
     for (const TextAlign align : {TextAlign::Start, TextAlign::Centre}) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/text/phrases.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace relievo::ui {
@@ -53,6 +54,16 @@ bool begins_word(const std::vector<Letter>& letters, std::size_t i) {
   return here != Kind::Kanji || !joins_a_verb(letters, i - 1);
 }
 
+std::vector<std::size_t> full_lines(std::span<const float> widths, float width) {
+  std::vector<std::size_t> starts;
+  float line = widths.empty() ? 0 : widths[0];
+  for (std::size_t i = 1; i < widths.size(); ++i) {
+    if (line + widths[i] > width) starts.push_back(i), line = 0;
+    line += widths[i];
+  }
+  return starts;
+}
+
 }  // namespace
 
 std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese) {
@@ -71,6 +82,21 @@ std::vector<std::size_t> sentence_starts(std::string_view text) {
   std::vector<std::size_t> starts;
   for (std::size_t i = 2; i < letters.size(); ++i) {
     if (letters[i - 1].code == U' ' && is_one_of(letters[i - 2].code, U".!?\u061f")) starts.push_back(letters[i].at);
+  }
+  return starts;
+}
+
+std::vector<std::size_t> fill_lines(std::span<const float> widths, float width, bool evened) {
+  std::vector<std::size_t> starts = full_lines(widths, width);
+  if (!evened || starts.empty()) return starts;
+  const std::size_t lines = starts.size();
+  float too_narrow = 0;
+  while (width - too_narrow > 0.5F) {
+    const float middle = (too_narrow + width) / 2;
+    std::vector<std::size_t> tried = full_lines(widths, middle);
+    const bool fits = tried.size() == lines && std::ranges::none_of(widths, [middle](float one) { return one > middle; });
+    if (fits) starts = std::move(tried), width = middle;
+    else too_narrow = middle;
   }
   return starts;
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +22,10 @@ std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese);
 
 // The same of sentences in a script that is written with spaces: behind ". ", "! ", "? " and the Arabic question mark.
 std::vector<std::size_t> sentence_starts(std::string_view text);
+
+// Phrases as wide as `widths`, on as few lines no wider than `width` as they need: the numbers of those with which the
+// lines after the first begin. Evened, the widest line is as narrow as that many lines allow; otherwise each is full.
+// A phrase that is wider than `width` has a line of its own.
+std::vector<std::size_t> fill_lines(std::span<const float> widths, float width, bool evened);
 
 }  // namespace relievo::ui
