@@ -7,7 +7,10 @@
 #include <string>
 
 #include "hal/base/sentence.h"
+#include "ui/screens/service/place_words.h"
+#include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
+#include "ui/staff_views.h"
 
 namespace relievo::ui {
 namespace {
@@ -71,6 +74,48 @@ TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
   EXPECT_FALSE(arabic.starts_with("\u2068")) << "its own words tell the direction, not what stands behind them";
   EXPECT_EQ(in(Language::German).said(""), "");
   EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
+}
+
+// The log keeps a change by the setting's key; it is read as the settings page names it.
+TEST_F(StaffWordsTest, AChangedSettingIsCalledAsOnItsPage) {
+  for (std::size_t l = 0; l < kLanguages; ++l) {
+    StaffFrame page = in(static_cast<Language>(l));
+    for (std::size_t i = 0; i < kSettings; ++i) {
+      const SettingInfo& info = info_of(static_cast<Setting>(i));
+      for (const std::int32_t value : info.values) {
+        const std::string figure = std::to_string(value), said = bare(said_change(page, info.key, figure));
+        EXPECT_NE(said.find(name_of(page.tr, info.setting)), std::string::npos) << said;
+        EXPECT_NE(said.find(bare(said_value(page, info.setting, value))), std::string::npos) << said;
+        if (info.key.find('_') != std::string_view::npos) { EXPECT_EQ(said.find(info.key), std::string::npos) << said; }
+      }
+    }
+  }
+  StaffFrame page = in(Language::German);
+  for (const auto& [key, value] : {std::pair{"no_such", "1"}, std::pair{"language", "8"}, std::pair{"patience_s", "30 s"}, std::pair{"patience_s", ""}})
+    EXPECT_EQ(said_change(page, key, value), "") << key << value;
+}
+
+TEST_F(StaffWordsTest, TheLogSaysAChangedSettingInWords) {
+  StaffFrame page = in(Language::German);
+  page.begin("", nullptr);
+  page.logged({"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}});
+  page.logged({"2026-03-14 10:20:44", false, "setting gone is 7", "setting {} is {}", {"gone", "7"}});
+  page.end();
+  std::string all;
+  for (const Node& node : tree_.nodes()) all += bare(node.text) + "\n";
+  EXPECT_NE(all.find(std::string("Einstellung „") + name_of(page.tr, Setting::PatienceS) + "“: 30\u00a0s"), std::string::npos) << all;
+  EXPECT_EQ(all.find("patience_s"), std::string::npos);
+  EXPECT_NE(all.find("Einstellung gone ist 7"), std::string::npos) << "an older version's";
+}
+
+TEST_F(StaffWordsTest, WherePartsAreWordsTheyAreSaid) {
+  StaffFrame page = in(Language::German);
+  const auto german = [&](std::string_view place) { return bare(said_place(page, place)); };
+  EXPECT_EQ(german("serial 4061 → serial 4088"), "Seriennummer 4088 statt Seriennummer 4061");
+  EXPECT_EQ(german("serial 1 → at /dev/a; at /dev/b → serial 2"), "links an /dev/a statt Seriennummer 1, rechts Seriennummer 2 statt an /dev/b");
+  EXPECT_EQ(german("left picture"), "linkes Bild");
+  EXPECT_EQ(german("2.47 px"), "2,47 px");
+  for (const char* same : {"/dev/video0", "", "serial 4061", "left pictures", "mesher.grid", "zh.txt"}) EXPECT_EQ(german(same), same);
 }
 
 TEST(SentenceTest, PackedItIsOneLine) {

@@ -283,6 +283,8 @@ TEST_F(WordsTest, FiguresAndNamesDoNotTurnArabicAndHebrewRound) {
     for (const std::string& said : translations(code)) {
       EXPECT_EQ(std::isalnum(static_cast<unsigned char>(said.front())), 0) << said;
       EXPECT_EQ(count(said, "\u2066"), count(said, "\u2069")) << said;
+      // The sign stands beside its number, as StaffFrame::number() writes both.
+      EXPECT_EQ(count(said, "{}%") + count(said, "{} %") + count(said, "{}\u00a0%"), count(said, "\u2066{}\u00a0%\u2069")) << said;
       for (std::size_t at = said.find('^'); at != std::string::npos; at = said.find('^', at + 1)) {
         EXPECT_GT(count(said.substr(0, at), "\u2066"), count(said.substr(0, at), "\u2069")) << said;
       }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the algorithms say of their options, in every language: every sentence of the catalogue of algorithms,
-// and why values are refused; and what the machine beneath cannot do.
+// and why values are refused; what the machine beneath cannot do, files and pictures, and where it was.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,11 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "firmware/capture/rig_cameras.h"
 #include "hal/sim/rig.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/relief/relief_check.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/stage_bench.h"
 #include "ui/language/language.h"
+#include "ui/screens/service/place_words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -146,13 +150,18 @@ TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
   every_language_knows(refusals);
 }
 
-// Every fault a file of the source can tell of.
-void collect_faults(const std::filesystem::path& file, std::set<std::string>& faults) {
-  static const std::regex fault(R"rx(Errc::\w+,\s*"([^"]+)")rx");
+// Every fault a file of the source can tell of, literals that stand on end joined; not those of the codes left out.
+void collect_faults(const std::filesystem::path& file, std::set<std::string>& faults,
+                    const std::set<std::string>& left_out = {}) {
+  static const std::regex fault(R"rx(Errc::(\w+),\s*((?:"[^"]*"\s*)+))rx"), one(R"rx("([^"]*)")rx");
   std::ifstream in(file);
   const std::string source{std::istreambuf_iterator<char>(in), {}};
-  for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at)
-    faults.insert((*at)[1]);
+  for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) {
+    const std::string run = (*at)[2];
+    std::string text;
+    for (std::sregex_iterator part(run.begin(), run.end(), one); part != end; ++part) text += (*part)[1];
+    if (left_out.count((*at)[1]) == 0) faults.insert(text);
+  }
 }
 
 // What the machine's drivers cannot do stands on the technician's pages, however rare: cameras, their
@@ -168,6 +177,74 @@ TEST(OptionWords, EveryFaultOfTheMachineIsInEveryLanguage) {
         collect_faults(entry.path(), faults);
   ASSERT_GE(faults.size(), 90U);
   every_language_knows(faults);
+}
+
+// Files and pictures: what an export, a recording, a stick or the store cannot do is noted in the log. Left out is what
+// ends a command or a start before there is a screen, and what the store refuses of a programmer.
+TEST(OptionWords, EveryFaultOfAFileOrAPictureIsInEveryLanguage) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  const std::filesystem::path source = RELIEVO_SOURCE_DIR;
+  std::set<std::string> faults;
+  for (const char* file :
+       {"hal/opencv_picture_file.cc", "hal/picture_header.cc", "hal/whole_file.cc", "hal/removable_media.cc",
+        "hal/recording/recording.cc", "hal/sim/replay/replay_camera.cc", "hal/sim/replay/silent_trigger.cc",
+        "hal/sim/replay/folder_media.cc", "storage/model_blob.cc", "storage/calibration_record.cc",
+        "firmware/command/output_folder.cc", "firmware/service/stick_folder.cc",
+        "firmware/service/export_records.cc"})
+    collect_faults(source / file, faults);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "storage" / "export"))
+    if (entry.path().extension() == ".cc") collect_faults(entry.path(), faults);
+  for (const auto& entry : std::filesystem::directory_iterator(source / "storage" / "sqlite")) {
+    const std::string name = entry.path().filename().string();
+    const bool of_a_start = name == "sqlite_migration.cc" || name == "store_directory.cc" || name == "sqlite_store.cc";
+    if (entry.path().extension() == ".cc" && !of_a_start)
+      collect_faults(entry.path(), faults, {"InvalidInput", "InvalidState"});
+  }
+  faults.erase("this setting is not set");  // asked for by a key, and then the usual holds
+  EXPECT_GE(faults.size(), 60U);
+  every_language_knows(faults);
+}
+
+// Where it was stands in parentheses behind the sentence: figures and names, and no English between them.
+TEST(OptionWords, WhereItWasIsSaidInEveryLanguage) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  const pipeline::RigCameras calibrated{"serial 4061", "at /dev/v4l/by-path/b"};
+  std::vector<std::string> places;
+  for (const pipeline::RigCameras& found :
+       {pipeline::RigCameras{"serial 4088", calibrated.right}, pipeline::RigCameras{calibrated.left, "at /dev/v4l/by-path/c"},
+        pipeline::RigCameras{"serial 4088", "serial 4090"}, pipeline::RigCameras{calibrated.right, calibrated.left}}) {
+    const auto checked = check_cameras(calibrated, found);
+    ASSERT_FALSE(checked);
+    places.emplace_back(checked.error().where());
+  }
+  places.emplace_back(pipeline::error_of(pipeline::ReliefFigures{}, pipeline::ReliefOptions{}).where());
+  test::StageBench bench;
+  const auto calibration = test::true_calibration(hal::sim::make_rig({}));
+  const auto pipeline = pipeline::Pipeline::make({}, calibration);
+  ASSERT_TRUE(pipeline);
+  const auto empty = pipeline->rectify({}, bench.context);
+  ASSERT_FALSE(empty);
+  places.emplace_back(empty.error().where());
+  ui::Tree tree;
+  ui::ViewState view;
+  ui::Visit visit;
+  ui::ServiceView staff;
+  view.service = &staff;
+  static const std::regex kept(R"rx(serial|at|sr|mm|/dev/[a-z0-9/-]+)rx"), word("[A-Za-z]{2,}");
+  for (std::size_t i = 0; i < ui::kLanguages; ++i) {
+    visit.language = static_cast<ui::Language>(i);
+    tree.begin(ui::info_of(visit.language).right_to_left);
+    ui::StaffFrame page{tree, view, visit, {}, ui::kLight, ui::Rect{0, 0, 1280, 800}};
+    for (const std::string& place : places) {
+      const std::string said(ui::said_place(page, place));
+      EXPECT_EQ(said.find("→"), std::string::npos) << said;
+      if (visit.language == ui::Language::English) continue;
+      EXPECT_NE(said, place) << ui::info_of(visit.language).code;
+      const bool latin = !is_arabic(said) && !is_hebrew(said) && !is_east_asian(said);
+      const std::string rest = std::regex_replace(said, kept, "");
+      EXPECT_TRUE(latin || !std::regex_search(rest, word)) << said;
+    }
+  }
 }
 
 }  // namespace

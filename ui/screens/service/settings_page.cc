@@ -4,8 +4,7 @@
 // What the staff may choose about the device, a row each: less, the value, more.
 #include "ui/device/settings.h"
 
-#include <cstdio>
-
+#include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_screens.h"
 
 namespace relievo::ui {
@@ -13,57 +12,13 @@ namespace {
 
 constexpr const char *kLess = "\uf374", *kMore = "\uf415";
 
-const char* name_of(const Words& tr, Setting setting) {
-  switch (setting) {
-    case Setting::Language: return tr("Language in which a visit begins");
-    case Setting::TextPercent: return tr("Size of the text");
-    case Setting::Contrast: return tr("High contrast");
-    case Setting::PatienceS: return tr("Visitors are asked whether they are there after");
-    case Setting::Automatic: return tr("The picture is taken by itself");
-    case Setting::CountdownMs: return tr("Countdown before it");
-    case Setting::Attempts: return tr("Tries, if a picture is refused");
-    case Setting::StaffPatienceS: return tr("Staff are signed out after");
-    case Setting::TellsKnown: return tr("Visitors are told that their name is in the records already");
-    case Setting::KeepDays: return tr("Records are erased by themselves after");
-    case Setting::LeastRoomMib: return tr("Room on the disk that stays free");
-    case Setting::Count: break;
-  }
-  return "";
-}
-
-std::string_view days(StaffFrame& page, std::int32_t value) {
-  if (value == 0) return page.tr("never");
-  char text[16];
-  std::snprintf(text, sizeof text, "%d", value);
-  return page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(value)), text);
-}
-
-std::string_view value_of(StaffFrame& page, const Settings& settings, Setting setting) {
-  const std::int32_t value = settings.of(setting);
-  switch (setting) {
-    case Setting::Language: return info_of(static_cast<Language>(value)).own_name;
-    case Setting::Contrast:
-    case Setting::Automatic:
-    case Setting::TellsKnown: return value != 0 ? page.tr("on") : page.tr("off");
-    case Setting::TextPercent: return page.number(value, 0, "%");
-    case Setting::PatienceS:
-    case Setting::StaffPatienceS: return page.number(value, 0, "s");
-    case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
-    case Setting::KeepDays: return days(page, value);
-    case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
-    case Setting::Attempts:
-    case Setting::Count: break;
-  }
-  return page.number(value);
-}
-
 void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
   const SettingInfo& info = info_of(setting);
   const auto ask = [&](std::uint8_t verb) {
     const bool end = settings.beside(setting, verb == kSettingMore ? 1 : -1) == settings.of(setting);
     return end ? Action{} : Action{ActionKind::StaffDo, verb, static_cast<std::int32_t>(setting)};
   };
-  page.stepper(info.key, name_of(page.tr, setting), value_of(page, settings, setting), kLess, ask(kSettingLess), kMore, ask(kSettingMore));
+  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)), kLess, ask(kSettingLess), kMore, ask(kSettingMore));
 }
 
 void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {

@@ -75,6 +75,7 @@ class StaffFrame : public Page {
   const char* sign_of(Mood mood) const;
 
  private:
+  std::string_view noted(const struct LogLine& what);
   bool rule_due_ = false;   // a row stands above what comes next
   void due_rule();
   void leaving();

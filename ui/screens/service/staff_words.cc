@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cstdio>
 
+#include "ui/screens/service/place_words.h"
+#include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/staff_views.h"
 
@@ -123,23 +125,31 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
   const std::size_t end = std::min(sentence.find('\t'), sentence.size());
   for (std::size_t at = end; at < sentence.size() && count < values.size();) {
     const std::size_t next = std::min(sentence.find('\t', at + 1), sentence.size());
-    values[count++] = as_number(sentence.substr(at + 1, next - at - 1));
+    values[count++] = sentence.substr(at + 1, next - at - 1);
     at = next;
   }
   const char* key = kept(sentence.substr(0, end));
   const char* words = begins ? begun(*this, tr(key)) : tr(key);
   std::size_t holes = 0;
   for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
+  for (std::size_t i = 0; i < std::min(count, holes); ++i) values[i] = as_number(values[i]);
   const std::string_view all = count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
   if (count <= holes) return all;
   // Where it was; the words stay outside of any isolate, so that they tell the direction.
-  const std::string_view first = tree.keep(all);
-  return {first.data(), first.size() + filled(" ({})", values[holes]).size()};
+  const std::string_view where = said_place(*this, values[holes]), first = tree.keep(all);
+  return {first.data(), first.size() + filled(" ({})", where).size()};
+}
+
+std::string_view StaffFrame::noted(const LogLine& what) {
+  if (what.key.empty()) return filled("{}", what.sentence);
+  if (what.key == kSettingChanged) {
+    if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty()) return change;
+  }
+  return filled(begun(*this, tr(kept(what.key))), {what.values[0], what.values[1]});
 }
 
 void StaffFrame::logged(const LogLine& what) {
-  const char* words = what.key.empty() ? nullptr : begun(*this, tr(kept(what.key)));
-  const std::string_view sentence = words == nullptr ? what.sentence : filled(words, {what.values[0], what.values[1]});
+  const std::string_view sentence = noted(what);
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.across = Across::Start;
   row.role = what.fault ? Role::Status : Role::Group;
@@ -155,7 +165,7 @@ void StaffFrame::logged(const LogLine& what) {
   if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
   tree.close();
   tree.open(grown(box(Flow::Column)));
-  tree.leaf(text(what.key.empty() ? filled("{}", sentence) : sentence, 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+  tree.leaf(text(sentence, 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
   tree.close();
   tree.close();
 }

@@ -68,7 +68,7 @@ void names(BenchFrame& b) {
 void rejected(BenchFrame& b) {
   const BenchResult& r = b.view.result;
   b.page.section(b.tr("In the last calculation"));
-  b.page.row("accepted count", b.tr("Accepted"), b.page.number(static_cast<double>(r.accepted)));
+  b.page.row("accepted count", b.tr("Accepted matches"), b.page.number(static_cast<double>(r.accepted)));
   for (std::size_t i = 0; i < r.rule_count; ++i) b.page.row(b.id("rejected", i), b.left_to_right(r.rules[i].name), b.page.number(static_cast<double>(r.rules[i].rejected)));
 }
 

@@ -108,7 +108,7 @@ void point_rows(BenchFrame& b) {
 void rule_rows(BenchFrame& b) {
   const BenchResult& r = b.view.result;
   b.page.row("matches", b.tr("Matches"), b.page.number(static_cast<double>(r.matches)));
-  b.page.row("accepted", b.tr("Accepted"), b.page.number(static_cast<double>(r.accepted)));
+  b.page.row("accepted", b.tr("Accepted matches"), b.page.number(static_cast<double>(r.accepted)));
   b.page.section(b.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const BenchRule& rule = r.rules[i];

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/service/setting_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+namespace relievo::ui {
+namespace {
+
+std::string_view days(StaffFrame& page, std::int32_t value) {
+  if (value == 0) return page.tr("never");
+  char text[16];
+  std::snprintf(text, sizeof text, "%d", value);
+  return page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(value)), text);
+}
+
+}  // namespace
+
+const char* name_of(const Words& tr, Setting setting) {
+  switch (setting) {
+    case Setting::Language: return tr("Language in which a visit begins");
+    case Setting::TextPercent: return tr("Size of the text");
+    case Setting::Contrast: return tr("High contrast");
+    case Setting::PatienceS: return tr("Visitors are asked whether they are there after");
+    case Setting::Automatic: return tr("The picture is taken by itself");
+    case Setting::CountdownMs: return tr("Countdown before the picture");
+    case Setting::Attempts: return tr("Tries, if a picture is refused");
+    case Setting::StaffPatienceS: return tr("Staff are signed out after");
+    case Setting::TellsKnown: return tr("Visitors are told that their name is in the records already");
+    case Setting::KeepDays: return tr("Records are erased by themselves after");
+    case Setting::LeastRoomMib: return tr("Room on the disk that stays free");
+    case Setting::Count: break;
+  }
+  return "";
+}
+
+std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value) {
+  switch (setting) {
+    case Setting::Language: return info_of(static_cast<Language>(value)).own_name;
+    case Setting::Contrast:
+    case Setting::Automatic:
+    case Setting::TellsKnown: return value != 0 ? page.tr("on") : page.tr("off");
+    case Setting::TextPercent: return page.number(value, 0, "%");
+    case Setting::PatienceS:
+    case Setting::StaffPatienceS: return page.number(value, 0, "s");
+    case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
+    case Setting::KeepDays: return days(page, value);
+    case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
+    case Setting::Attempts:
+    case Setting::Count: break;
+  }
+  return page.number(value);
+}
+
+std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value) {
+  std::int32_t figure = 0;
+  if (std::from_chars(value.data(), value.data() + value.size(), figure).ptr != value.data() + value.size()) return {};
+  for (std::size_t i = 0; i < kSettings; ++i) {
+    const auto setting = static_cast<Setting>(i);
+    const SettingInfo& info = info_of(setting);
+    if (info.key != key) continue;
+    if (std::find(info.values.begin(), info.values.end(), figure) == info.values.end()) return {};
+    return page.filled(page.tr("Setting “{}”: {}"), {name_of(page.tr, setting), said_value(page, setting, figure)});
+  }
+  return {};
+}
+
+}  // namespace relievo::ui
