@@ -94,6 +94,10 @@ void paint_text(DrawList& list, const Node& node, TextEngine& text, bool right_t
   c.rect = {node.rect.x + pad_x + std::round(x) + label.ink.x, node.rect.y + pad_y + std::round(y) + label.ink.y, label.ink.w, label.ink.h};
   c.clip = node.clip;
   c.uv = label.atlas;
+  if (node.mirrored) {
+    c.rect.x = node.rect.x + pad_x + std::round(x) + label.size.width_px - label.ink.x - label.ink.w;
+    c.uv = {c.uv.x + c.uv.w, c.uv.y, -c.uv.w, c.uv.h};
+  }
   c.fill = node.colour;
   list.commands.push_back(c);
 }

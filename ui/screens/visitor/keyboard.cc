@@ -10,12 +10,13 @@ namespace {
 
 constexpr const char* kDigits[] = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "0"};
 
-void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign, Action action, float grow = 1) {
+void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign, Action action, float grow = 1, bool mirrored = false) {
   Node node = page.text(letter, type::kButton, Weight::Medium, page.palette.link, TextAlign::Centre);
   // Twelve letters abreast have no room to grow on an upright screen.
   const float growth = page.portrait ? 0.15F : 0.6F;
   node.style.size_px = page.px(type::kButton * (1 + (page.text_share - 1) * growth));
   node.style.icon = sign;
+  node.mirrored = mirrored;
   node.id = id;
   if (spoken != nullptr) node.name = spoken;
   node.role = Role::Key;
@@ -71,7 +72,8 @@ void keyboard(Page& page, Action done) {
     const bool last = i == rows.size() - 1;
     if (last && cased) key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
     letters(page, rows[i]);
-    if (last) key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0});
+    // Its arrow points to where letters go: the last one of a word that runs to the left is erased to the right.
+    if (last) key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
     page.tree.close();
   }
   last_row(page, done);
