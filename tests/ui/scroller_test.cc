@@ -73,6 +73,32 @@ TEST_F(ScrollerTest, ItsEndCanBeReachedWithThePaddingBelowIt) {
   EXPECT_FLOAT_EQ(tree_.nodes().back().rect.bottom(), kScreen.bottom() - kPad);
 }
 
+// A card that hugs ends with its last row, and takes no more room for it than it was given.
+TEST_F(ScrollerTest, ACardThatHugsEndsWhereItsRowsDo) {
+  for (const int rows : {2, 10}) {
+    tree_.begin(false);
+    tree_.open({});
+    Node card;
+    card.id = "card";
+    card.box.grow = 1;
+    card.box.scroll = card.box.hugs = true;
+    card.box.pad_y = kPad;
+    tree_.open(card);
+    Node row;
+    row.box.height = kRow;
+    for (int i = 0; i < rows; ++i) tree_.leaf(row);
+    tree_.close();
+    Node below;
+    below.id = "below";
+    below.box.height = kRow;
+    tree_.leaf(below);
+    tree_.close();
+    tree_.layout(kScreen, *text_, {});
+    EXPECT_EQ(tree_.find("card")->rect.h, std::min(2 * kPad + static_cast<float>(rows) * kRow, kScreen.h - kRow));
+    EXPECT_EQ(tree_.find("below")->rect.bottom(), kScreen.h) << "what stands below stays at its place";
+  }
+}
+
 TEST_F(ScrollerTest, FadesBelowWhereMoreLies) {
   const auto found = fades({});
   ASSERT_EQ(found.size(), 1U);

@@ -25,7 +25,7 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kZoomIn = "\uf34b", *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636", *kContrast = "\uf197",
                             *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f", *kTurnLeft = "\uf465", *kTurnRight = "\uf467",
                             *kShape = "\uf563", *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
-                            *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0";
+                            *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374", *kMore = "\uf415";
 }  // namespace icon
 
 // What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of them alone

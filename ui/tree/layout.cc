@@ -158,6 +158,7 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
   float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
   if (count > 1) fixed += gap * static_cast<float>(count - 1);
   node.content_height = fixed + 2 * node.box.pad_y;
+  if (node.box.hugs && grow <= 0) node.rect.h = std::min(node.rect.h, std::round(node.content_height));
   float y = inner.y, over = node.box.scroll ? 0 : std::max(0.0F, fixed - inner.h);
   float left = std::max(0.0F, inner.h - fixed);
   if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);

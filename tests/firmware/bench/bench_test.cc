@@ -221,9 +221,9 @@ TEST_F(BenchTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
 
 TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   rig().open(StaffPage::Calibrate);
-  rig().tap("columns 0");
+  rig().tap("columns less");
   EXPECT_EQ(rig().now().calibration.columns, 9);
-  rig().tap("columns 1");
+  rig().tap("columns more");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 1; }));
   rig().tap("calibration begin");
   ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));

@@ -120,7 +120,7 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   portrait_of(page);
   page.tree.open(page.grown(page.box(Flow::Column, space::kS)));
-  page.begin_list("record");
+  page.begin_panel("record");
   page.row("name", seen.shown->name, {});
   page.row("code", tr("Code for the erasure"), seen.shown->code);
   page.row("since", tr("Kept since"), page.date(seen.shown->since));

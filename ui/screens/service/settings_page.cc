@@ -10,15 +10,13 @@
 namespace relievo::ui {
 namespace {
 
-constexpr const char *kLess = "\uf374", *kMore = "\uf415";
-
 void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
   const SettingInfo& info = info_of(setting);
   const auto ask = [&](std::uint8_t verb) {
     const bool end = settings.beside(setting, verb == kSettingMore ? 1 : -1) == settings.of(setting);
     return end ? Action{} : Action{ActionKind::StaffDo, verb, static_cast<std::int32_t>(setting)};
   };
-  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)), kLess, ask(kSettingLess), kMore, ask(kSettingMore));
+  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)), icon::kLess, ask(kSettingLess), icon::kMore, ask(kSettingMore));
 }
 
 void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {

@@ -30,8 +30,10 @@ class StaffFrame : public Page {
   void begin(const char* title, const char* letter);
   void end() { tree.close(); }
 
-  // A card whose rows can be scrolled; it takes the room that is left. Closed by end().
-  void begin_list(std::string_view id);
+  // A card whose rows can be scrolled. A list has the room that is left and ends with its last row; a panel, which stands beside
+  // pictures, fills its room. Closed by Tree::close().
+  void begin_list(std::string_view id) { begin_card(id, true); }
+  void begin_panel(std::string_view id) { begin_card(id, false); }
   // Label at the start, value at the end; with an action it can be touched.
   void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain, Action action = {});
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
@@ -78,6 +80,7 @@ class StaffFrame : public Page {
   std::string_view noted(const struct LogLine& what);
   bool rule_due_ = false;   // a row stands above what comes next
   void due_rule();
+  void begin_card(std::string_view id, bool hugs);
   void leaving();
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);

@@ -9,10 +9,11 @@
 
 namespace relievo::ui {
 
-void StaffFrame::begin_list(std::string_view id) {
+void StaffFrame::begin_card(std::string_view id, bool hugs) {
   Node list = grown(box(Flow::Column, 0, space::kM, 8));
   list.id = id;
   list.box.scroll = true;
+  list.box.hugs = hugs;
   list.box.fill = palette.card;
   list.box.border = palette.card_border;
   list.box.border_px = px(1.5F);

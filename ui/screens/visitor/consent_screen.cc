@@ -9,15 +9,17 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kBadge = 76;
+
 bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
 
 void badge(Page& page, const char* letter) {
-  // Beside words that begin at the top: as high as their title's line, so that it stands on it.
-  const float high = side_by_side(page) ? 32 : 48;
-  Node box = page.sized(page.box(Flow::Column), 48, high);
+  Node box = page.sized(page.box(Flow::Column), kBadge, kBadge);
   box.box.along = Along::Centre;
+  box.box.fill = page.palette.accent.with_alpha(0.12F);
+  box.box.radius = page.px(kBadge / 4);
   page.tree.open(box);
-  Node sign = page.text(letter, std::min(38.0F, high) / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  Node sign = page.text(letter, kBadge / 2 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
   sign.role = Role::Icon;
   sign.style.icon = true;
   page.tree.leaf(sign);
@@ -25,7 +27,7 @@ void badge(Page& page, const char* letter) {
 }
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
-  Node row = page.box(Flow::Row, space::kM, 22, 18);
+  Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
   row.box.across = side_by_side(page) ? Across::Start : Across::Centre;   // titles of neighbours on one line
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;

@@ -31,7 +31,7 @@ std::string_view described(BenchFrame& b, std::string_view sentence) {
 }
 
 void kinds(BenchFrame& b) {
-  b.page.begin_list("kinds");
+  b.page.begin_panel("kinds");
   for (std::size_t i = 0; i < b.view.choice.kinds.size(); ++i) {
     const BenchKind& kind = b.view.choice.kinds[i];
     const bool chosen = i == b.view.choice.kind;
@@ -86,7 +86,7 @@ std::string_view as_typed(BenchFrame& b, std::string_view typed) {
 void options(BenchFrame& b) {
   const BenchChoice& choice = b.view.choice;
   names(b);
-  b.page.begin_list("options");
+  b.page.begin_panel("options");
   Node said = b.page.text(described(b, choice.kinds[choice.kind].sentence), 17, Weight::Regular, b.page.palette.ink_soft);
   said.box.pad_y = b.page.px(6);
   b.page.tree.leaf(said);

@@ -47,43 +47,53 @@ const char* words_of(const Words& tr, BoardEnd end) {
   return tr("It was ended early.");
 }
 
-// How much of the picture has been seen: the more corners in a part, the fuller its square.
-void coverage(BenchFrame& b, std::size_t side) {
+// How much of the picture has been seen: the more corners in a part, the fuller its square. As large as the picture above it.
+void coverage(BenchFrame& b, std::size_t side, float aspect) {
   const auto& seen = b.view.calibration.seen[side];
-  Node map = b.page.box(Flow::Column, 2);
+  Node frame = b.page.grown(b.page.box(Flow::Stack));
+  frame.aspect = aspect;
+  b.page.tree.open(frame);
+  Node map = b.page.box(Flow::Column, 3);
   map.id = side == 0 ? "left coverage" : "right coverage";
   map.name = side == 0 ? b.tr("Seen by the left camera") : b.tr("Seen by the right camera");
   map.role = Role::Picture;
   b.page.tree.open(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
-    Node line = b.page.box(Flow::Row, 2);
+    Node line = b.page.grown(b.page.box(Flow::Row, 3));
     line.box.left_to_right = true;
     b.page.tree.open(line);
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
       Node cell = b.page.grown(b.page.box(Flow::Column));
-      cell.box.height = b.page.px(11);
       const float share = std::min(1.0F, static_cast<float>(seen[row * kCoverageCells + column]) / 40);
       cell.box.fill = share > 0 ? b.page.palette.accent.with_alpha(0.25F + 0.75F * share) : b.page.palette.quiet_border;
+      cell.box.radius = b.page.px(3);
       b.page.tree.leaf(cell);
     }
     b.page.tree.close();
   }
   b.page.tree.close();
+  b.page.tree.close();
 }
 
+// The pictures above, what of each has been seen below.
 void live_pictures(BenchFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.page.portrait ? 1.0F : 1.6F);
-  row.box.left_to_right = true;
-  b.page.tree.open(row);
-  for (std::size_t side = 0; side < 2; ++side) {
-    Node column = b.page.grown(b.page.box(Flow::Column, space::kXs));
-    column.box.along = Along::Centre;
-    b.page.tree.open(column);
+  const auto pair = [&](const auto& one) {
+    Node row = b.page.grown(b.page.box(Flow::Row, space::kS));
+    row.box.left_to_right = true;
+    b.page.tree.open(row);
+    for (std::size_t side = 0; side < 2; ++side) one(side);
+    b.page.tree.close();
+  };
+  Node column = b.page.grown(b.page.box(Flow::Column, space::kS), b.picture_share(1.6F));
+  b.page.tree.open(column);
+  pair([&](std::size_t side) {
     b.open_picture(side == 0 ? "left board" : "right board", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), b.view.calibration.pictures[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
     b.close_picture();
-    coverage(b, side);
-    b.page.tree.close();
-  }
+  });
+  pair([&](std::size_t side) {
+    const ImageView& seen = b.view.calibration.pictures[side].pixels;
+    coverage(b, side, seen.empty() ? 1.0F : static_cast<float>(seen.width_px) / static_cast<float>(seen.height_px));
+  });
   b.page.tree.close();
 }
 
@@ -104,7 +114,7 @@ void running(BenchFrame& b) {
   b.page.tree.open(b.page.grown(b.page.box(b.page.portrait ? Flow::Column : Flow::Row, space::kM)));
   live_pictures(b);
   b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
-  b.page.begin_list("progress list");
+  b.page.begin_panel("progress list");
   b.page.row("views", b.tr("Views taken"), b.page.number(c.views));
   b.page.row("error", b.tr("Predicted error"), c.error_mm > 0 ? b.page.number(static_cast<double>(c.error_mm), 3, "mm") : std::string_view("–"), c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
   b.page.row("goal", b.tr("Goal"), b.page.number(static_cast<double>(c.goal_mm), 3, "mm"));
@@ -150,51 +160,23 @@ void history(BenchFrame& b) {
   }
 }
 
-void stepper(BenchFrame& b, std::string_view id, const char* label, std::string_view value, BenchAct act, std::int32_t step) {
-  Node row = b.page.box(Flow::Row, space::kS, 0, 4);
-  row.box.across = Across::Centre;
-  b.page.tree.open(row);
-  b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
-  b.page.tree.leaf(b.page.text(label, type::kSmall, Weight::Medium, b.page.palette.ink));
-  b.page.tree.close();
-  Node both = b.page.box(Flow::Row, space::kS);
-  both.box.left_to_right = true;
-  both.box.across = Across::Centre;
-  b.page.tree.open(both);
-  const auto change = [&](std::size_t which, const char* letter, const char* spoken, std::int32_t by) {
-    Node node = b.page.sized(b.page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-    node.id = b.id(id, which);
-    node.name = spoken;
-    node.role = Role::Button;
-    node.action = bench(act, by);
-    node.box.along = Along::Centre;
-    node.box.across = Across::Centre;
-    node.box.radius = b.page.px(16);
-    node.box.fill = b.page.palette.quiet;
-    node.box.border = b.page.palette.quiet_border;
-    node.box.border_px = b.page.px(2);
-    b.page.tree.open(node);
-    b.page.tree.leaf(b.page.text(letter, type::kHeading / b.page.text_share, Weight::Bold, b.page.palette.link, TextAlign::Centre));
-    b.page.tree.close();
+void board(BenchFrame& b) {
+  const BenchCalibration& c = b.view.calibration;
+  const auto stepper = [&](std::string_view id, const char* label, std::string_view value, BenchAct act, std::int32_t step) {
+    b.page.stepper(id, label, value, icon::kLess, bench(act, -step), icon::kMore, bench(act, step));
   };
-  change(0, "−", b.tr("Less"), -step);
-  Node shown = b.page.text(value, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
-  shown.box.min_width = b.page.px(96 * b.page.text_share);
-  b.page.tree.leaf(shown);
-  change(1, "+", b.tr("More"), step);
-  b.page.tree.close();
-  b.page.tree.close();
+  b.page.section(b.tr("The board"));
+  stepper("columns", b.tr("Inner corners across"), b.page.number(c.columns), BenchAct::Columns, 1);
+  stepper("rows", b.tr("Inner corners down"), b.page.number(c.rows), BenchAct::Rows, 1);
+  stepper("square", b.tr("Side of a square"), b.page.number(static_cast<double>(c.square_mm), 1, "mm"), BenchAct::Square, 5);
+  b.page.row("charuco", b.tr("With markers (ChArUco)"), c.charuco ? b.tr("yes") : b.tr("no"), Mood::Plain, bench(BenchAct::Charuco));
 }
 
 void at_rest(BenchFrame& b) {
   const BenchCalibration& c = b.view.calibration;
   b.page.begin_list("calibration");
   verdict(b);
-  b.page.section(b.tr("The board"));
-  stepper(b, "columns", b.tr("Inner corners across"), b.page.number(c.columns), BenchAct::Columns, 1);
-  stepper(b, "rows", b.tr("Inner corners down"), b.page.number(c.rows), BenchAct::Rows, 1);
-  stepper(b, "square", b.tr("Side of a square"), b.page.number(static_cast<double>(c.square_mm), 1, "mm"), BenchAct::Square, 5);
-  b.page.row("charuco", b.tr("With markers (ChArUco)"), c.charuco ? b.tr("yes") : b.tr("no"), Mood::Plain, bench(BenchAct::Charuco));
+  board(b);
   history(b);
   b.page.tree.close();
   const float grow = b.open_buttons();

@@ -85,7 +85,7 @@ void bench_cameras_page(StaffFrame& page) {
   else live(b, "right live", b.tr("Right camera"), cameras.camera[1].picture, PictureSlot::BenchRight);
   page.tree.close();
   page.tree.open(page.grown(page.box(Flow::Column)));
-  page.begin_list("camera figures");
+  page.begin_panel("camera figures");
   if (b.view.cameras.watched) figures(b);
   else page.line(b.tr("One moment, please"));
   page.tree.close();

@@ -77,7 +77,7 @@ void table(BenchFrame& b) {
   const auto figure = [&](const BenchResult& r, double value, int decimals, const char* unit_name, bool known = true) {
     return r.there && known ? b.page.number(value, decimals, unit_name) : std::string_view("–");
   };
-  b.page.begin_list("figures");
+  b.page.begin_panel("figures");
   b.page.section(b.tr("Algorithms"));
   algorithms(b, "kept set", b.tr("Put aside"), k);
   algorithms(b, "present set", b.tr("Now"), n);

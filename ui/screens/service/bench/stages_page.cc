@@ -168,7 +168,7 @@ void bench_stages_page(StaffFrame& page) {
     else one_picture(b);
     Node side = page.grown(page.box(Flow::Column, space::kXs));
     page.tree.open(side);
-    page.begin_list("facts");
+    page.begin_panel("facts");
     side_rows(b);
     page.tree.close();
     if (b.view.stage == BenchStage::Rectified) b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
