@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/visit.h"
 
-#include <string.h>
-
 #include <algorithm>
+#include <utility>
 
 namespace relievo::ui {
 namespace {
@@ -50,42 +49,12 @@ void Visit::forget_person() {
   accents = false;
 }
 
-void Visit::wipe_name() {
-  explicit_bzero(name_.data(), name_.size());
-  length_ = 0;
-}
-
 void Visit::go(Step to, hal::Instant now) {
   step = to;
   entered_ = now;
   overlay = Overlay::None;
   if (to == Step::Attract) forget();
   if (to == Step::Trouble) forget_person();  // who reads it reads it in their language
-}
-
-void Visit::type(std::string_view letter) {
-  if (step != Step::Name || overlay != Overlay::None || length_ + letter.size() > name_.size()) return;
-  if (letter == " " && (length_ == 0 || name_[length_ - 1] == ' ')) return;
-  letter.copy(name_.data() + length_, letter.size());
-  length_ += letter.size();
-  capitals = letter == " " || letter == "-";
-  accents = false;
-}
-
-void Visit::enter(std::string_view text, hal::Instant now) {
-  if (step != Step::Name || overlay != Overlay::None || length_ > 0 || text.size() > name_.size()) return;
-  length_ = text.copy(name_.data(), text.size());
-  capitals = accents = false;
-  touched(now);
-}
-
-void Visit::erase_letter() {
-  while (length_ > 0) {
-    const char last = name_[--length_];
-    name_[length_] = 0;
-    if ((static_cast<unsigned char>(last) & 0xC0U) != 0x80U) break;  // the first byte of a letter
-  }
-  if (length_ == 0) capitals = true;
 }
 
 void Visit::look_at(ActionKind kind) {
@@ -102,6 +71,7 @@ void Visit::look_at(ActionKind kind) {
 }
 
 std::optional<Intent> Visit::back(const ViewState& view) {
+  if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
   switch (step) {
     case Step::Consent: go(Step::Attract, view.now); break;
     case Step::Name: step = Step::Consent; break;
@@ -121,24 +91,16 @@ std::optional<Intent> Visit::back(const ViewState& view) {
 
 std::optional<Intent> Visit::act(Action action, const ViewState& view) {
   switch (action.kind) {
-    case ActionKind::ShowLanguages: overlay = Overlay::Languages; break;
-    case ActionKind::ShowHelp: overlay = Overlay::Help; break;
-    case ActionKind::Leave: overlay = Overlay::Leave; break;
+    case ActionKind::ShowLanguages:
+    case ActionKind::ShowHelp:
+    case ActionKind::Leave:
     case ActionKind::CloseOverlay:
-    case ActionKind::Stay: overlay = Overlay::None; break;
+    case ActionKind::Stay:
     case ActionKind::ChooseLanguage:
-      if (view.languages[static_cast<std::size_t>(action.value)]) language = static_cast<Language>(action.value);
-      overlay = Overlay::None;
-      break;
-    case ActionKind::BiggerText: text_size = (text_size + 1) % kTextPercents.size(); break;
-    case ActionKind::Contrast: high_contrast = !high_contrast; break;
-    case ActionKind::LeaveNow:
-      go(Step::Attract, view.now);
-      return Intent::Cancel;
-    case ActionKind::Back:
-      if (overlay == Overlay::None) return back(view);
-      overlay = Overlay::None;
-      break;
+    case ActionKind::BiggerText:
+    case ActionKind::Contrast: act_on_page(action, view); break;
+    case ActionKind::LeaveNow: return leave_now(view);
+    case ActionKind::Back: return back(view);
     case ActionKind::TurnLeft:
     case ActionKind::TurnRight:
     case ActionKind::ZoomIn:
@@ -176,6 +138,22 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::None: break;
   }
   return std::nullopt;
+}
+
+// How it is read, and what lies over it: wherever the person is.
+void Visit::act_on_page(Action action, const ViewState& view) {
+  if (action.kind == ActionKind::BiggerText) text_size = (text_size + 1) % kTextPercents.size();
+  else if (action.kind == ActionKind::Contrast) high_contrast = !high_contrast;
+  else if (action.kind == ActionKind::ShowLanguages) overlay = Overlay::Languages;
+  else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
+  else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
+  else overlay = Overlay::None;
+  if (action.kind == ActionKind::ChooseLanguage && view.languages[static_cast<std::size_t>(action.value)]) language = static_cast<Language>(action.value);
+}
+
+std::optional<Intent> Visit::leave_now(const ViewState& view) {
+  go(Step::Attract, view.now);
+  return Intent::Cancel;
 }
 
 std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view) {

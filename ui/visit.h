@@ -75,7 +75,9 @@ class Visit {
   void go(Step to, hal::Instant now);
   void forget_person();   // not how they like to read
   std::optional<Intent> act_on_path(ActionKind kind, const ViewState& view);
-  std::optional<Intent> back(const ViewState& view);
+  void act_on_page(Action action, const ViewState& view);
+  std::optional<Intent> leave_now(const ViewState& view);
+  std::optional<Intent> back(const ViewState& view);   // what lies over the page first
   void look_at(ActionKind kind);
   void erase_letter();
   bool person_expected() const;

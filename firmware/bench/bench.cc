@@ -67,10 +67,7 @@ void Bench::act(ui::BenchOrder order) {
   if (ends ? !calibrating : parts_.appliance.state() != State::Technician) return;
   switch (order.act) {
     case BenchAct::None: break;
-    case BenchAct::Capture:
-      if (!is_calibrated()) return;
-      if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = Next::Shot;
-      return watch_cameras(false);
+    case BenchAct::Capture: return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
     case BenchAct::Run: return run();
     case BenchAct::Stop: return stop();
     case BenchAct::ShowStage:
@@ -92,9 +89,7 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
     case BenchAct::BrighterShot: return watch_.change_light(1);
     case BenchAct::DarkerShot: return watch_.change_light(-1);
-    case BenchAct::BeginCalibration:
-      if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = Next::Calibration;
-      return watch_cameras(false);
+    case BenchAct::BeginCalibration: return wait_for_cameras(Next::Calibration);
     case BenchAct::StopCalibration: return calibrate_.finish();
     case BenchAct::CancelCalibration: return parts_.errands.stop(JobPlace::Capture);
     case BenchAct::StoreCalibration:
@@ -113,12 +108,20 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::UseTyped:
     case BenchAct::UseDefault:
     case BenchAct::LeaveOption:
-    case BenchAct::ResetSet:
-      algorithms_.act(order);
-      changed_ = difference_of(run_.figures().set()) != difference_of(algorithms_.set());
-      applied_ = false;
-      return;
+    case BenchAct::ResetSet: return choose(order);
   }
+}
+
+// What takes pictures begins when nobody else does any more.
+void Bench::wait_for_cameras(Next what) {
+  if (phase_ != BenchPhase::Capturing && phase_ != BenchPhase::Running) next_ = what;
+  watch_cameras(false);
+}
+
+void Bench::choose(ui::BenchOrder order) {
+  algorithms_.act(order);
+  changed_ = difference_of(run_.figures().set()) != difference_of(algorithms_.set());
+  applied_ = false;
 }
 
 void Bench::keep_result() {

@@ -59,6 +59,7 @@ class Bench {
   Products* products();
   BenchTables::Source source();
   void leave();
+  void wait_for_cameras(Next what);
   void begin_next();
   void shoot();
   void calibrate();

@@ -165,76 +165,104 @@ struct Lent {
   std::string_view note;   // said against the calibration
 };
 
-}  // namespace
+// What is lent to the pages, for as long as they are looked at.
+struct Lender {
+  std::deque<Lent> lent;
+  void add(std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}}); }
+};
 
-void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review, const ui::ViewState& idle, const ui::Visit& visit) {
-  static std::deque<Lent> lent;
-  static const AlgorithmDesk chosen = edited(false), typing = edited(true);
-  lent.clear();
-  const auto add = [&](std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}}); };
+void add_stages(Lender& all, const ui::ViewState& review) {
   BenchView view;
-  add("bench_empty", StaffPage::Stages, view);
+  all.add("bench_empty", StaffPage::Stages, view);
   view.calibrated = false;
-  add("bench_uncalibrated", StaffPage::Stages, view);
+  all.add("bench_uncalibrated", StaffPage::Stages, view);
   view.calibrated = true;
   view.phase = BenchPhase::Running;
   view.working_on = 1;
   view.progress = 0.4F;
-  add("bench_running", StaffPage::Stages, view);
+  all.add("bench_running", StaffPage::Stages, view);
   view = ready(review);
   view.point = touched();
-  add("bench_rectified", StaffPage::Stages, view);
+  all.add("bench_rectified", StaffPage::Stages, view);
   view.can_record = true;
   view.recording = {true, 0.6F, ui::Outcome::None, {}};
-  add("bench_recording", StaffPage::Stages, view);
+  all.add("bench_recording", StaffPage::Stages, view);
   view.recording = {false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
-  add("bench_recorded", StaffPage::Stages, view);
+  all.add("bench_recorded", StaffPage::Stages, view);
   view.recording = {};
   for (const auto& [name, stage] : {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches}, std::pair{"bench_surface", BenchStage::Mesh}}) {
     lend(review, stage, view);
-    add(name, StaffPage::Stages, view);
+    all.add(name, StaffPage::Stages, view);
   }
-  view = ready(review);
-  add("bench_model", StaffPage::Model, view);
+}
+
+// The model, the tables, the choice of algorithms, and two results beside each other.
+void add_results(Lender& all, const ui::ViewState& review) {
+  static const AlgorithmDesk chosen = edited(false), typing = edited(true);
+  BenchView view = ready(review);
+  all.add("bench_model", StaffPage::Model, view);
   view.rows = {ui::BenchTable::Matches, kHeads, kCells, 1, 17101, 171004};
-  add("bench_table", StaffPage::Tables, view);
+  all.add("bench_table", StaffPage::Tables, view);
   view.rows = {ui::BenchTable::Calibration, kCalibrationHeads, kCalibrationCells, 0, 1, 10};
-  add("bench_calibration_table", StaffPage::Tables, view);
+  all.add("bench_calibration_table", StaffPage::Tables, view);
   view.choice = chosen.view();
-  add("bench_algorithms", StaffPage::Algorithms, view);
+  all.add("bench_algorithms", StaffPage::Algorithms, view);
   view.choice = typing.view();
-  add("bench_option", StaffPage::Algorithms, view);
+  all.add("bench_option", StaffPage::Algorithms, view);
   lend(review, BenchStage::Mesh, view);
   view.kept = view.result;
   view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
   view.compared = {view.shown[0], view.shown[0]};
-  add("bench_compare", StaffPage::Compare, view);
+  all.add("bench_compare", StaffPage::Compare, view);
+}
+
+void add_cameras(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
   view.cameras = watched(review);
-  add("bench_cameras", StaffPage::Cameras, view);
+  all.add("bench_cameras", StaffPage::Cameras, view);
   view.cameras.relief_shown = true;
   view.cameras.relief = {review.stages[0].picture, 900022};
-  add("bench_relief", StaffPage::Cameras, view);
+  all.add("bench_relief", StaffPage::Cameras, view);
+}
+
+void add_calibrations(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
   view.calibration = calibrated(review, true);
-  add("bench_calibrating", StaffPage::Calibrate, view);
+  all.add("bench_calibrating", StaffPage::Calibrate, view);
   view.calibration = calibrated(review, false);
-  add("bench_calibrated", StaffPage::Calibrate, view);
+  all.add("bench_calibrated", StaffPage::Calibrate, view);
   view.calibration = refused(review);
-  add("bench_refused", StaffPage::Calibrate, view);
+  all.add("bench_refused", StaffPage::Calibrate, view);
   view.calibration = calibrated(review, false);
   view.calibration.ended = false;
-  add("bench_moved", StaffPage::Calibrate, view);
-  lent.back().note = "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
-  add("bench_exchanged", StaffPage::Calibrate, view);
-  lent.back().note = "the left camera is another than the calibrated one: put that one back, or calibrate anew\tserial 4061 → serial 4088";
-  view = ready(review);
+  all.add("bench_moved", StaffPage::Calibrate, view);
+  all.lent.back().note = "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
+  all.add("bench_exchanged", StaffPage::Calibrate, view);
+  all.lent.back().note = "the left camera is another than the calibrated one: put that one back, or calibrate anew\tserial 4061 → serial 4088";
+}
+
+void add_failures(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
   lend(review, BenchStage::Rectified, view);
   view.result.failed_at = 3;
   view.result.failure = "that looks like a picture of a face: please look into the cameras yourself\t1.84 mm off a plane, 0.31 off a bent sheet (a face 1.2 or more; sigma 0.07), curved by 0.2 sr (a face 1.0 or more)";
   view.result.made = {};
-  add("bench_failed", StaffPage::Stages, view);
+  all.add("bench_failed", StaffPage::Stages, view);
   view.model = nullptr;
-  add("bench_no_model", StaffPage::Model, view);
-  for (Lent& one : lent) {
+  all.add("bench_no_model", StaffPage::Model, view);
+}
+
+}  // namespace
+
+void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review, const ui::ViewState& idle, const ui::Visit& visit) {
+  static Lender all;
+  all.lent.clear();
+  add_stages(all, review);
+  add_results(all, review);
+  add_cameras(all, review);
+  add_calibrations(all, review);
+  add_failures(all, review);
+  for (Lent& one : all.lent) {
     one.staff.role = ui::StaffRole::Technician;
     one.staff.bench = &one.view;
     Exhibit exhibit{one.name, idle, visit, {}};

@@ -78,11 +78,8 @@ class Gallery {
   ui::Visit visit_;
 };
 
-}  // namespace
-
-std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast) {
-  Gallery g(review, language, text_size, high_contrast);
-  const ui::ViewState idle = g.idle();
+// From the invitation to the name.
+void add_beginning(Gallery& g, const ui::ViewState& idle) {
   g.add("starting", idle, g.at(Step::Starting));
   g.add("attract", idle, g.at(Step::Attract));
   g.add("languages", idle, g.at(Step::Attract, Overlay::Languages));
@@ -96,6 +93,9 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add("wrong_code", met, g.named());
   met.known = ui::Known::Code;
   g.add("known_code", met, g.at(Step::Known));
+}
+
+void add_capture(Gallery& g) {
   g.add_position("position_look", Advice::NoFace, 0, 0, 0);
   g.add_position("position_aside", Advice::OffCentre, 0.5F, 0, 0);
   g.add_position("position_close", Advice::TooClose, 0, 0, 0);
@@ -104,6 +104,9 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   g.add_working("working_begin", Screen::Match, 0);
   g.add_working("working", Screen::Mesh, 2);
   g.add_working("storing", Screen::Store, 4);
+}
+
+void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
   g.add("review", review, g.at(Step::Review));
   ui::ViewState full = review;
   full.trouble = Trouble::Storage;
@@ -114,11 +117,18 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   ui::ViewState done = idle;
   done.receipt = "4821-9037-5512-71";
   g.add("thanks", done, g.at(Step::Thanks));
+}
+
+// What lies over a page.
+void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
   g.add("help", idle, g.at(Step::Consent, Overlay::Help));
   g.add("leave", review, g.at(Step::Review, Overlay::Leave));
   ui::ViewState late = idle;
   late.now += ui::kPatience + std::chrono::seconds(4);
   g.add("still_there", late, g.at(Step::Consent, Overlay::StillThere));
+}
+
+void add_troubles(Gallery& g, const ui::ViewState& idle) {
   g.add_trouble("trouble_camera", Trouble::Camera, Screen::Fault);
   g.add_trouble("trouble_calibration", Trouble::Calibration, Screen::Fault);
   g.add_trouble("trouble_refused", Trouble::Refused, Screen::Idle);
@@ -132,6 +142,18 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   barred.out_of_order = Trouble::Restarted;
   g.add("trouble_restarted", barred, g.at(Step::Trouble));
   g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
+}
+
+}  // namespace
+
+std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast) {
+  Gallery g(review, language, text_size, high_contrast);
+  const ui::ViewState idle = g.idle();
+  add_beginning(g, idle);
+  add_capture(g);
+  add_decision(g, review, idle);
+  add_overlays(g, review, idle);
+  add_troubles(g, idle);
   add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
   add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
   return std::move(g.exhibits);

@@ -108,8 +108,8 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
   }
 }
 
-std::deque<Shown> make_shown() {
-  std::deque<Shown> all;
+// The way in: PINs, the first start, a PIN that was forgotten.
+void add_door(std::deque<Shown>& all) {
   ServiceView door;
   all.push_back({"staff_pin", StaffPage::Pin, 0, door});
   door.access.wait_s = 300;
@@ -132,10 +132,16 @@ std::deque<Shown> make_shown() {
   fresh.access.fault = ui::PinFault::None;
   fresh.access.step = ui::PinStep::Operator;
   all.push_back({"staff_forgotten_pin", StaffPage::FirstStart, 0, fresh});
+}
+
+void add_menus(std::deque<Shown>& all) {
   all.push_back({"staff_technician", StaffPage::Menu, 0, at(StaffRole::Technician)});
   ServiceView leaving = at(StaffRole::Operator);
   leaving.leaves_in_s = 9;
   all.push_back({"staff_operator", StaffPage::Menu, 0, leaving});
+}
+
+void add_records(std::deque<Shown>& all) {
   ServiceView records = at(StaffRole::Operator);
   records.records = &kList;
   all.push_back({"staff_records", StaffPage::Records, 0, records});
@@ -152,12 +158,18 @@ std::deque<Shown> make_shown() {
   records.records = &kTaken;
   records.work.outcome = ui::Outcome::Done;
   all.push_back({"staff_exported", StaffPage::Records, 0, records});
+}
+
+void add_figures(std::deque<Shown>& all) {
   ServiceView statistics = at(StaffRole::Operator);
   statistics.statistics = &kStatistics;
   all.push_back({"staff_statistics", StaffPage::Statistics, 0, statistics});
   ServiceView health = at(StaffRole::Technician);
   health.health = &kHealth;
   all.push_back({"staff_health", StaffPage::Health, 0, health});
+}
+
+void add_tests(std::deque<Shown>& all) {
   ServiceView tests = at(StaffRole::Technician);
   tests.self_test = &kTested;
   tests.log = &kLog;
@@ -167,6 +179,9 @@ std::deque<Shown> make_shown() {
   tests.trigger = &kMissed;
   all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
   all.push_back({"staff_log", StaffPage::Log, 0, tests});
+}
+
+void add_settings(std::deque<Shown>& all) {
   ServiceView settings = at(StaffRole::Technician);
   static const ui::SettingsView kUsual{}, kJumped{kept_for_a_year(), true};
   settings.settings = &kUsual;
@@ -178,6 +193,16 @@ std::deque<Shown> make_shown() {
   static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, {}, {}};
   settings.consent = &kInForce;
   all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
+}
+
+std::deque<Shown> make_shown() {
+  std::deque<Shown> all;
+  add_door(all);
+  add_menus(all);
+  add_records(all);
+  add_figures(all);
+  add_tests(all);
+  add_settings(all);
   add_touch(all);
   ServiceView pins = at(StaffRole::Operator);
   pins.access.step = ui::PinStep::Own;

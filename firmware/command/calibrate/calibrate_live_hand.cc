@@ -53,55 +53,22 @@ void AdvisedHand::tremble() {
 
 void AdvisedHand::obey(pipeline::LiveAdvice told, double mm, double deg) {
   using enum pipeline::LiveAdvice;
-  switch (told) {
-    case Left:
-      step(&HeldPose::right_mm, -mm);
-      break;
-    case Right:
-      step(&HeldPose::right_mm, mm);
-      break;
-    case Up:
-      step(&HeldPose::down_mm, -mm);
-      break;
-    case Down:
-      step(&HeldPose::down_mm, mm);
-      break;
-    case Closer:
-      step(&HeldPose::distance_mm, -mm);
-      break;
-    case Farther:
-      step(&HeldPose::distance_mm, mm);
-      break;
-    case TiltLeft:
-      step(&HeldPose::yaw_deg, deg);
-      break;
-    case TiltRight:
-      step(&HeldPose::yaw_deg, -deg);
-      break;
-    case TiltForward:
-      step(&HeldPose::pitch_deg, deg);
-      break;
-    case TiltBack:
-      step(&HeldPose::pitch_deg, -deg);
-      break;
-    case TurnClockwise:
-      step(&HeldPose::roll_deg, deg);
-      break;
-    case TurnCounterclockwise:
-      step(&HeldPose::roll_deg, -deg);
-      break;
-    case ShowBoard:
-    case LeftCameraMissesIt:
-    case RightCameraMissesIt:
-      go_home();
-      break;
-    case HoldStill:
-    case TooBlurred:
-    case AlreadyHave:
-    case SwappedCameras:
-    case Done:
-      break;
-  }
+  if (told == ShowBoard || told == LeftCameraMissesIt || told == RightCameraMissesIt) return go_home();
+  const struct {
+    pipeline::LiveAdvice advice;
+    double HeldPose::*axis;
+    double by;
+  } moves[] = {
+      {Left, &HeldPose::right_mm, -mm},      {Right, &HeldPose::right_mm, mm},
+      {Up, &HeldPose::down_mm, -mm},         {Down, &HeldPose::down_mm, mm},
+      {Closer, &HeldPose::distance_mm, -mm}, {Farther, &HeldPose::distance_mm, mm},
+      {TiltLeft, &HeldPose::yaw_deg, deg},   {TiltRight, &HeldPose::yaw_deg, -deg},
+      {TiltForward, &HeldPose::pitch_deg, deg}, {TiltBack, &HeldPose::pitch_deg, -deg},
+      {TurnClockwise, &HeldPose::roll_deg, deg}, {TurnCounterclockwise, &HeldPose::roll_deg, -deg},
+  };
+  // What is not among them needs no move: the hand holds still.
+  for (const auto& move : moves)
+    if (move.advice == told) step(move.axis, move.by);
 }
 
 HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {

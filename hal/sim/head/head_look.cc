@@ -35,13 +35,11 @@ double SkinLook::melanin(Vec3 p, Vec3 q) const {
   return m;
 }
 
-Surface SkinLook::surface(Vec3 p) const {
-  const Vec3 q = field_.warped(p);
-  Surface s;
+// The skin's own colour: blood and melanin in it, pores and a beard's stubble on it.
+Vec3 SkinLook::complexion(Vec3 p, Vec3 q, double dark) const {
   Vec3 c = t_.skin;
   const double red = std::max(0.0, blood(q)) * 0.6;
   c = c * mix(Vec3{1, 1, 1}, Vec3{1.02, 0.74, 0.74}, red);
-  const double dark = melanin(p, q);
   const auto absorb = [&](double power) { return std::exp(-dark * power); };
   c = c * Vec3{absorb(0.85), absorb(1.1), absorb(1.35)};
   const double pores = smoothstep(80, 95, q.z) * 0.7 + 0.5;
@@ -53,6 +51,24 @@ Surface SkinLook::surface(Vec3 p) const {
     c = mix(c, c * Vec3{0.80, 0.84, 0.88}, beard * 0.8);
     c = mix(c, t_.hair * 0.8 + c * 0.2, beard * 0.55 * stubble);
   }
+  return c;
+}
+
+// Inside the lids' edge it is wet and pink; roots of the lashes draw a dark line.
+Vec3 SkinLook::with_lid(Vec3 c, Vec3 q) const {
+  const double eye_s = field_.eye.along(std::abs(q.x));
+  if (std::abs(eye_s) >= 1.05 || q.z <= 70) return c;
+  const double edge = std::max(q.y - field_.eye.upper_lid(eye_s), field_.eye.lower_lid(eye_s) - q.y);
+  c = mix(c, c * Vec3{0.95, 0.62, 0.60}, smoothstep(0.75, 0.2, edge));
+  c = mix(c, c * 0.35 + t_.hair * 0.3, (q.y > -1 ? 0.75 : 0.35) * gauss((edge - 0.75) / 0.6) * smoothstep(1.02, 0.8, std::abs(eye_s)));
+  return c * (1 - 0.16 * smoothstep(6, 1, edge));
+}
+
+Surface SkinLook::surface(Vec3 p) const {
+  const Vec3 q = field_.warped(p);
+  Surface s;
+  const double dark = melanin(p, q);
+  Vec3 c = complexion(p, q, dark);
   const double lip = field_.mouth.vermilion(q);
   if (lip > 0) {
     const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, t_.seed + 8);
@@ -70,16 +86,7 @@ Surface SkinLook::surface(Vec3 p) const {
   const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
   c = mix(c, t_.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
   c = mix(c, t_.hair + c * 0.3, 0.30 * brow * t_.brow_density);
-  // Inside the lids' edge it is wet and pink.
-  const double eye_s = field_.eye.along(std::abs(q.x));
-  if (std::abs(eye_s) < 1.05 && q.z > 70) {
-    const double edge = std::max(q.y - field_.eye.upper_lid(eye_s), field_.eye.lower_lid(eye_s) - q.y);
-    c = mix(c, c * Vec3{0.95, 0.62, 0.60}, smoothstep(0.75, 0.2, edge));
-    // Roots of the lashes draw a dark line.
-    c = mix(c, c * 0.35 + t_.hair * 0.3, (q.y > -1 ? 0.75 : 0.35) * gauss((edge - 0.75) / 0.6) * smoothstep(1.02, 0.8, std::abs(eye_s)));
-    c = c * (1 - 0.16 * smoothstep(6, 1, edge));
-  }
-  s.colour = c;
+  s.colour = with_lid(c, q);
   const double oily = 0.5 + 0.5 * bell(q.x, 26, q.y - 40, 28) + 0.7 * bell(q.x, 12, q.y + 20, 26) + 0.25 * value_noise(q * 0.12, t_.seed + 41);
   s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, t_.skin.x)), 0.5, lip) * (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed))) * t_.shine;
   s.roughness = mix(0.48, 0.42, lip);

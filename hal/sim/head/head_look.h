@@ -25,6 +25,8 @@ class SkinLook {
  private:
   double blood(Vec3 q) const;
   double melanin(Vec3 p, Vec3 q) const;
+  Vec3 complexion(Vec3 p, Vec3 q, double dark) const;
+  Vec3 with_lid(Vec3 c, Vec3 q) const;
   double height(Vec3 p, double lip, double coarse) const;
   const HeadField& field_;
   const HeadTraits& t_;
