@@ -51,7 +51,7 @@ std::size_t count(const std::string& text, const std::string& sought) {
 
 std::size_t holes(const std::string& text) { return count(text, "{}"); }
 
-bool ends_with(const std::string& text, const std::string& end) { return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0; }
+bool ends_with(const std::string& text, const std::string& end) { return text.ends_with(end); }
 
 // What stands in a catalogue behind "msgid" or "msgstr", its header left out.
 std::vector<std::string> entries(const std::string& code, const std::string& keyword) {
@@ -109,9 +109,8 @@ void every_text_is_known(Language language, const std::set<std::string>& texts) 
 }
 
 void every_language_knows(const std::set<std::string>& texts) {
-  for (std::size_t i = 0; i < kLanguages; ++i) {
+  for (std::size_t i = 0; i < kLanguages; ++i)
     if (static_cast<Language>(i) != Language::English) every_text_is_known(static_cast<Language>(i), texts);
-  }
 }
 
 TEST_F(WordsTest, EveryTextOfVisitorsAndStaffIsInEveryLanguage) {
@@ -285,9 +284,8 @@ TEST_F(WordsTest, FiguresAndNamesDoNotTurnArabicAndHebrewRound) {
       EXPECT_EQ(count(said, "\u2066"), count(said, "\u2069")) << said;
       // The sign stands beside its number, as StaffFrame::number() writes both.
       EXPECT_EQ(count(said, "{}%") + count(said, "{} %") + count(said, "{}\u00a0%"), count(said, "\u2066{}\u00a0%\u2069")) << said;
-      for (std::size_t at = said.find('^'); at != std::string::npos; at = said.find('^', at + 1)) {
+      for (std::size_t at = said.find('^'); at != std::string::npos; at = said.find('^', at + 1))
         EXPECT_GT(count(said.substr(0, at), "\u2066"), count(said.substr(0, at), "\u2069")) << said;
-      }
     }
   }
 }
