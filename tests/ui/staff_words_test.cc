@@ -73,6 +73,9 @@ TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
   const std::string arabic(in(Language::Arabic).said(moved));
   EXPECT_FALSE(arabic.starts_with("\u2068")) << "its own words tell the direction, not what stands behind them";
   EXPECT_EQ(in(Language::German).said(""), "");
+  EXPECT_STREQ(in(Language::French).begun("écart"), "Écart");
+  EXPECT_STREQ(in(Language::French).begun("à côté"), "À côté");
+  for (const char* same : {"", "÷ 2", "ßig", "Écart", "2 px", "左"}) EXPECT_STREQ(in(Language::French).begun(same), same);
   EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
 }
 

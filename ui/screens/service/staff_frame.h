@@ -54,6 +54,8 @@ class StaffFrame : public Page {
   void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);
   }
+  // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
+  const char* begun(const char* words);
   void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
   void status(std::string_view id, std::string_view words, Mood mood);

@@ -36,15 +36,6 @@ bool begins_with_date(std::string_view text) {
   return true;
 }
 
-// Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
-const char* begun(Page& page, const char* words) {
-  if (*words < 'a' || *words > 'z') return words;
-  const char first = static_cast<char>(*words - 'a' + 'A');
-  const char* all = page.tree.keep({&first, 1}).data();
-  page.kept(words + 1);
-  return all;
-}
-
 }  // namespace
 
 std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
@@ -118,6 +109,18 @@ std::string_view StaffFrame::date(std::string_view iso) {
   return {first.data(), length + tree.keep(isolate::kEnd).size()};
 }
 
+const char* StaffFrame::begun(const char* words) {
+  // The small letters of a to z, and à to þ behind their lead byte: 0x20 above the capitals.
+  const bool latin = *words >= 'a' && *words <= 'z', accented = words[0] == '\xc3' && words[1] >= '\xa0' && words[1] <= '\xbe' && words[1] != '\xb7';
+  if (!latin && !accented) return words;
+  const std::size_t at = accented ? 1 : 0;
+  const char capital = static_cast<char>(words[at] - 0x20);
+  const char* all = tree.keep({words, at}).data();
+  tree.keep({&capital, 1});
+  kept(words + at + 1);
+  return all;
+}
+
 std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
   if (sentence.empty()) return sentence;   // gettext's name of nothing is its header
   std::array<std::string_view, kMostValues> values{};
@@ -129,7 +132,7 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
     at = next;
   }
   const char* key = kept(sentence.substr(0, end));
-  const char* words = begins ? begun(*this, tr(key)) : tr(key);
+  const char* words = begins ? begun(tr(key)) : tr(key);
   std::size_t holes = 0;
   for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
   for (std::size_t i = 0; i < std::min(count, holes); ++i) values[i] = as_number(values[i]);
@@ -145,7 +148,7 @@ std::string_view StaffFrame::noted(const LogLine& what) {
   if (what.key == kSettingChanged) {
     if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty()) return change;
   }
-  return filled(begun(*this, tr(kept(what.key))), {what.values[0], what.values[1]});
+  return filled(begun(tr(kept(what.key))), {what.values[0], what.values[1]});
 }
 
 void StaffFrame::logged(const LogLine& what) {

@@ -27,7 +27,7 @@ const char* label_of(const Words& tr, std::string_view kind) {
 std::string_view described(BenchFrame& b, std::string_view sentence) {
   const char* english = b.page.kept(sentence);
   const char* words = b.tr(english);
-  return words == english ? b.left_to_right(english) : std::string_view(words);
+  return words == english ? b.left_to_right(b.page.begun(english)) : std::string_view(b.page.begun(words));
 }
 
 void kinds(BenchFrame& b) {
