@@ -118,7 +118,7 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
   RELIEVO_TRY_ASSIGN(const RectifiedPair pair, Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
   const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
   Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
-  RELIEVO_TRY(match_down(pair, pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px}, options_.costs, inner, 1, disparity));
+  RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px}, options_.costs, inner, 1, disparity));
   Relief relief(&context.output);
   fill_depth(pair, disparity, relief);
   label_surfaces(relief, options_.step_px, options_.speck_mm2, context);

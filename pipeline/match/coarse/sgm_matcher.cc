@@ -40,7 +40,7 @@ Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& k
     Arena::Mark mark(context.scratch);
     const Pyramids pyramids = build_pyramids(pair, options_.coarsest + 1, context);
     const SizeLadder ladder{options_.coarsest, options_.finest, options_.band, options_.cross_check_px};
-    RELIEVO_TRY(match_down(pair, pyramids, ladder, options_.costs, context, 0.8F, field));
+    RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder, options_.costs, context, 0.8F, field));
   }
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   const auto size = static_cast<float>(scale);

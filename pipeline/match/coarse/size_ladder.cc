@@ -9,12 +9,14 @@
 
 namespace relievo::pipeline {
 
-Result<void> match_down(const RectifiedPair& pair, const Pyramids& pyramids, const SizeLadder& ladder,
+DisparityRange whole_range(const RectifiedPair& pair) { return {pair.disparity_px(pair.far_mm), pair.disparity_px(pair.near_mm)}; }
+
+Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, const SizeLadder& ladder,
                         const SemiGlobalCosts& costs, StageContext& context, float progress_share, Plane<float>& finest) {
   Arena::Mark all(context.scratch);
   const double scale = 1 << ladder.coarsest;
-  int first = static_cast<int>(std::floor(pair.disparity_px(pair.far_mm) / scale)) - 1;
-  int last = static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm) / scale)) + 1;
+  int first = static_cast<int>(std::floor(range.least_px / scale)) - 1;
+  int last = static_cast<int>(std::ceil(range.most_px / scale)) + 1;
   Plane<float> left(&context.scratch, 0, 0);
   Plane<float> right(&context.scratch, 0, 0);
   for (int level = ladder.coarsest; level >= ladder.finest; --level) {

@@ -24,70 +24,97 @@ constexpr int kStride = 2;
 constexpr int kOffsetWindow = 10;  // radius over which one view is brighter than the other by a constant
 constexpr float kLoud = 20;        // grey levels: what disagrees by more is as wrong as can be
 
-// Nodes [from, to] of a row for which both surfaces were continued.
+// A row or a column of nodes: node i of it is values[first + i * stride].
+struct Line {
+  int first = 0, stride = 1, count = 0;
+  std::size_t at(int i) const { return static_cast<std::size_t>(first + i * stride); }
+};
+
+// Nodes [from, to] of a line for which both surfaces were continued.
 struct Curtain {
-  int y, from, to;
+  Line line;
+  int from, to;
 };
 
 struct Surfaces {
   Surfaces(std::pmr::memory_resource* memory, int w, int h)
-      : near(memory, w, h), far(memory, w, h), asked(memory, w, h) {}
-  Plane<float> near, far;  // continued disparity, full-size pixels
-  Plane<float> asked;      // 1 where a curtain hangs
+      : before(memory, w, h), behind(memory, w, h), asked(memory, w, h) {}
+  Plane<float> before, behind;  // continued disparity, full-size pixels
+  Plane<float> asked;           // 1 where a curtain hangs
 };
 
 // What the views disagree by, on average over a window: at best near the continued surfaces, and as the field is now.
 struct Disagreement {
-  Disagreement(std::pmr::memory_resource* memory, int w, int h) : near(memory, w, h, kLoud), far(memory, w, h, kLoud), now(memory, w, h, kLoud) {}
-  Plane<float> near, far, now;
+  Disagreement(std::pmr::memory_resource* memory, int w, int h) : before(memory, w, h, kLoud), behind(memory, w, h, kLoud), now(memory, w, h, kLoud) {}
+  Plane<float> before, behind, now;
 };
 
-// The next row of steep nodes from x on, [from, to]; none: from > to.
+// How steep the field is along the row, a pixel.
+float steepness_across(const SurfaceField& field, std::size_t k) {
+  const auto x = static_cast<int>(k) % field.domain.width;
+  float most = 0;
+  for (const int side : {-1, 1}) {
+    if (x + side < 0 || x + side >= field.domain.width) continue;
+    const auto beside = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + side);
+    if (field.domain.values[beside] != 0) most = std::max(most, std::abs(field.disparity_px.values[beside] - field.disparity_px.values[k]));
+  }
+  return most;
+}
+
+// The next run of steep nodes from i on, [from, to]; none: from > to. Along a row they fall; along a column either way,
+// and more steeply than along the row: what stands upright is the rows' own.
 struct Steep {
   int from = 1, to = 0;
 };
 
-Steep next_steep(const float* d, const std::uint8_t* in, int x, int w, float step) {
-  const auto falls = [&](int i) { return (in[i] & in[i - 1]) != 0 && d[i - 1] - d[i] > kSteep * step; };
-  while (x < w && !falls(x)) ++x;
-  if (x >= w) return {};
-  Steep steep{x - 1, x};
-  for (int i = x + 1; i < w && i <= steep.to + kGap + 1; ++i)
-    if (falls(i)) steep.to = i;
+Steep next_steep(const SurfaceField& field, const Line& line, int i) {
+  const float limit = kSteep * static_cast<float>(field.step_px);
+  const auto is_steep = [&](int k) {
+    const std::size_t here = line.at(k), before = line.at(k - 1);
+    if ((field.domain.values[here] & field.domain.values[before]) == 0) return false;
+    const float fall = field.disparity_px.values[before] - field.disparity_px.values[here];
+    return line.stride == 1 ? fall > limit : std::abs(fall) > std::max(limit, steepness_across(field, here));
+  };
+  while (i < line.count && !is_steep(i)) ++i;
+  if (i >= line.count) return {};
+  Steep steep{i - 1, i};
+  for (int k = i + 1; k < line.count && k <= steep.to + kGap + 1; ++k)
+    if (is_steep(k)) steep.to = k;
   return steep;
 }
 
 // Continues what lies on both sides of steep nodes; not where the field ends beside them.
-std::optional<Curtain> hang(const SurfaceField& field, int y, const Steep& steep, Surfaces& surfaces) {
-  const float* d = field.disparity_px.row(y);
-  const std::uint8_t* in = field.domain.row(y);
-  const int left = steep.from - kBeside;
-  const int right = steep.to + kBeside;
-  if (left - kSlope < 0 || right + kSlope >= field.domain.width) return std::nullopt;
-  if (!std::all_of(in + left - kSlope, in + right + kSlope + 1, [](std::uint8_t inside) { return inside != 0; })) return std::nullopt;
+std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const Steep& steep, Surfaces& surfaces) {
+  const auto d = [&](int i) { return field.disparity_px.values[line.at(i)]; };
+  const int before = steep.from - kBeside;
+  const int behind = steep.to + kBeside;
+  if (before - kSlope < 0 || behind + kSlope >= line.count) return std::nullopt;
+  for (int i = before - kSlope; i <= behind + kSlope; ++i)
+    if (field.domain.values[line.at(i)] == 0) return std::nullopt;
   const float limit = kSteep * static_cast<float>(field.step_px);
-  const float near_slope = std::clamp((d[left] - d[left - kSlope]) / kSlope, -limit, limit);
-  const float far_slope = std::clamp((d[right + kSlope] - d[right]) / kSlope, -limit, limit);
-  const Curtain curtain{y, left - kMargin, right + kMargin};
-  for (int x = curtain.from; x <= curtain.to; ++x) {
-    surfaces.near.row(y)[x] = d[left] + near_slope * static_cast<float>(x - left);
-    surfaces.far.row(y)[x] = d[right] + far_slope * static_cast<float>(x - right);
-    surfaces.asked.row(y)[x] = 1;
+  const float slope_before = std::clamp((d(before) - d(before - kSlope)) / kSlope, -limit, limit);
+  const float slope_behind = std::clamp((d(behind + kSlope) - d(behind)) / kSlope, -limit, limit);
+  const Curtain curtain{line, before - kMargin, behind + kMargin};
+  for (int i = curtain.from; i <= curtain.to; ++i) {
+    surfaces.before.values[line.at(i)] = d(before) + slope_before * static_cast<float>(i - before);
+    surfaces.behind.values[line.at(i)] = d(behind) + slope_behind * static_cast<float>(i - behind);
+    surfaces.asked.values[line.at(i)] = 1;
   }
   return curtain;
 }
 
-std::pmr::vector<Curtain> find_curtains(const SurfaceField& field, Surfaces& surfaces, std::pmr::memory_resource* memory) {
+std::pmr::vector<Curtain> find_curtains(const SurfaceField& field, bool rows, Surfaces& surfaces, std::pmr::memory_resource* memory) {
   std::pmr::vector<Curtain> curtains(memory);
-  const int w = field.domain.width;
-  const auto step = static_cast<float>(field.step_px);
-  for (int y = 0; y < field.domain.height; ++y)
-    for (int x = 1; x < w;) {
-      const Steep steep = next_steep(field.disparity_px.row(y), field.domain.row(y), x, w, step);
+  const int w = field.domain.width, h = field.domain.height;
+  for (int k = 0; k < (rows ? h : w); ++k) {
+    const Line line = rows ? Line{k * w, 1, w} : Line{k, w, h};
+    for (int i = 1; i < line.count;) {
+      const Steep steep = next_steep(field, line, i);
       if (steep.from > steep.to) break;
-      x = steep.to + 1;
-      if (const auto curtain = hang(field, y, steep, surfaces)) curtains.push_back(*curtain);
+      i = steep.to + 1;
+      if (const auto curtain = hang(field, line, steep, surfaces)) curtains.push_back(*curtain);
     }
+  }
   return curtains;
 }
 
@@ -130,10 +157,12 @@ struct Views {
 // The mean disagreement over a window of the curtain, the surface being d + shift.
 void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool& pool, Plane<float>& across, Plane<float>& mean) {
   std::fill(mean.values.begin(), mean.values.end(), 0.0F);
-  for (const auto& [y, from, to] : views.curtains)
-    for (int x = from; x <= to; ++x) {
-      const auto seen = seen_at(views.scene, x, y, d.row(y)[x] + shift);
-      mean.row(y)[x] = seen ? std::min(kLoud, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.row(y)[x])) : kLoud;
+  for (const auto& [line, from, to] : views.curtains)
+    for (int i = from; i <= to; ++i) {
+      const std::size_t k = line.at(i);
+      const int x = static_cast<int>(k) % d.width, y = static_cast<int>(k) / d.width;
+      const auto seen = seen_at(views.scene, x, y, d.values[k] + shift);
+      mean.values[k] = seen ? std::min(kLoud, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k])) : kLoud;
     }
   box_sum(mean, kWindow, pool, across, mean);
   for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] /= std::max(views.asked.values[k], 1.0F);
@@ -150,59 +179,61 @@ void disagree_least(const Views& views, const Plane<float>& d, StageContext& con
 
 void measure_disagreement(const RefinerScene& scene, const SurfaceField& field, const std::pmr::vector<Curtain>& curtains,
                           const Surfaces& surfaces, StageContext& context, Disagreement& sums) {
-  const int w = field.domain.width;
-  const int h = field.domain.height;
+  const int w = field.domain.width, h = field.domain.height;
   Plane<float> offset(&context.scratch, w, h), across(&context.scratch, w, h), asked(&context.scratch, w, h);
   measure_offset(scene, field, surfaces, context, offset);
   box_sum(surfaces.asked, kWindow, context.pool, across, asked);
   const Views views{scene, curtains, offset, asked};
-  disagree_least(views, surfaces.near, context, sums.near);
-  disagree_least(views, surfaces.far, context, sums.far);
+  disagree_least(views, surfaces.before, context, sums.before);
+  disagree_least(views, surfaces.behind, context, sums.behind);
   disagree(views, field.disparity_px, 0, context.pool, across, sums.now);
 }
 
-// The first node of the far surface; none where the curtain explains the views better.
+// The first node of the surface behind the cut; none where the curtain explains the views better.
 std::optional<int> best_cut(const Curtain& curtain, const Disagreement& sums) {
-  const float *near = sums.near.row(curtain.y), *far = sums.far.row(curtain.y), *now = sums.now.row(curtain.y);
   float sum = 0;
   float hanging = 0;
-  for (int x = curtain.from; x <= curtain.to; ++x) {
-    sum += far[x];
-    hanging += now[x];
+  for (int i = curtain.from; i <= curtain.to; ++i) {
+    sum += sums.behind.values[curtain.line.at(i)];
+    hanging += sums.now.values[curtain.line.at(i)];
   }
   float best = sum;
   int cut = curtain.from;
-  for (int x = curtain.from; x <= curtain.to; ++x) {
-    sum += near[x] - far[x];
+  for (int i = curtain.from; i <= curtain.to; ++i) {
+    sum += sums.before.values[curtain.line.at(i)] - sums.behind.values[curtain.line.at(i)];
     if (sum >= best) continue;
     best = sum;
-    cut = x + 1;
+    cut = i + 1;
   }
   if (best > hanging) return std::nullopt;
   return cut;
 }
 
-}  // namespace
-
-int cut_at_occluding_contours(const RefinerScene& scene, StageContext& context, SurfaceField& field) {
-  const int w = field.domain.width;
-  const int h = field.domain.height;
+int cut_along(bool rows, const RefinerScene& scene, StageContext& context, SurfaceField& field) {
   Arena::Mark mark(context.scratch);
-  Surfaces surfaces(&context.scratch, w, h);
-  const auto curtains = find_curtains(field, surfaces, &context.scratch);
+  Surfaces surfaces(&context.scratch, field.domain.width, field.domain.height);
+  const auto curtains = find_curtains(field, rows, surfaces, &context.scratch);
   if (curtains.empty()) return 0;
-  Disagreement sums(&context.scratch, w, h);
+  Disagreement sums(&context.scratch, field.domain.width, field.domain.height);
   measure_disagreement(scene, field, curtains, surfaces, context, sums);
-  int rows = 0;
+  int lines = 0;
   for (const Curtain& curtain : curtains) {
     const auto cut = best_cut(curtain, sums);
     if (!cut) continue;
-    float* d = field.disparity_px.row(curtain.y);
-    std::copy(surfaces.near.row(curtain.y) + curtain.from, surfaces.near.row(curtain.y) + *cut, d + curtain.from);
-    std::copy(surfaces.far.row(curtain.y) + *cut, surfaces.far.row(curtain.y) + curtain.to + 1, d + *cut);
-    ++rows;
+    for (int i = curtain.from; i <= curtain.to; ++i) {
+      const std::size_t k = curtain.line.at(i);
+      field.disparity_px.values[k] = (i < *cut ? surfaces.before : surfaces.behind).values[k];
+    }
+    ++lines;
   }
-  return rows;
+  return lines;
+}
+
+}  // namespace
+
+int cut_at_occluding_contours(const RefinerScene& scene, StageContext& context, SurfaceField& field) {
+  const int columns = cut_along(false, scene, context, field);
+  return columns + cut_along(true, scene, context, field);
 }
 
 }  // namespace relievo::pipeline

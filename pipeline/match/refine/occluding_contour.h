@@ -7,6 +7,7 @@
 // Both surfaces are continued under it as they come, and each row is cut where the views agree best with the near one
 // to the left and the far one to the right (no ordering is broken: the right view sees both, and more between them).
 // Curtains that rise to the right hide the far surface from the right view: cross-check and uniqueness deal with them.
+// Where a contour lies across, a chin before its throat, the columns are cut the same way, whichever side is near.
 // Memory: scratch only. Results do not depend on the number of threads.
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace relievo::pipeline {
 
-// `field` has a node on every pixel of the scene's level; the domain stays as it is. How many rows were cut.
+// `field` has a node on every pixel of the scene's level; the domain stays as it is. How many rows and columns were cut.
 int cut_at_occluding_contours(const RefinerScene& scene, StageContext& context, SurfaceField& field);
 
 }  // namespace relievo::pipeline

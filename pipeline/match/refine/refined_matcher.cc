@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/match/coarse/edge_search.h"
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/detail_search.h"
 #include "pipeline/match/refine/occluding_contour.h"
@@ -129,6 +130,10 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
       densify(field4, field2);
     }
     if (rows.align(field2) < kSearchAgainPx) break;
+  }
+  if (!is_scene(pair)) {
+    RELIEVO_TRY(search_edges(pair, pyramids, options_.coarse, context, field2));
+    keep_within_reach(pair, context, field2);
   }
   RELIEVO_TRY(refine(1, field2));
   for (int look = 0; look < kLooks && search_by_detail(scene_at(1), context, field2); ++look) RELIEVO_TRY(refine(1, field2));

@@ -125,6 +125,38 @@ TEST(OccludingContour, ACurtainAtTheFieldsEdgeIsLeftAlone) {
   EXPECT_EQ(scene.cut(), 0);
 }
 
+// A chin before a throat: the contour lies across, and both views see all of both.
+class LyingContour : public testing::TestWithParam<bool> {};
+
+TEST_P(LyingContour, IsFoundWhicheverSideIsNear) {
+  constexpr int kRow = 80;
+  Scene scene(4, 6, 0.5F);
+  std::mt19937 random(9);
+  std::normal_distribution<float> normal(0, 1);
+  Plane<float> skin(&scene.bench.output, kWidth + 64, kHeight), across(&scene.bench.output, kWidth + 64, kHeight);
+  for (float& v : skin.values) v = normal(random);
+  box_sum(skin, 1, scene.bench.context.pool, across, skin);
+  const auto level_px = [](int y) { return (y < kRow) == GetParam() ? kNear : kFar; };
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      scene.left.row(y)[x] = 90 + 4.0F / 3 * skin.row(y)[x] + 0.5F * normal(random);
+      scene.right.row(y)[x] = 96 + 4.0F / 3 * skin.row(y)[x + level_px(y)] + 0.5F * normal(random);
+      const float share = std::clamp((static_cast<float>(y - kRow) + kHang) / (2 * kHang), 0.0F, 1.0F);
+      scene.field.disparity_px.row(y)[x] = (1 << kLevel) * (static_cast<float>(level_px(0)) + share * static_cast<float>(level_px(kHeight - 1) - level_px(0)));
+    }
+  const auto wrong = [&] {
+    int count = 0;
+    for (int y = kTop; y < kBottom; ++y)
+      for (int x = 50; x < kWidth - 20; ++x) count += std::abs(scene.field.disparity_px.row(y)[x] - static_cast<float>((1 << kLevel) * level_px(y))) > 1 ? 1 : 0;
+    return count;
+  };
+  const int before = wrong(), columns = kWidth - 70;
+  ASSERT_GT(before, 8 * columns);
+  EXPECT_GE(scene.cut(), columns);
+  EXPECT_LT(wrong(), columns) << "a node a column";
+}
+INSTANTIATE_TEST_SUITE_P(Both, LyingContour, testing::Bool());
+
 TEST(OccludingContour, IsTheSameForAnyNumberOfThreads) {
   Scene one, two;
   ThreadPool alone(1), many(3);
