@@ -29,7 +29,7 @@ struct GridMesherOptions {
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
   double min_step_mm = 0.5;           // smaller steps are never taken for an edge of something in front
   double max_hole_mm = 12;            // holes and cracks up to this wide are closed; 0 leaves all open
-  double gap_bend_deg = 20;           // a closed gap's slope may leave that of both its sides so far
+  double gap_bend_deg = 30;           // a closed gap's slope may leave that of both its sides so far
   double max_rim_deg = 70;            // steepest surface that leads to the outside; 90 keeps all
   double min_width_mm = 9;            // narrower strips along the outline are cut off; 0 keeps them
   double outline_wave_mm = 8;         // sigma of its straightening, by give and take; 0 leaves its waves
