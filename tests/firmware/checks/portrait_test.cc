@@ -116,10 +116,10 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
     ASSERT_TRUE(done) << done.error().what.view();
     const pipeline::ModelQuality& expected = upright.report().quality;
     // The outline is known to a part of the lattice's cells, 2 mm wide on pictures this small.
-    EXPECT_NEAR(lying.report().quality.width_mm, expected.width_mm, 1);
-    EXPECT_NEAR(lying.report().quality.height_mm, expected.height_mm, 1);
+    EXPECT_NEAR(lying.report().quality.width_mm, expected.width_mm, 1.5);
+    EXPECT_NEAR(lying.report().quality.height_mm, expected.height_mm, 1.5);
     EXPECT_NEAR(lying.report().quality.nose_relief_mm, expected.nose_relief_mm, 0.8) << "less than half a cell";
-    // The same place in the room, the same place on the head.
+    // The same place in the room, the same place on the head: as well as frames of one head may differ at full size.
     const pipeline::Rotation turn = test::lying_from_upright(side);
     for (const pipeline::Vec3d at : {pipeline::Vec3d{0, 0, 560}, {60, 0, 560}, {0, 80, 580}}) {
       const pipeline::Vec3d a = apply(upright.model().head_from_camera, at);
