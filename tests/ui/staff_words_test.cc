@@ -69,7 +69,7 @@ TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
   EXPECT_EQ(bare(in(Language::English).said(few)), "Only 5 of 14 pairs agree with each other");
   EXPECT_EQ(bare(in(Language::German).said(few)), "Nur 5 von 14 Paaren stimmen miteinander überein");
   const std::string moved = Sentence(Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at("2.47 px")).packed();
-  EXPECT_EQ(bare(in(Language::German).said(moved)), "Eine Kamera hat sich seit der Kalibrierung bewegt: kalibrieren Sie neu (2,47 px)");
+  EXPECT_EQ(bare(in(Language::German).said(moved)), "Eine Kamera hat sich seit der Kalibrierung bewegt: Kalibrieren Sie neu (2,47 px)");
   const std::string arabic(in(Language::Arabic).said(moved));
   EXPECT_FALSE(arabic.starts_with("\u2068")) << "its own words tell the direction, not what stands behind them";
   EXPECT_EQ(in(Language::German).said(""), "");
@@ -77,6 +77,12 @@ TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
   EXPECT_STREQ(in(Language::French).begun("à côté"), "À côté");
   for (const char* same : {"", "÷ 2", "ßig", "Écart", "2 px", "左"}) EXPECT_STREQ(in(Language::French).begun(same), same);
   EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
+}
+
+TEST_F(StaffWordsTest, NoLineEndsBetweenAValueAndItsUnit) {
+  StaffFrame page = in(Language::English);
+  EXPECT_EQ(bare(page.filled("{} mm, {} % or {} mms at {} px", {"1", "2", "3", "4"})), "1\u00a0mm, 2\u00a0% or 3 mms at 4\u00a0px");
+  EXPECT_EQ(bare(in(Language::German).filled("{} sr (um {})", {"1", "2"})), "1\u00a0sr (um 2)");
 }
 
 // The log keeps a change by the setting's key; it is read as the settings page names it.

@@ -11,6 +11,14 @@ namespace {
 
 constexpr Colour kNone{};
 
+constexpr std::string_view kUnits[] = {"mm", "px", "sr", "%"};
+
+bool begins_with_unit(std::string_view text) {
+  return std::ranges::any_of(kUnits, [text](std::string_view unit) {
+    return text.starts_with(unit) && (text.size() == unit.size() || std::string_view(" ,;:.)").find(text[unit.size()]) != std::string_view::npos);
+  });
+}
+
 int number_of(Step step) {
   switch (step) {
     case Step::Consent: return 0;
@@ -151,6 +159,8 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
     // First strong isolate … pop: a name or number keeps its own direction.
     for (const std::string_view part : {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
     rest.remove_prefix(at + 2);
+    // A line never ends between a value and its unit.
+    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1))) length += tree.keep("\u00a0").size(), rest.remove_prefix(1);
   }
   return {first.data(), length + tree.keep(rest).size()};
 }

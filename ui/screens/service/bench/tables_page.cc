@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The numbers behind the pictures, a page at a time.
-#include <cstdio>
 
 #include "ui/screens/service/bench/bench_frame.h"
 
@@ -81,9 +80,8 @@ void pager(BenchFrame& b) {
   };
   turn("far back", b.tr("A hundred pages back"), "− 100", -kFarPages);
   turn("page back", b.tr("One page back"), "−", -1);
-  char text[64];
-  std::snprintf(text, sizeof text, "\u2066%zu / %zu\u2069", rows.page + 1, rows.pages);
-  Node where = b.page.text(b.page.tree.keep(text), type::kSmall, Weight::Medium, b.page.palette.ink, TextAlign::Centre);
+  const auto number = [&](std::size_t value) { return b.page.number(static_cast<double>(value)); };
+  Node where = b.page.text(b.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall, Weight::Medium, b.page.palette.ink, TextAlign::Centre);
   where.id = "page number";
   b.page.tree.leaf(where);
   turn("page on", b.tr("One page on"), "+", 1);
