@@ -26,6 +26,7 @@ void tools(Page& page) {
   const auto& tr = page.tr;
   Node row = page.box(Flow::Row, 10);
   row.box.along = Along::Centre;
+  row.box.left_to_right = true;  // what turns the face to the left lies on the left
   page.tree.open(row);
   page.square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
   page.square_button("turn_right", tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});

@@ -26,6 +26,7 @@ void switches(BenchFrame& b) {
 void hands(BenchFrame& b) {
   Node row = b.page.box(Flow::Row, space::kXs, space::kXs, space::kXs);
   row.box.along = Along::Centre;
+  row.box.left_to_right = true;  // as on the page where a visitor looks at it
   b.page.tree.open(row);
   b.page.square_button("turn_left", b.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
   b.page.square_button("turn_right", b.tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
