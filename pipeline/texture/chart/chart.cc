@@ -89,7 +89,7 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
   // An eighth of the width is kept for what does not fit into this chart.
   const double high = options.max_px - 2 * options.margin_px - 2;
   const double wide = options.max_px - options.max_px / 8 - 2 * options.margin_px - 2;
-  chart.texels_per_px = std::min({std::sqrt(pixels_a_pixel(mesh, chart)), wide / std::max(to.x - from.x, 1.0), high / std::max(to.y - from.y, 1.0)});
+  chart.texels_per_px = std::min({options.finer * std::sqrt(pixels_a_pixel(mesh, chart)), wide / std::max(to.x - from.x, 1.0), high / std::max(to.y - from.y, 1.0)});
   const double scale = chart.texels_per_px;
   chart.origin_px = {from.x - options.margin_px / scale, from.y - options.margin_px / scale};
   chart.width_px = static_cast<int>(std::ceil((to.x - from.x) * scale)) + 2 * options.margin_px + 1;

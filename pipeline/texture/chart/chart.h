@@ -24,6 +24,7 @@ namespace relievo::pipeline {
 struct ChartOptions {
   int max_px = 2048;   // widest and highest
   int margin_px = 8;   // texels left free around the face
+  double finer = 1;    // texels a pixel and side of the better photograph
 };
 
 struct Chart {

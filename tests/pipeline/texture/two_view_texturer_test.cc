@@ -48,6 +48,26 @@ TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
   }
 }
 
+// More texels than the photograph has pixels, as far as the atlas goes: the same picture, larger.
+TEST(TwoViewTexturer, AFinerAtlasShowsTheSameLarger) {
+  StageRoom room;
+  const FaceMesh mesh = plane_mesh();
+  const RectifiedPair pair = photographed_plane();
+  TwoViewTexturerOptions twice, capped;
+  twice.finer = 2;
+  capped.finer = 4, capped.max_atlas_px = 300;
+  const auto one = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  const auto two = room.run([&](StageContext& c) { return TwoViewTexturer(twice).texture(mesh, pair, c); });
+  const auto few = room.run([&](StageContext& c) { return TwoViewTexturer(capped).texture(mesh, pair, c); });
+  ASSERT_TRUE(one && two && few);
+  EXPECT_NEAR(two->width_px - 16, 2 * (one->width_px - 16), 4);
+  EXPECT_NEAR(two->height_px - 16, 2 * (one->height_px - 16), 4);
+  EXPECT_LE(std::max(few->width_px, few->height_px), 300);
+  double off = 0;
+  for (std::size_t c = 0; c < one->uv.size(); ++c) off = std::max(off, std::abs(look_up(*one, one->uv[c]).x - look_up(*two, two->uv[c]).x));
+  EXPECT_LT(off, 12);
+}
+
 // An offset and a gain of its own in each channel of the right view.
 TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
   StageRoom room;
