@@ -24,7 +24,7 @@ namespace relievo::pipeline {
 
 struct ReliefOptions {
   double least_off_sheet_mm = 1.2;   // two thirds of a flat face's
-  double least_curvature_sr = 1.5;   // twice what any of 900 pictures of faces came to; of a face half may be hidden, and noise takes from the rest
+  double least_curvature_sr = 1.5;   // half again what 900 pictures of faces came to; of a face half may be hidden, and noise takes from the rest
   double least_sigmas = 1.5;         // off_sheet_mm over the stated sigma: noise alone makes 0.55
   Result<void> check() const;
 };
