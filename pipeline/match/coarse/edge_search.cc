@@ -86,9 +86,9 @@ struct Found {
 Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const CoarseSurfaceOptions& options, StageContext& context, Found& found) {
   Arena::Mark mark(context.scratch);
   const Box& box = found.box;
-  const float progress = context.progress.done.load(std::memory_order_relaxed);
-  RELIEVO_TRY(match_down(box.range, cut(pyramids, box, context.scratch), {kCoarsest, kLevel, kBand, options.cross_check_px}, options.costs, context, 0, found.disparity));
-  context.progress.done.store(progress, std::memory_order_relaxed);
+  Progress own;   // a step of the matcher's: what the bar shows must not go back
+  StageContext inner{context.output, context.scratch, context.pool, own, context.cancelled};
+  RELIEVO_TRY(match_down(box.range, cut(pyramids, box, context.scratch), {kCoarsest, kLevel, kBand, options.cross_check_px}, options.costs, inner, 1, found.disparity));
   for (int y = 0; y < box.h; ++y)
     for (int x = 0; x < box.w; ++x)
       found.face.row(y)[x] = pair.region[static_cast<std::size_t>(std::min(2 * (box.y + y), pair.height_px - 1)) * static_cast<std::size_t>(pair.width_px) +
