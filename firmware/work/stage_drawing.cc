@@ -43,6 +43,49 @@ void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<flo
   }
 }
 
+// Points lie closer together than pixels: of those in a cell of the canvas the one nearest to its middle is drawn, as a
+// disc with a soft rim. Fewer or harder ones would beat against the pixels of the screen the picture is scaled to.
+constexpr int kCellPx = 5;
+constexpr double kDotRadiusPx = 1.9, kDotRimPx = 1.2;
+
+class Dots {
+ public:
+  explicit Dots(StageCanvas& canvas) : canvas_(canvas), across_((canvas.side() + kCellPx - 1) / kCellPx), cells_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {}
+
+  void add(double x, double y, double far_share) {
+    if (x < 0 || y < 0 || x >= canvas_.side() || y >= canvas_.side()) return;
+    const int column = static_cast<int>(x) / kCellPx, row = static_cast<int>(y) / kCellPx;
+    const double off = std::hypot(x - (column + 0.5) * kCellPx, y - (row + 0.5) * kCellPx);
+    Dot& held = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+    if (off < held.off) held = {x, y, off, far_share};
+  }
+  void draw() const {
+    for (const Dot& dot : cells_) {
+      if (dot.off < kNone) disc(dot);
+    }
+  }
+
+ private:
+  static constexpr double kNone = 1e9;
+  struct Dot {
+    double x = 0, y = 0, off = kNone, far_share = 0;
+  };
+  void disc(const Dot& dot) const {
+    const double reach = kDotRadiusPx + kDotRimPx;
+    const Rgb colour = near_far_colour(dot.far_share);
+    for (int y = static_cast<int>(dot.y - reach); y <= static_cast<int>(dot.y + reach); ++y) {
+      for (int x = static_cast<int>(dot.x - reach); x <= static_cast<int>(dot.x + reach); ++x) {
+        const double inside = (kDotRadiusPx + kDotRimPx / 2 - std::hypot(x + 0.5 - dot.x, y + 0.5 - dot.y)) / kDotRimPx;
+        if (inside > 0) canvas_.blend(x, y, colour, std::min(1.0, inside));
+      }
+    }
+  }
+
+  StageCanvas& canvas_;
+  int across_;
+  std::vector<Dot> cells_;
+};
+
 }  // namespace
 
 Rgb near_far_colour(double share) {
@@ -62,6 +105,14 @@ FaceWindow::FaceWindow(const pipeline::RectifiedPair& pair, int side_px) : canva
 
 StageCanvas::StageCanvas(std::uint8_t* rgb, int side_px) : rgb_(rgb), side_(side_px) {
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(side_) * side_; ++i) put_at(i, {27, 37, 52});
+}
+
+void StageCanvas::blend(int x, int y, const Rgb& c, double share) {
+  if (x < 0 || y < 0 || x >= side_ || y >= side_) return;
+  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(y) * side_ + x;
+  const std::uint8_t* old = rgb_ + std::ptrdiff_t{3} * i;
+  const auto mix = [share](double was, double is) { return was + (is - was) * share; };
+  put_at(i, {mix(old[0], c.r), mix(old[1], c.g), mix(old[2], c.b)});
 }
 
 void StageCanvas::put_at(std::ptrdiff_t i, const Rgb& c) {
@@ -91,20 +142,20 @@ void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet&
   for (const auto& m : set.matches) {
     if (m.rejected_by == 0) range.add(m.disparity_px);
   }
+  Dots dots(canvas);
   for (const auto& m : set.matches) {
-    const auto x = static_cast<int>(window.x(m.left_px.x)), y = static_cast<int>(window.y(m.left_px.y));
-    if (m.rejected_by == 0 && (x / 2 + y / 2) % 2 == 0) canvas.put(x, y, near_far_colour(1 - range.share(m.disparity_px)));
+    if (m.rejected_by == 0) dots.add(window.x(m.left_px.x), window.y(m.left_px.y), 1 - range.share(m.disparity_px));
   }
+  dots.draw();
 }
 
 void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas) {
   const FaceWindow window(pair, canvas.side());
   Range range;
   for (const auto& p : points.points) range.add(p.at_mm.z);
-  for (const auto& p : points.points) {
-    const auto x = static_cast<int>(window.x(p.left_px.x)), y = static_cast<int>(window.y(p.left_px.y));
-    if (x % 2 == 0 || y % 2 == 0) canvas.put(x, y, near_far_colour(range.share(p.at_mm.z)));
-  }
+  Dots dots(canvas);
+  for (const auto& p : points.points) dots.add(window.x(p.left_px.x), window.y(p.left_px.y), range.share(p.at_mm.z));
+  dots.draw();
 }
 
 void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas) {

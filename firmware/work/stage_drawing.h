@@ -3,7 +3,7 @@
 //
 // How the products of the stages are drawn as the left camera sees them: on a square canvas that shows the
 // face, for the visitor's small pictures (stage_picture.h) and the technician's large ones.
-// Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface.
+// Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface and the cells of dots.
 // Thread: worker. Errors: none; what is missing stays dark.
 #pragma once
 
@@ -34,6 +34,7 @@ class StageCanvas {
   void put(int x, int y, const Rgb& c) {
     if (x >= 0 && y >= 0 && x < side_ && y < side_) put_at(static_cast<std::ptrdiff_t>(y) * side_ + x, c);
   }
+  void blend(int x, int y, const Rgb& c, double share);   // over what is there
 
  private:
   void put_at(std::ptrdiff_t i, const Rgb& c);
@@ -57,8 +58,9 @@ class FaceWindow {
 
 // The left view, `share` of its brightness.
 void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas);
-// Accepted matches over the photograph, coloured by their depth.
+// Accepted matches over the photograph, coloured by their depth: as dots, at most one in five pixels each way.
 void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& set, StageCanvas& canvas);
+// The points, drawn as matches are.
 void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas);
 // With the skin's colours where they are known, else as clay.
 void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas);
