@@ -45,6 +45,12 @@ class Gallery {
     visit.type(kNames[static_cast<std::size_t>(visit.language)]);
     return visit;
   }
+  ui::Visit quoting(std::string_view code) const {
+    ui::Visit visit = at(Step::Known);
+    visit.act({ui::ActionKind::HaveCode, 0}, review_);
+    visit.type(code);
+    return visit;
+  }
   void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) { exhibits.push_back({name, view, visit, {}}); }
 
   void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
@@ -90,7 +96,7 @@ void add_beginning(Gallery& g, const ui::ViewState& idle) {
   met.known = ui::Known::Name;
   g.add("known_name", met, g.at(Step::Known));
   met.known = ui::Known::NoSuchCode;
-  g.add("wrong_code", met, g.named());
+  g.add("wrong_code", met, g.quoting("4821-9037-5512-17"));
   met.known = ui::Known::Code;
   g.add("known_code", met, g.at(Step::Known));
 }

@@ -186,6 +186,7 @@ TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
     }
     EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Name);
     EXPECT_NE(find("wrong_code"), nullptr) << tried;
+    EXPECT_TRUE(says("Type your code")) << "the question stands beside the answer";
   }
   erase_all();
   kiosk->ui().visit().type(spaced(code));

@@ -15,7 +15,7 @@ constexpr const char* kClockSign = "\uf0f0";
 void welcome(StaffFrame& page) {
   const auto& tr = page.tr;
   page.heading("welcome", tr("This device is new"), type::kHeading);
-  page.body("what", tr("Choose a language, look at the clock and at the consent text, and choose two PINs: one for the technician, one for the operator."));
+  page.body("what", tr("Choose a language, check the clock and the consent text, and choose two PINs: one for the technician, one for the operator."));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "languages";
   list.box.scroll = true;
@@ -51,7 +51,7 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
 
 void clock(StaffFrame& page) {
   const auto& tr = page.tr;
-  page.heading("clock title", tr("Is this the date and the time?"), type::kHeading);
+  page.heading("clock title", tr("Are the date and the time right?"), type::kHeading);
   Node room = page.grown(page.box(Flow::Column, space::kL));
   room.box.along = Along::Centre;
   room.box.scroll = true;
@@ -101,19 +101,25 @@ const char* title_of(const Words& tr, PinStep step) {
 const char* words_of(const Words& tr, PinFault fault) {
   switch (fault) {
     case PinFault::Differ: return tr("The two were not the same. Choose again.");
-    case PinFault::Simple: return tr("Too easy to guess: no row of one digit, nothing like 1234. Choose another.");
-    case PinFault::Taken: return tr("The other role has this PIN. Choose another.");
+    case PinFault::Simple: return tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another.");
+    case PinFault::Taken: return tr("The other role already has this PIN. Choose another.");
     case PinFault::None: break;
   }
-  return tr("Four to eight digits. Nobody else should know it.");
+  return nullptr;
+}
+
+PinWords words_of(const Words& tr, const AccessView& access) {
+  if (access.checking) return {tr("One moment, please"), {}, Mood::Plain};
+  if (access.step == PinStep::Done) return {nullptr, tr("It applies from now on."), Mood::Good};
+  const char* fault = words_of(tr, access.fault);
+  return {tr("Four to eight digits. Nobody else should know it."), fault == nullptr ? std::string_view() : fault, Mood::Bad};
 }
 
 void new_pin(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking;
   const bool done = access.step == PinStep::Done;
-  const char* words = access.checking ? page.tr("One moment, please") : done ? page.tr("It holds from now on.") : words_of(page.tr, access.fault);
-  pin_entry(page, title_of(page.tr, access.step), words, access.fault == PinFault::None || access.checking ? done ? Mood::Good : Mood::Plain : Mood::Bad,
+  pin_entry(page, title_of(page.tr, access.step), words_of(page.tr, access),
             ready && !done ? Action{ActionKind::StaffDo, kPinOffer} : Action{});
 }
 

@@ -31,22 +31,29 @@ void dots(StaffFrame& page) {
   page.tree.close();
 }
 
-const char* state_words(StaffFrame& page, Mood& mood) {
+void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mood) {
+  Node node = page.text(words, type::kBody, Weight::Regular, mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
+                        page.portrait ? TextAlign::Centre : TextAlign::Start);
+  node.id = id;
+  node.role = Role::Status;
+  page.tree.leaf(node);
+}
+
+PinWords words_of(StaffFrame& page) {
   const AccessView& access = page.staff.access;
-  mood = Mood::Bad;
-  if (access.checking) {
-    mood = Mood::Plain;
-    return page.tr("One moment, please");
+  if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
+  if (access.wait_s > 0) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%d", access.wait_s);
+    const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.", "Too many wrong PINs. The next try is possible in {} seconds.", static_cast<unsigned long>(access.wait_s));
+    return {nullptr, page.filled(words, text), Mood::Bad};
   }
-  if (access.wait_s > 0) return nullptr;
-  if (access.wrong) return page.tr("That was not right.");
-  mood = Mood::Plain;
-  return page.tr("Type your PIN, then touch the tick.");
+  return {page.tr("Type your PIN, then touch the tick."), access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
 }
 
 }  // namespace
 
-void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood mood, Action done) {
+void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done) {
   Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
   room.box.across = Across::Centre;
   room.box.along = Along::Centre;
@@ -56,10 +63,8 @@ void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood
   page.tree.open(said);
   const TextAlign align = page.portrait ? TextAlign::Centre : TextAlign::Start;
   page.heading("pin title", title, type::kHeading, align);
-  Node state = page.text(words, type::kBody, Weight::Regular, mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood), align);
-  state.id = "pin state";
-  state.role = Role::Status;
-  page.tree.leaf(state);
+  if (words.hint != nullptr) told(page, "pin hint", words.hint, Mood::Plain);
+  if (!words.told.empty()) told(page, "pin state", words.told, words.mood);
   dots(page);
   page.tree.close();
   page.keypad(done);
@@ -69,16 +74,8 @@ void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood
 void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
   const AccessView& access = page.staff.access;
-  Mood mood = Mood::Plain;
-  const char* state = state_words(page, mood);
-  std::string_view words = state == nullptr ? std::string_view() : state;
-  if (state == nullptr) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%d", access.wait_s);
-    words = page.filled(page.tr.plural("Too many wrong PINs. The next try is possible in {} second.", "Too many wrong PINs. The next try is possible in {} seconds.", static_cast<unsigned long>(access.wait_s)), text);
-  }
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Technician or operator"), words, mood, ready ? Action{ActionKind::StaffDo, kPinCheck} : Action{});
+  pin_entry(page, page.tr("Technician or operator"), words_of(page), ready ? Action{ActionKind::StaffDo, kPinCheck} : Action{});
   page.end();
 }
 

@@ -19,6 +19,11 @@ inline constexpr std::uint8_t kClockSet = 4;   // FirstStart: the shown time is 
 inline constexpr std::uint8_t kConsentRight = 6;  // FirstStart: the consent text in force is meant to be (5: kConsentTake)
 
 // Words at the start, dots and digits.
-void pin_entry(StaffFrame& page, const char* title, std::string_view words, Mood mood, Action done);
+struct PinWords {
+  const char* hint = nullptr;   // what is asked; stands beside what is told
+  std::string_view told;        // empty: nothing
+  Mood mood = Mood::Plain;      // of what is told
+};
+void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done);
 
 }  // namespace relievo::ui

@@ -113,7 +113,7 @@ void StaffFrame::outcome() {
     case Outcome::StickLocked: words = tr("The stick is write-protected. Slide its switch back or plug in another one, then export again."); break;
     case Outcome::StickBad: words = tr("The stick does not keep what is written on it. Plug in another one and export again."); break;
     case Outcome::StickHeld: words = tr("It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out."); mood = Mood::Warn; break;
-    case Outcome::StickUnchecked: words = tr("It is written and was read back, but the device cannot open the stick once more to be sure. You may pull it out; export again to another one."); mood = Mood::Warn; break;
+    case Outcome::StickUnchecked: words = tr("It is written and was read back, but the device cannot open the stick once more to be sure. You can pull it out; export again to another one."); mood = Mood::Warn; break;
     case Outcome::NotFound: words = tr("It is no longer there."); break;
     case Outcome::Refused: words = tr("This cannot be accepted."); break;
     case Outcome::Failed: words = tr("It could not be done. The log says why."); break;
@@ -194,13 +194,12 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
 
 void StaffFrame::digit(const char* letter) {
   Node node = text(letter, type::kHeading, Weight::Medium, palette.link, TextAlign::Centre);
-  node.style.size_px = px(type::kHeading);
   const std::string_view key = tree.keep("digit "), rest = tree.keep(letter);
   node.id = {key.data(), key.size() + rest.size()};
   node.role = Role::Key;
   node.action = {ActionKind::TypeKey, 0};
   node.box.grow = 1;
-  node.box.min_height = px(size::kKeyLeast);
+  node.box.min_height = px(size::kKeyLeast * text_share);
   node.box.fill = palette.card;
   node.box.border = palette.card_border;
   node.box.border_px = px(1.5F);
@@ -211,7 +210,7 @@ void StaffFrame::digit(const char* letter) {
 void StaffFrame::keypad(Action done) {
   constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
   Node pad = box(Flow::Column, 10);
-  pad.box.width = px(360);
+  pad.box.width = px(360 * text_share);
   tree.open(pad);
   for (const auto& keys : kRows) {
     Node row = box(Flow::Row, 10);
@@ -231,13 +230,13 @@ void StaffFrame::keypad(Action done) {
     node.action = action;
     node.box.along = Along::Centre;
     node.box.across = Across::Centre;
-    node.box.min_height = px(size::kKeyLeast);
+    node.box.min_height = px(size::kKeyLeast * text_share);
     node.box.radius = px(16);
     node.box.fill = main ? palette.accent : palette.card;
     node.box.border = main ? kNone : palette.card_border;
     node.box.border_px = main ? 0 : px(1.5F);
     tree.open(node);
-    sign(letter, 30 / text_share, main ? palette.accent_ink : palette.link);
+    sign(letter, 30, main ? palette.accent_ink : palette.link);
     tree.close();
   };
   key("erase", tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);

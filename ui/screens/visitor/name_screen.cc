@@ -19,18 +19,8 @@ void name_screen(Page& page) {
     row.box.across = Across::Centre;
     page.tree.open(row);
   }
-  const bool wrong = page.view.known == Known::NoSuchCode && page.visit.name().size() > 0;
   const char* const asked = page.visit.quotes_code() ? tr("Type your code") : tr("Your name or your number");
-  if (wrong) {
-    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall, Weight::Bold, page.palette.bad);
-    note.id = "wrong_code";
-    note.role = Role::Status;
-    note.box.max_width = page.px(abreast ? 520.0F : page.width_dp - 80);
-    note.box.min_height = abreast ? 0 : page.px(kAsked * page.text_share) * (type::kLines.above + type::kLines.below);   // the field stays where it is
-    page.tree.leaf(note);
-  } else {
-    page.heading("title", asked, abreast ? type::kBody : kAsked);
-  }
+  page.heading("title", asked, abreast ? type::kBody : kAsked);
   Node field = page.box(Flow::Row, 3, 26, 14);
   field.box.grow = abreast ? 1.0F : 0.0F;
   field.id = "name";
@@ -54,6 +44,12 @@ void name_screen(Page& page) {
   if (name.empty()) page.tree.leaf(typed);
   page.tree.close();
   if (abreast) page.tree.close();
+  if (page.view.known == Known::NoSuchCode && !name.empty()) {   // below the field, which stays where it is
+    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall, Weight::Bold, page.palette.bad);
+    note.id = "wrong_code";
+    note.role = Role::Status;
+    page.tree.leaf(note);
+  }
   if (page.portrait) page.space(1);
   keyboard(page);
   page.end();
