@@ -39,10 +39,10 @@ Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found
   if (!left && !right) return {};
   const std::string at_left = calibrated.left + " → " + found.left, at_right = calibrated.right + " → " + found.right;  // read in every language
   if (left && right && calibrated.left == found.right && calibrated.right == found.left)
-    return Error{Errc::NotCalibrated, "the left and the right camera have changed places: exchange their plugs, or calibrate anew"}.at(at_left + "; " + at_right);
-  if (left && right) return Error{Errc::NotCalibrated, "both cameras are others than the calibrated ones: put those back, or calibrate anew"}.at(at_left + "; " + at_right);
-  if (left) return Error{Errc::NotCalibrated, "the left camera is another than the calibrated one: put that one back, or calibrate anew"}.at(at_left);
-  return Error{Errc::NotCalibrated, "the right camera is another than the calibrated one: put that one back, or calibrate anew"}.at(at_right);
+    return Error{Errc::NotCalibrated, "the left and the right camera have changed places: swap their plugs, or calibrate again"}.at(at_left + "; " + at_right);
+  if (left && right) return Error{Errc::NotCalibrated, "neither camera is the one that was calibrated: put those back, or calibrate again"}.at(at_left + "; " + at_right);
+  if (left) return Error{Errc::NotCalibrated, "the left camera is not the one that was calibrated: put that one back, or calibrate again"}.at(at_left);
+  return Error{Errc::NotCalibrated, "the right camera is not the one that was calibrated: put that one back, or calibrate again"}.at(at_right);
 }
 
 }  // namespace relievo::firmware

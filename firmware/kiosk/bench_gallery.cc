@@ -238,7 +238,7 @@ void add_calibrations(Lender& all, const ui::ViewState& review) {
   all.add("bench_moved", StaffPage::Calibrate, view);
   all.lent.back().note = "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
   all.add("bench_exchanged", StaffPage::Calibrate, view);
-  all.lent.back().note = "the left camera is another than the calibrated one: put that one back, or calibrate anew\tserial 4061 → serial 4088";
+  all.lent.back().note = "the left camera is not the one that was calibrated: put that one back, or calibrate again\tserial 4061 → serial 4088";
 }
 
 void add_failures(Lender& all, const ui::ViewState& review) {

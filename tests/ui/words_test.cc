@@ -221,10 +221,10 @@ TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {
 TEST_F(WordsTest, ArabicHasItsSixForms) {
   const Words words(Language::Arabic);
   std::set<std::string> forms;
-  for (const unsigned long n : {0UL, 1UL, 2UL, 5UL}) forms.insert(words.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", n));
+  for (const unsigned long n : {0UL, 1UL, 2UL, 5UL}) forms.insert(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", n));
   EXPECT_EQ(forms.size(), 4U);
-  EXPECT_EQ(words.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", 103),
-            std::string(words.plural("In {} second everything is wiped.", "In {} seconds everything is wiped.", 3)));
+  EXPECT_EQ(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 103),
+            std::string(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 3)));
 }
 
 TEST_F(WordsTest, NothingIsOneInFrenchAndManyInSpanish) {

@@ -63,13 +63,13 @@ TEST(RigCameras, AnotherCameraIsToldBySideWithWhatWasExpectedAndWhatToDo) {
     const char *left, *right, *words, *where;
   };
   for (const Case& c : {Case{"X9", "B2", "the left camera", "serial A1 → serial X9"}, Case{"A1", "Y8", "the right camera", "serial B2 → serial Y8"},
-                        Case{"X9", "Y8", "both cameras", "serial B2 → serial Y8"}, Case{"B2", "A1", "changed places", "serial A1 → serial B2"},
+                        Case{"X9", "Y8", "neither camera", "serial B2 → serial Y8"}, Case{"B2", "A1", "changed places", "serial A1 → serial B2"},
                         Case{"A1", "", "the right camera", "serial B2 → at /dev/v4l/by-path/b"}}) {
     const Result<void> checked = check_cameras(calibrated, Plugged(c.left, c.right).names());
     ASSERT_FALSE(checked) << c.words;
     EXPECT_EQ(checked.error().code, Errc::NotCalibrated);
     EXPECT_NE(checked.error().what.view().find(c.words), std::string_view::npos) << checked.error().what.view();
-    EXPECT_NE(checked.error().what.view().find("calibrate anew"), std::string_view::npos);
+    EXPECT_NE(checked.error().what.view().find("calibrate again"), std::string_view::npos);
     EXPECT_NE(checked.error().where().find(c.where), std::string_view::npos) << checked.error().where();
   }
 }

@@ -109,7 +109,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
     const Result<void> played = play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait trouble 120\n");
     ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice);
     EXPECT_EQ(kiosk->view().trouble, ui::Trouble::Calibration);
-    EXPECT_TRUE(says("must be adjusted"));
+    EXPECT_TRUE(says("need adjusting"));
     EXPECT_FALSE(says("Ada"));
     EXPECT_EQ(kiosk->ui().visit().name(), "");
     EXPECT_FALSE(kiosk->appliance().session().is_open());
@@ -119,13 +119,13 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   // One face may have nodded; a second one ends it: nobody else is photographed in vain.
   ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Trouble);
-  EXPECT_TRUE(says("must be adjusted"));
+  EXPECT_TRUE(says("need adjusting"));
   EXPECT_EQ(find("finish"), nullptr);
   // Whoever switches it off and on has not calibrated it.
   open_again();
   ASSERT_TRUE(reach(ui::Step::Trouble));
   EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Calibration);
-  EXPECT_TRUE(says("must be adjusted"));
+  EXPECT_TRUE(says("need adjusting"));
   EXPECT_EQ(find("finish"), nullptr);
   first_start();
   sign_in("4711", StaffRole::Technician);

@@ -52,7 +52,7 @@ class KioskExchangedTest : public StaffHands {
   void visitors_are_told() {
     ASSERT_TRUE(later([this] { return kiosk->appliance().state() == State::Idle && kiosk->view().out_of_order == ui::Trouble::Calibration; }));
     ASSERT_TRUE(reach(ui::Step::Trouble));
-    EXPECT_TRUE(says("must be adjusted"));
+    EXPECT_TRUE(says("need adjusting"));
     EXPECT_EQ(find("start"), nullptr);
     EXPECT_EQ(find("finish"), nullptr) << "nobody passes by";
   }
@@ -68,7 +68,7 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
-  for (const char* words : {"The right camera", "serial", "R1", "R2", "calibrate anew"}) EXPECT_TRUE(says(words)) << words;
+  for (const char* words : {"The right camera", "serial", "R1", "R2", "calibrate again"}) EXPECT_TRUE(says(words)) << words;
   const auto& bench = [this]() -> const ui::BenchCalibration& { return kiosk->view().service->bench->calibration; };
   ASSERT_TRUE(until([&] { return bench().history_count == 2; }));
   tap(bench().history[0].active ? "calibration 1" : "calibration 0");

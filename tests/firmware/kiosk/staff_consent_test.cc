@@ -105,7 +105,7 @@ TEST_F(StaffConsentTest, TheFirstStartTakesTheOperatorsTextAndItStays) {
 TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
   come_to_it();
   EXPECT_EQ(take(), Outcome::NotFound);
-  EXPECT_NE(said().find("no folder of the name consent"), std::string::npos) << said();
+  EXPECT_NE(said().find("no folder named consent"), std::string::npos) << said();
   const std::string long_text = "T\n\nP\n" + std::string(20'000, 'x');
   std::string many = "T\n";
   for (int i = 0; i < 25; ++i) many += "\nP\n";

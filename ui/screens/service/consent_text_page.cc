@@ -28,7 +28,7 @@ void ended(StaffFrame& page, const ConsentShelfView& seen) {
   if (seen.outcome == Outcome::Done) return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
   if (seen.outcome == Outcome::NoStick) page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
   else if (seen.outcome == Outcome::StickGone) page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
-  else if (seen.outcome == Outcome::NotFound) page.status("outcome", tr("The stick has no folder of the name consent."), Mood::Bad);
+  else if (seen.outcome == Outcome::NotFound) page.status("outcome", tr("The stick has no folder named consent."), Mood::Bad);
   else page.status("outcome", page.filled(tr("{}: {}"), {seen.file, page.said(seen.fault, false)}), Mood::Bad);
   page.line(tr("Nothing was changed."));
 }

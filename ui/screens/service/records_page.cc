@@ -52,7 +52,7 @@ void working(StaffFrame& page) {
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
   const auto figure = [&](int value) { return page.number(value); };
-  Node line = page.text(page.filled(page.tr("Whole on the stick: {} of {}. Nothing else on it counts."), {figure(seen.whole), figure(seen.asked)}), type::kSmall, Weight::Regular, page.palette.ink);
+  Node line = page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."), {figure(seen.whole), figure(seen.asked)}), type::kSmall, Weight::Regular, page.palette.ink);
   line.id = "whole";
   line.role = Role::Status;
   page.tree.leaf(line);
@@ -61,7 +61,7 @@ void whole_of(StaffFrame& page, const RecordsView& seen) {
 void said(StaffFrame& page, const RecordsView& seen) {
   const bool done = page.staff.work.outcome == Outcome::Done;
   if (done && (seen.erased || seen.exported)) {
-    const char* words = seen.erased ? page.tr("Erased. Nothing of this person is left.") : page.tr("It is all there, and read back. You may pull out the stick.");
+    const char* words = seen.erased ? page.tr("Erased. Nothing of this person is left.") : page.tr("It is all there and has been read back. You can pull out the stick.");
     page.status("outcome", words, Mood::Good);
     return;
   }
@@ -79,7 +79,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
   said(page, seen);
   page.begin_list("records");
   for (const RecordRow& row : seen.rows) page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain, ask(kRecordShow, row.number));
-  if (seen.rows.empty()) page.nothing("nobody", icon::kPerson, seen.searched.empty() ? tr("Nobody is kept here.") : tr("Nobody of that name."));
+  if (seen.rows.empty()) page.nothing("nobody", icon::kPerson, seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
   page.tree.close();
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;

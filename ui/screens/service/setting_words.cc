@@ -23,14 +23,14 @@ const char* name_of(const Words& tr, Setting setting) {
     case Setting::Language: return tr("Language in which a visit begins");
     case Setting::TextPercent: return tr("Size of the text");
     case Setting::Contrast: return tr("High contrast");
-    case Setting::PatienceS: return tr("Visitors are asked whether they are there after");
+    case Setting::PatienceS: return tr("Visitors are asked whether they are still there after");
     case Setting::Automatic: return tr("The picture is taken by itself");
     case Setting::CountdownMs: return tr("Countdown before the picture");
     case Setting::Attempts: return tr("Tries, if a picture is refused");
     case Setting::StaffPatienceS: return tr("Staff are signed out after");
-    case Setting::TellsKnown: return tr("Visitors are told that their name is in the records already");
+    case Setting::TellsKnown: return tr("Visitors are told that their name is already in the records");
     case Setting::KeepDays: return tr("Records are erased by themselves after");
-    case Setting::LeastRoomMib: return tr("Room on the disk that stays free");
+    case Setting::LeastRoomMib: return tr("Room kept free on the disk");
     case Setting::Count: break;
   }
   return "";

@@ -33,7 +33,7 @@ void group(StaffFrame& page, const char* title, std::span<const Setting> setting
 
 void said(StaffFrame& page) {
   if (page.staff.work.outcome != Outcome::Done) return page.outcome();
-  page.status("outcome", page.tr("Saved. It holds from now on."), Mood::Good);
+  page.status("outcome", page.tr("Saved. It applies from now on."), Mood::Good);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void settings_page(StaffFrame& page) {
     const ConsentTexts* own = page.view.consent;
     page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"), own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
   }
-  if (page.staff.settings->clock_jumped) page.line(tr("The clock has jumped ahead: nothing is erased. Look at the clock, then choose the time again."), Mood::Warn);
+  if (page.staff.settings->clock_jumped) page.line(tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."), Mood::Warn);
   page.tree.close();
 }
 

@@ -55,7 +55,7 @@ void self_test_page(StaffFrame& page) {
 
 void trigger_page(StaffFrame& page) {
   const auto& tr = page.tr;
-  page.body("what", tr("Ten pulses, each seen by both cameras or not. A lamp is not lit."));
+  page.body("what", tr("Ten pulses: does each reach both cameras? The lamp stays off."));
   page.begin_list("trigger");
   if (const TriggerView* seen = page.staff.trigger) {
     const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };

@@ -20,7 +20,7 @@ struct Told {
 Told told(const Words& tr, TouchVerdict verdict) {
   switch (verdict) {
     case TouchVerdict::None: break;
-    case TouchVerdict::Kept: return {tr("The test cross was met. The correction is kept."), Mood::Good};
+    case TouchVerdict::Kept: return {tr("The test cross was hit. The correction is kept."), Mood::Good};
     case TouchVerdict::Plain: return {tr("The touch screen is taken as it is."), Mood::Good};
     case TouchVerdict::NobodyTouched: return {tr("Nobody touched the cross. Nothing has changed."), Mood::Warn};
     case TouchVerdict::Misfit: return {tr("The touches do not fit together. Nothing has changed: try again, with one finger, in the middle of each cross."), Mood::Bad};
@@ -45,7 +45,7 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   page.heading("cross words", test ? page.tr("Now this cross, to test it") : page.tr("Touch the middle of the cross"), type::kHeading, TextAlign::Centre);
   char text[16];
   std::snprintf(text, sizeof text, "%d", seen.seconds_left);
-  page.body("cross wait", page.filled(page.tr.plural("In {} second everything is as it was.", "In {} seconds everything is as it was.", static_cast<unsigned long>(seen.seconds_left)), text), TextAlign::Centre);
+  page.body("cross wait", page.filled(page.tr.plural("Everything goes back to what it was in {} second.", "Everything goes back to what it was in {} seconds.", static_cast<unsigned long>(seen.seconds_left)), text), TextAlign::Centre);
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
   Node cross = page.sized(page.box(Flow::Row), 84, 84);
@@ -70,9 +70,9 @@ void figures(StaffFrame& page, const TouchView& seen) {
   if (seen.measured) {
     page.row("turned", tr("The panel is turned by"), page.number(seen.turned_deg, 1, "°"));
     page.row("mirrored", tr("Mirrored"), seen.mirrored ? tr("yes") : tr("no"));
-    page.row("off", tr("The crosses were met to"), page.number(seen.off * 100, 2, "%"), seen.off <= kMostTouchOff ? Mood::Good : Mood::Bad);
+    page.row("off", tr("The crosses were hit to within"), page.number(seen.off * 100, 2, "%"), seen.off <= kMostTouchOff ? Mood::Good : Mood::Bad);
   }
-  page.line(tr("Four crosses, then one to test: only if that one is met is anything changed. A keypad and a mouse always work."));
+  page.line(tr("Four crosses, then one to test: anything changes only if that one is hit. A keypad and a mouse always work."));
   page.tree.close();
 }
 

@@ -81,25 +81,25 @@ Words4 words_of(const Page& page) {
   const bool waits = page.view.screen == Screen::Idle && (page.view.trouble == Trouble::None || bars_the_way(page.view.out_of_order));
   switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
-      return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing of you was kept.")};
+      return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing about you was kept.")};
     case Trouble::Calibration:
-      return {icon::kWrench, tr("The cameras must be adjusted"), tr("A technician has to measure them anew before portraits can be made. Nothing of you was kept.")};
+      return {icon::kWrench, tr("The cameras need adjusting"), tr("A technician has to measure them again before portraits can be made. Nothing about you was kept.")};
     case Trouble::Refused:
-      return {icon::kPerson, tr("It did not work this time"), tr("Three pictures were not good enough for a portrait. You can start anew, or ask the staff for help. Nothing of you was kept.")};
+      return {icon::kPerson, tr("It did not work this time"), tr("Three pictures were not good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
     case Trouble::Storage:
-      return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing of you was kept.")};
+      return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing about you was kept.")};
     case Trouble::TookTooLong:
-      return {icon::kWait, tr("That took too long"), tr("You can start anew. Nothing of you was kept.")};
+      return {icon::kWait, tr("That took too long"), tr("You can start again. Nothing about you was kept.")};
     case Trouble::Uncalibrated:
-      return {icon::kWrench, tr("This device is not set up yet"), tr("A technician has to calibrate its cameras first. As soon as that is done, it goes on by itself. Nothing of you was kept.")};
+      return {icon::kWrench, tr("This device is not set up yet"), tr("A technician has to calibrate its cameras first. As soon as that is done, it carries on by itself. Nothing about you was kept.")};
     case Trouble::Clock:
-      return {icon::kWait, tr("The clock of this device is wrong"), tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device goes on by itself. Nothing of you was kept.")};
+      return {icon::kWait, tr("The clock of this device is wrong"), tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device carries on by itself. Nothing about you was kept.")};
     case Trouble::Restarted:
-      return {icon::kAgain, tr("This device has just restarted"), tr("Whoever was in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored before are safe.")};
+      return {icon::kAgain, tr("This device has just restarted"), tr("If you were in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored earlier are safe.")};
     case Trouble::None:
     case Trouble::Other: break;
   }
-  return {icon::kAlert, tr("This device needs help"), tr("Please tell the staff. This device tries again by itself. Nothing of you was kept.")};
+  return {icon::kAlert, tr("This device needs help"), tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ void thanks_screen(Page& page) {
   // Large words leave no room for a sign: the code must be seen whole.
   begin_message(page, at_foot(page) ? nullptr : icon::kGood, page.palette.good, true);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
-  page.body("what", tr("To have it erased, quote this code to the staff. You may take a photograph of it."), TextAlign::Centre);
+  page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."), TextAlign::Centre);
   Node row = page.box(Flow::Row);
   row.box.along = Along::Centre;
   page.tree.open(row);
@@ -141,7 +141,7 @@ void trouble_screen(Page& page) {
 void starting_screen(Page& page) {
   begin_message(page, icon::kWait, page.palette.good, false);
   page.heading("title", page.tr("One moment, please"), type::kTitle, TextAlign::Centre);
-  page.body("what", page.tr("This device is starting and tests itself."), TextAlign::Centre);
+  page.body("what", page.tr("This device is starting up and testing itself."), TextAlign::Centre);
   end_message(page);
 }
 

@@ -50,12 +50,12 @@ void points(Page& page) {
   const auto open_row = [&] { if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS))); };
   const auto close_row = [&] { if (two) page.tree.close(); };
   open_row();
-  point(page, icon::kCamera, tr("We take one picture"), tr("Two cameras photograph your face at the same moment. Nothing is photographed before you say yes."));
-  point(page, icon::kShape, tr("You look at it first"), tr("This device computes a 3D portrait from it. Nothing leaves the device for that."));
+  point(page, icon::kCamera, tr("We take one picture"), tr("Two cameras photograph your face at the same moment. Nothing is photographed until you say yes."));
+  point(page, icon::kShape, tr("You look at it first"), tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
   close_row();
   open_row();
   point(page, icon::kDisk, tr("You decide what is kept"), tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
-  point(page, icon::kBin, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything of you is erased."));
+  point(page, icon::kBin, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
   close_row();
 }
 

@@ -19,8 +19,8 @@ void way(Page& page, std::string_view id, const char* label, const char* letter,
 void two_ways(Page& page) {
   const auto& tr = page.tr;
   page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, page.portrait ? space::kL : space::kM));
-  way(page, "renew", tr("Renew it"), icon::kAgain, tr("The old portrait is erased in the moment the new one is stored."), {ActionKind::Renew, 0});
-  way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait stays beside the new one."), {ActionKind::AddAnother, 0});
+  way(page, "renew", tr("Renew it"), icon::kAgain, tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
+  way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."), {ActionKind::AddAnother, 0});
   page.tree.close();
 }
 
@@ -46,7 +46,7 @@ void known_screen(Page& page) {
   page.tree.open(middle);
   page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
   page.body("what", proven ? tr("You already have a portrait here. What would you like to do?")
-                           : tr("Is it you? With the code you were given you can renew your portrait or add another one. Without it nothing of the record is shown."));
+                           : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
   if (proven) two_ways(page);
   else name_ways(page);

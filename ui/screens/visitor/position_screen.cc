@@ -45,14 +45,14 @@ Said said(const Page& page) {
     case Advice::LooksUpOrDown: return {tr("Please hold your head level"), icon::kPerson};
     case Advice::Tilted: return {tr("Please hold your head upright"), icon::kPerson};
     case Advice::UnevenLight: return {tr("The light comes from one side: turn towards it"), icon::kSun};
-    case Advice::Highlights: return {tr("Your skin mirrors a lamp: turn a little"), icon::kSun};
+    case Advice::Highlights: return {tr("Your skin reflects a lamp: turn a little"), icon::kSun};
     case Advice::FaceHidden: return {tr("Please uncover your whole face"), icon::kPerson};
     case Advice::EyesHidden: return {tr("Please uncover your eyes"), icon::kPerson};
     case Advice::EyesClosed: return {tr("Please open your eyes"), icon::kPerson};
     case Advice::GlassesGlare: return {tr("Please take off your glasses"), icon::kPerson};
     case Advice::MouthOpen: return {tr("Please close your mouth"), icon::kPerson};
     case Advice::NotNeutral: return {tr("Please relax your face"), icon::kPerson};
-    case Advice::Background: return {tr("Please keep the space beside your head free"), icon::kPerson};
+    case Advice::Background: return {tr("Please keep the space beside your head clear"), icon::kPerson};
   }
   return {tr("Look into the oval"), icon::kPerson};
 }
@@ -60,7 +60,7 @@ Said said(const Page& page) {
 // Why the person is here again.
 const char* last_time(const Page& page) {
   if (page.view.attempt == 0 || page.view.trouble != Trouble::Refused) return nullptr;
-  return page.tr("That did not work yet. Once more, please: face to the front, and still.");
+  return page.tr("That did not work. Once more, please: look straight ahead and hold still.");
 }
 
 // A picture that is much narrower than the screen is seen whole, in the middle.

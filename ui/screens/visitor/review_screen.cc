@@ -62,7 +62,7 @@ void face(Page& page) {
 
 void assurance(Page& page) {
   const auto& tr = page.tr;
-  page.body("what", tr("Turn the portrait with your finger. Nothing is stored before you say so."));
+  page.body("what", tr("Turn the portrait with your finger. Nothing is stored until you say so."));
   bool good = true;
   const char* said = quality(page, good);
   Node row = page.box(Flow::Row, 14, 18, 14);

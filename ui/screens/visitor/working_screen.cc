@@ -109,7 +109,7 @@ void working_screen(Page& page) {
   page.begin(false);
   const bool storing = page.view.screen == Screen::Store;
   page.heading("title", storing ? tr("Your portrait is being stored") : tr("Your 3D portrait is being made"));
-  page.body("what", tr("It takes a few seconds. You need not stand still any more."));
+  page.body("what", storing ? tr("This takes a moment. Then you get your code.") : tr("It takes a few seconds. You can move again."));
   const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"), tr("The colours of your skin")};
   Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
   all.box.even = true;   // a tick moves nothing

@@ -31,7 +31,7 @@ const char* words_of(const Words& tr, BoardAdvice advice) {
     case BoardAdvice::TurnClockwise: return tr("Turn it clockwise");
     case BoardAdvice::TurnCounterclockwise: return tr("Turn it counterclockwise");
     case BoardAdvice::AlreadyHave: return tr("This view is known: another one, please");
-    case BoardAdvice::SwappedCameras: return tr("The cameras are exchanged: change them over and begin again");
+    case BoardAdvice::SwappedCameras: return tr("The cameras have changed places: swap them and begin again");
     case BoardAdvice::Done: break;
   }
   return tr("Enough has been seen");

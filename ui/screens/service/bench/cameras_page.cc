@@ -55,7 +55,7 @@ void figures(BenchFrame& b) {
   };
   const auto plain = [](const BenchCamera&) { return Mood::Plain; };
   both("brightness", b.tr("Brightness of the middle"), [](const BenchCamera& x) { return 100 * x.mean; }, 0, "%", [](const BenchCamera& x) { return x.mean < kTooDark ? Mood::Warn : Mood::Good; });
-  both("clipped", b.tr("Burnt out"), [](const BenchCamera& x) { return 100 * x.clipped; }, 1, "%", [](const BenchCamera& x) { return x.clipped > kBurntOut ? Mood::Warn : Mood::Good; });
+  both("clipped", b.tr("Overexposed"), [](const BenchCamera& x) { return 100 * x.clipped; }, 1, "%", [](const BenchCamera& x) { return x.clipped > kBurntOut ? Mood::Warn : Mood::Good; });
   both("focus", b.tr("Focus, of the best so far"), [](const BenchCamera& x) { return 100 * x.focus; }, 0, "%", [](const BenchCamera& x) { return x.focus < kSharpEnough ? Mood::Warn : Mood::Good; });
   both("frames", b.tr("Pictures"), [](const BenchCamera& x) { return x.frames; }, 0, "", plain);
   both("lost", b.tr("Lost"), [](const BenchCamera& x) { return x.lost; }, 0, "", [](const BenchCamera& x) { return x.lost > 0 ? Mood::Warn : Mood::Good; });
