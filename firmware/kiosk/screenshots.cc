@@ -128,34 +128,54 @@ class Sheet {
   int count_ = 0;
 };
 
+// "1280x800_100_de/07": of the pages in a folder of that name those with this in their own.
+struct Only {
+  std::string pages, page;
+};
+Only only_of(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  return {text.substr(0, slash), text.substr(std::min(slash + 1, text.size()))};
+}
+
+std::string file_of(int number, std::string_view name) {
+  char page[96];
+  std::snprintf(page, sizeof page, "%02d_%.*s", number, static_cast<int>(name.size()), name.data());
+  return page;
+}
+
 class Photographer {
  public:
   Photographer(std::unique_ptr<ui::Renderer> renderer, std::unique_ptr<ui::TextEngine> text, const KioskArgs& args)
-      : renderer_(std::move(renderer)), ui_(std::move(text)), folder_(args.screenshots) {}
+      : renderer_(std::move(renderer)), ui_(std::move(text)), folder_(args.screenshots), only_(only_of(args.only)) {}
 
   Result<void> take(const ui::ViewState& review, Size size, std::size_t text_size, ui::Language language, bool contrast, Console& console) {
-    const auto exhibits = gallery(review, language, text_size, contrast);
     char words[64];
     std::snprintf(words, sizeof words, "%dx%d_%d%s_%s", size.width_px, size.height_px, ui::kTextPercents[text_size], contrast ? "_contrast" : "", ui::info_of(language).code);
+    if (std::string_view(words).find(only_.pages) == std::string_view::npos) return {};
+    const auto exhibits = gallery(review, language, text_size, contrast);
     std::error_code error;
     std::filesystem::create_directories(folder_ / words, error);
     if (error) return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at((folder_ / words).string());
     ui_.resize(size.width_px, size.height_px);
     RELIEVO_TRY_ASSIGN(const auto target, ui::Offscreen::make(size.width_px, size.height_px));
-    Sheet sheet(exhibits.size(), size);
+    int number = 0;
+    const auto is_wanted = [&](const Exhibit& exhibit) { return file_of(++number, exhibit.name).find(only_.page) != std::string::npos; };
+    const std::ptrdiff_t count = std::ranges::count_if(exhibits, is_wanted);
+    if (count == 0) return {};
+    Sheet sheet(static_cast<std::size_t>(count), size);
     hal::Picture picture;
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
     picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
-    int number = 0;
+    number = 0;
     for (const Exhibit& exhibit : exhibits) {
+      const std::string page = file_of(++number, exhibit.name);
+      if (page.find(only_.page) == std::string::npos) continue;
       ui_.show(exhibit.view, exhibit.visit, exhibit.service);
       target->begin();
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);
       renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, size.width_px, size.height_px);
       target->end();
-      char page[96];
-      std::snprintf(page, sizeof page, "%02d_%.*s", ++number, static_cast<int>(exhibit.name.size()), exhibit.name.data());
       const Path file = folder_ / words / page;
       RELIEVO_TRY(hal::write_picture(Path(file) += ".png", picture.view()));
       const std::string nodes = ui_.tree().to_json();
@@ -171,6 +191,7 @@ class Photographer {
   std::unique_ptr<ui::Renderer> renderer_;
   ui::Ui ui_;
   Path folder_;
+  Only only_;
 };
 
 }  // namespace
@@ -186,12 +207,10 @@ Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& cons
   for (const Size size : kSizes) {
     for (const std::size_t text_size : kTexts) {
       for (std::size_t i = 0; i < ui::kLanguages; ++i) {
-        const bool wanted = args.only.empty() || (std::to_string(size.width_px) + "x" + std::to_string(size.height_px) + "_" + std::to_string(ui::kTextPercents[text_size]) + "_" + ui::info_of(static_cast<ui::Language>(i)).code).find(args.only) != std::string::npos;
-        if (wanted) RELIEVO_TRY(photographer.take(review, size, text_size, static_cast<ui::Language>(i), false, console));
+        RELIEVO_TRY(photographer.take(review, size, text_size, static_cast<ui::Language>(i), false, console));
       }
     }
   }
-  if (!args.only.empty()) return {};
   return photographer.take(review, kSizes[0], 0, ui::Language::English, true, console);
 }
 

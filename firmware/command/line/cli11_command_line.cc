@@ -239,7 +239,7 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
          }, "a window instead of the whole screen")->type_name("WxH");
   app.add_option("--screenshots", args.screenshots, "pictures of all screens in all languages, as files")->type_name("DIR");
   app.add_option("--script", args.script, "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots")->type_name("FILE");
-  app.add_option("--only", args.only, "of those, the sheets with this in their name, as 1280x800_100_de")->type_name("TEXT");
+  app.add_option("--only", args.only, "of those, the sheets with this in their name, as 1280x800_100_de; behind a slash, the pages with this in theirs: 1280x800_100_de/thanks")->type_name("TEXT");
   app.add_flag_function("--tell-nobody", [&args](std::int64_t) { args.tells_known = false; }, "who types a name is not told that it is in the records already");
   app.add_flag("--showpiece", args.write_showpiece, "with --screenshots: only the head of the page that invites")->group("");
 }
