@@ -23,15 +23,15 @@ const char* words_of(const Words& tr, Gauge gauge) {
 }
 
 void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
-  char text[64];
-  if (row.gauge == Gauge::Temperature) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0°C\u2069", row.used);
-  else if (row.of < kManyMib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
+  char text[64]{};
+  if (row.of < kManyMib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
   else std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024, row.of / 1024);
+  const std::string_view value = row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
   const std::string_view id = page.tree.keep("gauge "), which = page.number(static_cast<double>(index));
   const char* words = words_of(page.tr, row.gauge);
   char named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
   std::snprintf(named, sizeof named, "%s ({})", words);
-  page.row({id.data(), id.size() + which.size()}, row.name.empty() ? std::string_view(words) : page.filled(named, {row.name}), page.tree.keep(text), row.mood);
+  page.row({id.data(), id.size() + which.size()}, row.name.empty() ? std::string_view(words) : page.filled(named, {row.name}), value, row.mood);
 }
 
 }  // namespace
