@@ -131,7 +131,7 @@ bool is_face(const ReliefFigures& r, const ReliefOptions& o) {
 
 Error error_of(const ReliefFigures& r, const ReliefOptions& o) {
   char figures[192];
-  std::snprintf(figures, sizeof figures, "%.2f mm off a plane, %.2f off a bent sheet (a face %.1f or more; sigma %.2f), curved by %.1f sr (a face %.1f or more)",
+  std::snprintf(figures, sizeof figures, "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f",
                 r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr);
   return Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}.at(figures);
 }

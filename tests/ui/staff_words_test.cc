@@ -49,6 +49,25 @@ TEST_F(StaffWordsTest, NumbersHaveTheMarkOfTheLanguageAndGroupsOfThree) {
   EXPECT_EQ(bare(in(Language::German).number(-0.5, 1)), "\u22120,5");
 }
 
+TEST_F(StaffWordsTest, AnAngleStandsAtItsNumberATemperatureDoesNot) {
+  EXPECT_EQ(bare(in(Language::English).number(90, 1, "°")), "90.0°");
+  EXPECT_EQ(bare(in(Language::Arabic).number(-2.25, 2, "°")), "\u22122.25°");
+  EXPECT_EQ(bare(in(Language::German).number(41.5, 1, "°C")), "41,5\u00a0°C");
+  EXPECT_EQ(bare(in(Language::French).number(7, 0, "%")), "7\u00a0%");
+}
+
+TEST_F(StaffWordsTest, BehindAColonFrenchAndSpanishGoOnSmall) {
+  constexpr const char* kPhotograph = "that looks like a picture of a face: please look into the cameras yourself";
+  EXPECT_TRUE(in(Language::French).said(kPhotograph, false).starts_with("cela ressemble"));
+  EXPECT_TRUE(in(Language::Spanish).said(kPhotograph, false).starts_with("parece"));
+  EXPECT_TRUE(in(Language::German).said(kPhotograph, false).starts_with("Das sieht"));
+  EXPECT_TRUE(in(Language::English).said(kPhotograph, false).starts_with("that looks"));
+  EXPECT_TRUE(in(Language::French).said(kPhotograph).starts_with("Cela")) << "a sentence of its own";
+  StaffFrame page = in(Language::French);
+  EXPECT_STREQ(page.continued("Échec"), "échec");
+  for (const char* same : {"OpenCV a renoncé", "×", "où", "", "1 px"}) EXPECT_STREQ(page.continued(same), same);
+}
+
 TEST_F(StaffWordsTest, OnlyWhatIsANumberGetsTheMark) {
   StaffFrame page = in(Language::German);
   EXPECT_EQ(bare(page.as_number("+0.42")), "+0,42");

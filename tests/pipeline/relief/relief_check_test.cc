@@ -167,7 +167,7 @@ TEST(ReliefCheck, SaysToThePersonWhatToDoAndToTheTechnicianWhatWasMeasured) {
   const Error error = error_of({1, 0.1, 0.25, 0.21, 0.5, 0.4}, {});
   EXPECT_EQ(error.code, Errc::NoFace);
   EXPECT_NE(error.what.view().find("look into the cameras yourself"), std::string_view::npos);
-  for (const char* figure : {"0.25 mm off a plane", "0.21 off a bent sheet", "1.2 or more", "sigma 0.10", "0.4 sr"})
+  for (const char* figure : {"0.25 mm off a plane", "0.21 mm off a bent sheet", "at least 1.2", "sigma 0.10", "0.4 sr"})
     EXPECT_NE(error.where().find(figure), std::string_view::npos) << figure << " in " << error.where();
 }
 

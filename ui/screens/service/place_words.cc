@@ -56,7 +56,7 @@ std::string_view said_cameras(StaffFrame& page, std::string_view place) {
 // Their keys, as the catalogues have them.
 constexpr const char* kPlaces[] = {
     "left picture", "right picture",
-    "{} mm off a plane, {} off a bent sheet (a face {} or more; sigma {}), curved by {} sr (a face {} or more)",
+    "{} mm off a plane; {} mm off a bent sheet, a face at least {}, sigma {}; curved by {} sr, a face at least {}",
 };
 
 }  // namespace

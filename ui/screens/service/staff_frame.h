@@ -56,6 +56,8 @@ class StaffFrame : public Page {
   }
   // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
   const char* begun(const char* words);
+  // What begins large behind a colon, where French and Spanish go on small; English keys do anyway, German begins anew.
+  const char* continued(const char* words);
   void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
   void status(std::string_view id, std::string_view words, Mood mood);
@@ -67,7 +69,7 @@ class StaffFrame : public Page {
   void grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
   // Digits to be typed; `done` when the tick is touched.
   void keypad(Action done);
-  // "12.5", with the language's decimal mark and digits in threes, kept apart from the direction of the words around.
+  // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
   // What is a number with a point, behind it perhaps a unit, with the language's decimal mark; else as it is.
   std::string_view as_number(std::string_view text);

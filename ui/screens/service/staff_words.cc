@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostValues = 8, kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
 constexpr std::string_view kMinus = "\u2212";
+constexpr std::string_view kAngle = "°";               // stands at its number, as no other unit does (ISO 80000-1), °C neither
 constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -56,7 +57,8 @@ std::string_view StaffFrame::number(double value, int decimals, const char* unit
     put({&info_of(visit.language).decimal_mark, 1});
     put(text.substr(sign + whole + 1));
   }
-  if (*unit_name != 0) put("\u00a0"), put(unit_name);
+  if (*unit_name != 0 && unit_name != kAngle) put("\u00a0");
+  put(unit_name);
   put(isolate::kEnd);
   return tree.keep({said, length});
 }
@@ -121,6 +123,22 @@ const char* StaffFrame::begun(const char* words) {
   return all;
 }
 
+const char* StaffFrame::continued(const char* words) {
+  const bool small = visit.language == Language::French || visit.language == Language::Spanish;
+  const bool latin = words[0] >= 'A' && words[0] <= 'Z', accented = words[0] == '\xc3' && words[1] <= '\x9e' && words[1] != '\x97';
+  if (!small || (!latin && !accented)) return words;
+  const std::size_t at = accented ? 1 : 0;
+  // OpenCV, GPIO, JPEG stay as they are.
+  for (const char* c = words + at + 1; *c != 0 && *c != ' '; ++c) {
+    if (*c >= 'A' && *c <= 'Z') return words;
+  }
+  const char letter = static_cast<char>(words[at] + 0x20);
+  const char* all = tree.keep({words, at}).data();
+  tree.keep({&letter, 1});
+  kept(words + at + 1);
+  return all;
+}
+
 std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
   if (sentence.empty()) return sentence;   // gettext's name of nothing is its header
   std::array<std::string_view, kMostValues> values{};
@@ -132,7 +150,7 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
     at = next;
   }
   const char* key = kept(sentence.substr(0, end));
-  const char* words = begins ? begun(tr(key)) : tr(key);
+  const char* words = begins ? begun(tr(key)) : continued(tr(key));
   std::size_t holes = 0;
   for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
   for (std::size_t i = 0; i < std::min(count, holes); ++i) values[i] = as_number(values[i]);
