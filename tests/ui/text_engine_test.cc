@@ -101,6 +101,9 @@ TEST(Phrases, AreWhatIsReadInOneBreath) {
   EXPECT_EQ(phrases("ここに入力、またはQRコードを提示", true), (Words{"ここに", "入力、", "または", "QRコードを", "提示"}));
   EXPECT_EQ(phrases("するかどうかをお決めください。撮り直す", true), (Words{"するかどうかを", "お決めください。", "撮り直す"}));
   EXPECT_EQ(phrases("触れると「はじめる」です", true), (Words{"触れると", "「はじめる」", "です"}));
+  EXPECT_EQ(phrases("動かずにもう一度お願いします。", true), (Words{"動かずに", "もう一度", "お願いします。"}));
+  EXPECT_EQ(phrases("続きました。あと300秒で", true), (Words{"続きました。", "あと300秒で"}));
+  EXPECT_EQ(phrases("記録には何も保存されません", true), (Words{"記録には", "何も保存されません"}));
   EXPECT_EQ(phrases("很好。请目视前方，保持不动", false), (Words{"很好。", "请目视前方，", "保持不动"}));
   EXPECT_EQ(phrases("", true), Words{""});
 }

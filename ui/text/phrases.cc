@@ -47,10 +47,23 @@ bool joins_a_verb(const std::vector<Letter>& letters, std::size_t i) {
   return i > 0 && is_one_of(letters[i].code, U"いきしちみりえけげめれ") && kind_of(letters[i - 1].code) == Kind::Kanji;
 }
 
+// Words that lean on what follows them: もう一度, 何も保存されません, あと9秒. The length of one that ends before `i`, or 0.
+std::size_t leaning_word_before(const std::vector<Letter>& letters, std::size_t i) {
+  for (const std::u32string_view word : {U"もう", U"何も", U"あと"}) {
+    const std::size_t length = word.size();
+    if (i >= length && std::ranges::equal(word, std::span(letters).subspan(i - length, length), {}, {}, &Letter::code)) return length;
+  }
+  return 0;
+}
+
+bool begins_a_leaning_word(const std::vector<Letter>& letters, std::size_t i) {
+  return i + 2 < letters.size() && kind_of(letters[i + 2].code) != Kind::Hiragana && leaning_word_before(letters, i + 2) == 2;
+}
+
 bool begins_word(const std::vector<Letter>& letters, std::size_t i) {
   const Kind before = kind_of(letters[i - 1].code), here = kind_of(letters[i].code);
-  if (is_prefix(letters, i)) return true;
-  if (before != Kind::Hiragana || here == Kind::Hiragana || is_prefix(letters, i - 1)) return false;
+  if (is_prefix(letters, i) || begins_a_leaning_word(letters, i)) return true;
+  if (before != Kind::Hiragana || here == Kind::Hiragana || is_prefix(letters, i - 1) || leaning_word_before(letters, i) > 0) return false;
   return here != Kind::Kanji || !joins_a_verb(letters, i - 1);
 }
 

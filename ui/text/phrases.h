@@ -5,7 +5,7 @@
 // any two letters: a heading torn inside a word ("撮影しま|す") reads badly all the same.
 // Chinese: a phrase ends at a punctuation mark. Japanese: there too, and where letters of hiragana
 // (endings, particles) are followed by the next word in kanji, katakana, Latin letters or digits; the
-// prefixes お and ご belong to what follows, the parts of a verb (撮り直す) stay together.
+// prefixes お and ご and the words もう, 何も and あと belong to what follows, the parts of a verb (撮り直す) stay together.
 // UTF-8, as a catalogue holds it. Bytes. Thread: any. Errors: none; where no phrase is seen, the whole text is one.
 // Paper: JIS X 4051:2004 says where a line must not break; the phrase is the bunsetsu of Hashimoto (1934).
 #pragma once
