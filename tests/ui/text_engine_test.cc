@@ -203,6 +203,23 @@ TEST_F(TextEngineTest, NumbersKeepTheirOrderInArabic) {
   EXPECT_GT(heavy_right, ink_middle(reversed) + 0.1) << "888 has more ink than 111";
 }
 
+// The page tells the direction of a paragraph, whatever stands in it: names, figures and what is isolated are no words
+// from which it could be read.
+TEST_F(TextEngineTest, ALabelWithoutALetterOfItsScriptStillRunsFromTheRight) {
+  TextStyle from_right, from_left;
+  from_right.right_to_left = true;
+  for (const char* text : {"\u2066MMMM\u2069 \u2066i\u2069", "\u2068MMMM\u2069 \u2068i\u2069", "\u2066MMMM\u2069: \u20661\u2069", "\u2066MMMM\u2069 ———", "MMMM ———", "8888 ———"}) {
+    EXPECT_GT(ink_middle(engine->label(text, from_right, 800)), ink_middle(engine->label(text, from_left, 800)) + 0.05) << text << ": what comes first stands on the right";
+  }
+  // Of one run its letters keep their order.
+  EXPECT_LT(ink_middle(engine->label("MMMM i", from_right, 800)), 0.5);
+  EXPECT_LT(ink_middle(engine->label("\u2066MMMM i\u2069", from_right, 800)), 0.5);
+  // Divided, each line runs so.
+  const TextLabel divided = engine->label("\u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069 \u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069", from_right, 300);
+  EXPECT_EQ(divided.size.lines, 2);
+  EXPECT_GT(ink_middle(divided), 0.5);
+}
+
 TEST_F(TextEngineTest, AFullAtlasStartsAnew) {
   const std::uint32_t before = engine->atlas().generation();
   TextStyle style;
