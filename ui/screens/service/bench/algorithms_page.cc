@@ -100,13 +100,13 @@ void options(BenchFrame& b) {
 }
 
 void key(BenchFrame& b, std::string_view id, const char* letter, Action action) {
-  Node node = b.page.text(letter, type::kHeading / b.page.text_share, Weight::Medium, b.page.palette.link, TextAlign::Centre);
+  Node node = b.page.text(letter, type::kHeading, Weight::Medium, b.page.palette.link, TextAlign::Centre);
   node.id = id;
   node.name = letter;
   node.role = Role::Key;
   node.action = action;
   node.box.grow = 1;
-  node.box.min_height = b.page.px(size::kStaffTarget);
+  node.box.min_height = b.page.px(b.page.portrait ? 1.4F * size::kStaffTarget : size::kStaffTarget);   // upright there is room
   node.box.fill = b.page.palette.card;
   node.box.border = b.page.palette.card_border;
   node.box.border_px = b.page.px(1.5F);
@@ -138,7 +138,7 @@ void keys(BenchFrame& b) {
       erase.box.border_px = b.page.px(1.5F);
       erase.box.radius = b.page.px(14);
       b.page.tree.open(erase);
-      b.page.sign(icon::kErase, 26 / b.page.text_share, b.page.palette.link);
+      b.page.sign(icon::kErase, 26, b.page.palette.link);
       b.page.tree.close();
     }
     b.page.tree.close();

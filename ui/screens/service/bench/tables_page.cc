@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The numbers behind the pictures, a page at a time.
+#include <algorithm>
 
 #include "ui/screens/service/bench/bench_frame.h"
 
 namespace relievo::ui {
 namespace {
 
+constexpr float kGap = 6;   // between columns
 constexpr std::int32_t kFarPages = 100;
 
 const char* name_of_table(const Words& tr, BenchTable table) {
@@ -24,6 +26,7 @@ const char* name_of_table(const Words& tr, BenchTable table) {
 struct Wide {   // a column of words, and how much wider than one of numbers
   std::size_t column = ~std::size_t{0};
   float share = 1;
+  float number = 4.95F;   // sizes of its letters that a column of numbers is wide: "−108.114"
 };
 
 // A number, several of them, or the rule that judged.
@@ -32,25 +35,48 @@ std::string_view said(BenchFrame& b, std::string_view text) {
   return numbers == text ? b.rule_name(text) : numbers;
 }
 
+// How a record of the table is divided: where its columns have no room abreast, it goes on in the line below.
+struct Shape {
+  std::size_t columns = 0, abreast = 0;
+  Wide wide;
+};
+
+float letters_dp(const StaffFrame& page) { return page.portrait ? 15.0F : 18.0F; }
+
+Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
+  constexpr float kMargins = 112;   // of page, card and row
+  Shape shape{columns, columns, wide};
+  const float all = static_cast<float>(columns) - 1 + (wide.column < columns ? wide.share : 1);
+  const float gaps = kGap * (static_cast<float>(columns) - 1);
+  if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins) shape.abreast = (columns + 1) / 2;
+  return shape;
+}
+
+void cell(BenchFrame& b, std::string_view words, bool heading) {
+  if (words.empty()) return;
+  Node node = b.page.text(b.left_to_right(heading ? words : said(b, words)), letters_dp(b.page), heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
+  node.style.tabular = true;
+  node.style.size_px = b.page.px(letters_dp(b.page) * b.page.text_share);   // figures are as wide in every language
+  b.page.tree.leaf(node);
+}
+
 // Numbers stay left to right, as in any table of measurements.
-void cells(BenchFrame& b, std::span<const std::string_view> texts, bool heading, const Wide& wide) {
-  Node row = b.page.box(Flow::Row, 6, 4, 0);
-  row.box.left_to_right = true;
-  row.box.min_height = b.page.px(36);
-  row.box.across = Across::Centre;
-  b.page.tree.open(row);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column), i == wide.column ? wide.share : 1.0F));
-    if (!texts[i].empty()) {
-      Node cell = b.page.text(b.left_to_right(heading ? texts[i] : said(b, texts[i])), 18, heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
-      // Columns are as wide as they are: letters of a table grow less.
-      cell.style.tabular = true;
-      cell.style.size_px = b.page.px((b.page.portrait ? 15.0F : 18.0F) * (1 + (b.page.text_share - 1) * 0.3F));
-      b.page.tree.leaf(cell);
+void record(BenchFrame& b, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
+  const bool divided = shape.abreast < shape.columns;
+  for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
+    Node row = b.page.box(Flow::Row, kGap, 4, 0);
+    row.box.left_to_right = true;
+    row.box.min_height = b.page.px(36);
+    row.box.across = Across::Centre;
+    b.page.tree.open(row);
+    for (std::size_t i = first; i < first + shape.abreast; ++i) {
+      b.page.tree.open(b.page.grown(b.page.box(Flow::Column), !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
+      if (i < shape.columns) cell(b, texts[i], heading);
+      b.page.tree.close();
     }
     b.page.tree.close();
   }
-  b.page.tree.close();
+  if (divided) b.page.rule();
 }
 
 void pager(BenchFrame& b) {
@@ -62,7 +88,7 @@ void pager(BenchFrame& b) {
   row.box.left_to_right = true;
   b.page.tree.open(row);
   const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
-    Node node = b.page.sized(b.page.box(Flow::Row), 96, size::kStaffTarget);
+    Node node = b.page.sized(b.page.box(Flow::Row), std::min(96 * b.page.text_share, b.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
     node.id = id;
     node.name = spoken;
     node.role = Role::Button;
@@ -74,7 +100,7 @@ void pager(BenchFrame& b) {
     node.box.border = b.page.palette.quiet_border;
     node.box.border_px = b.page.px(2);
     b.page.tree.open(node);
-    Node sign = b.page.text(b.left_to_right(label), type::kSmall / b.page.text_share, Weight::Bold, b.page.palette.link, TextAlign::Centre);
+    Node sign = b.page.text(b.left_to_right(label), type::kSmall, Weight::Bold, b.page.palette.link, TextAlign::Centre);
     b.page.tree.leaf(sign);
     b.page.tree.close();
   };
@@ -112,10 +138,11 @@ void bench_tables_page(StaffFrame& page) {
   }
   const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
-  const Wide wide = rows.table == BenchTable::Calibration ? Wide{3, 3} : rows.table == BenchTable::Matches ? Wide{columns - 1, 1.8F} : Wide{};
+  const Wide wide = rows.table == BenchTable::Calibration ? Wide{3, page.portrait && page.text_share > 1.2F ? 2.0F : 3.0F} : rows.table == BenchTable::Matches ? Wide{columns - 1, 1.8F, 4.4F} : Wide{};
   page.begin_list("table");
-  cells(b, rows.heads, true, wide);
-  for (std::size_t at = 0; at + columns <= places; at += columns) cells(b, rows.cells.subspan(at, columns), false, wide);
+  const Shape shape = rows.table == BenchTable::Calibration ? Shape{columns, columns, wide} : shape_of(page, columns, wide);
+  record(b, rows.heads, true, shape);
+  for (std::size_t at = 0; at + columns <= places; at += columns) record(b, rows.cells.subspan(at, columns), false, shape);
   page.tree.close();
   pager(b);
 }
