@@ -31,6 +31,7 @@ class Layout {
   Need content_need(const Node& node, float width);
   Shares shares(const Node& row, float width);
   bool folded(const Node& row, float width);
+  float spread(const Node& column, const Rect& inner);
   void place_column(Node& node, const Rect& inner, const Rect& clip);
   void place_row(Node& node, const Rect& inner, const Rect& clip);
   void place_stack(Node& node, const Rect& inner, const Rect& clip);

@@ -19,6 +19,7 @@ void welcome(StaffFrame& page) {
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "languages";
   list.box.scroll = true;
+  list.box.spreads = page.portrait ? 1.5F : 1;
   page.tree.open(list);
   const std::size_t abreast = page.portrait ? 1 : 2;
   for (std::size_t i = 0; i < kLanguages; ++i) {

@@ -34,6 +34,7 @@ void menu_page(StaffFrame& page) {
   Node list = page.grown(page.box(Flow::Column, space::kM));
   list.id = "menu";
   list.box.scroll = true;
+  list.box.spreads = page.portrait ? 1.35F : 1;
   page.tree.open(list);
   // Where letters are large, a long word must not be torn: fewer and wider tiles.
   const bool large = page.text_share > 1.2F;

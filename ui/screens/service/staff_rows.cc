@@ -9,11 +9,14 @@
 
 namespace relievo::ui {
 
+constexpr float kUprightSpread = 1.8F;   // of rows on an upright screen, where there is room
+
 void StaffFrame::begin_card(std::string_view id, bool hugs) {
   Node list = grown(box(Flow::Column, 0, space::kM, 8));
   list.id = id;
   list.box.scroll = true;
   list.box.hugs = hugs;
+  list.box.spreads = portrait ? kUprightSpread : 1;
   list.box.fill = palette.card;
   list.box.border = palette.card_border;
   list.box.border_px = px(1.5F);
@@ -96,6 +99,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.across = Across::Centre;
+  row.box.along = Along::Centre;   // of a folded one
   row.box.folds = true;
   tree.open(row);
   tree.open(grown(box(Flow::Column)));
