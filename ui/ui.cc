@@ -184,14 +184,17 @@ void Ui::frame(const ViewState& view) {
 // What is held is done when its time has passed: the way in, so that a child's finger does not open it, and what nobody can undo.
 void Ui::follow_staff(const ViewState& view) {
   const Node* held = hands_.pressed.empty() ? nullptr : tree_.find(hands_.pressed);
-  const bool holds = held != nullptr && held->hold;
-  hands_.held = holds ? std::clamp(std::chrono::duration<float>(view.now - pressed_at_) / std::chrono::duration<float>(kHold), 0.0F, 1.0F) : 0;
-  if (hands_.held >= 1) {
-    const Node node = *held;
-    hands_.pressed.clear();
-    hands_.held = 0;
-    key_held_ = false;
-    activate(node, view);
+  hands_.held = 0;
+  if (held != nullptr && held->hold) {
+    const float share = std::clamp(std::chrono::duration<float>(view.now - pressed_at_) / std::chrono::duration<float>(kHold), 0.0F, 1.0F);
+    if (share < 1) {
+      hands_.held = share;
+    } else {
+      const Node node = *held;
+      hands_.pressed.clear();
+      key_held_ = false;
+      activate(node, view);
+    }
   }
   service_.follow(view);
   if (service_.open) visit_.touched(view.now);  // a member of staff has a clock of their own

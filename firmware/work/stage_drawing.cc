@@ -18,7 +18,7 @@ struct Range {
 };
 
 struct Corner {
-  double x, y, z;
+  double x = 0, y = 0, z = 0;
   Rgb colour;
 };
 

@@ -4,9 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
+
+#include "firmware/command/line/shared_words.h"
+#include "firmware/command/line/two_numbers.h"
 
 namespace relievo::firmware {
 namespace {
@@ -15,11 +19,10 @@ using Verb = CalibrationArgs::Verb;
 
 // "1920x1200", 16 to 8192 each.
 bool picture_size(const std::string& text, int& width, int& height) {
-  const char* end = text.data() + text.size();
-  const auto [after, bad_width] = std::from_chars(text.data(), end, width);
-  if (bad_width != std::errc() || after == end || *after != 'x') return false;
-  const auto [last, bad_height] = std::from_chars(after + 1, end, height);
-  return bad_height == std::errc() && last == end && width >= 16 && width <= 8192 && height >= 16 && height <= 8192;
+  const auto size = two_numbers(text, 'x');
+  if (!size || std::min(size->first, size->second) < 16 || std::max(size->first, size->second) > 8192) return false;
+  width = size->first, height = size->second;
+  return true;
 }
 
 // CLI::Range lets "nan" through.
@@ -28,6 +31,11 @@ std::string check_unit(const std::string& word) {
   const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), unit);
   const bool good = bad == std::errc() && end == word.data() + word.size() && unit >= 1e-6 && unit <= 1e6;
   return good ? "" : "wants the millimetres of one unit, such as 1 or 1000, not " + word;
+}
+
+std::string check_revision(const std::string& word) {
+  const bool good = !word.empty() && word.front() != '0' && word.find_first_not_of("0123456789") == std::string::npos;
+  return good ? "" : "wants a number as 'relievo calibration list' has it, from 1 on, not " + word;
 }
 
 void add_import(CLI::App& command, CalibrationArgs& args) {
@@ -47,7 +55,7 @@ void add_import(CLI::App& command, CalibrationArgs& args) {
 
 void add_export(CLI::App& command, CalibrationArgs& args) {
   command.add_option("-o,--output", args.file, "the file; for ros the folder")->required()->type_name("PATH");
-  CLI::Option* revision = command.add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
+  CLI::Option* revision = command.add_option("revision", args.revision, "which; default the one in use")->check(check_revision);
   command.add_option("--calibration", args.source, "one of a file instead of the store's")->type_name("FILE")->excludes(revision);
   command.add_option_function<std::string>(
              "--as", [&args](const std::string& word) { args.ros = word == "ros"; },
@@ -62,7 +70,7 @@ void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) 
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, Verb which) -> CLI::App& {
     CLI::App* sub = command->add_subcommand(name, help);
-    sub->add_option("--store", args.store, "folder of the store")->type_name("DIR");
+    add_store(*sub, args.store);
     sub->callback([&args, &chosen, which] {
       args.verb = which;
       chosen = args;
@@ -71,9 +79,9 @@ void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) 
   };
   verb("list", "every calibration, the newest last, and how good it was found", Verb::List);
   verb("show", "the numbers of one", Verb::Show)
-      .add_option("revision", args.revision, "which; default the one in use")->check(CLI::NonNegativeNumber);
+      .add_option("revision", args.revision, "which; default the one in use")->check(check_revision);
   verb("activate", "use an older one again", Verb::Activate)
-      .add_option("revision", args.revision)->required()->check(CLI::PositiveNumber);
+      .add_option("revision", args.revision)->required()->check(check_revision);
   add_import(verb("import", "take one from a file, or two, into the store", Verb::Import), args);
   add_export(verb("export", "write one to a file, or two", Verb::Export), args);
 }

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -12,7 +11,10 @@
 #include "firmware/command/line/command_line.h"
 #include "firmware/command/line/compare_words.h"
 #include "firmware/command/line/held_picture_words.h"
+#include "firmware/command/line/kiosk_words.h"
+#include "firmware/command/line/shared_words.h"
 #include "firmware/command/line/staff_words.h"
+#include "firmware/command/line/two_numbers.h"
 
 namespace relievo::firmware {
 namespace {
@@ -31,15 +33,10 @@ CLI::Validator within(double least, double most) {
 
 // "10x7", 3 to 999 each.
 bool corner_counts(const std::string& text, int& across, int& down) {
-  const char* end = text.data() + text.size();
-  const auto [after_across, bad_across] = std::from_chars(text.data(), end, across);
-  if (bad_across != std::errc() || after_across == end || *after_across != 'x') return false;
-  const auto [after_down, bad_down] = std::from_chars(after_across + 1, end, down);
-  return bad_down == std::errc() && after_down == end && across >= 3 && across <= 999 && down >= 3 && down <= 999;
-}
-
-void add_store(CLI::App& command, Path& store) {
-  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+  const auto counts = two_numbers(text, 'x');
+  if (!counts || std::min(counts->first, counts->second) < 3 || std::max(counts->first, counts->second) > 999) return false;
+  across = counts->first, down = counts->second;
+  return true;
 }
 
 void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
@@ -225,23 +222,6 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
   command->add_option("--scale", args.scale, "size of the pictures; the limits grow as their pixels do")
       ->check(within(0.5, 1))->capture_default_str()->needs(optical);
   command->callback([&] { chosen = args; });
-}
-
-// Words before any command: they are the kiosk's.
-void add_kiosk(CLI::App& app, KioskArgs& args) {
-  app.add_option("--board", args.board, "the kiosk's cameras: sim, or folder:DIR")->type_name("BOARD")->capture_default_str();
-  app.add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
-  add_store(app, args.store);
-  app.add_option_function<std::string>(
-         "--windowed", [&args](const std::string& size) {
-           if (std::sscanf(size.c_str(), "%dx%d", &args.width_px, &args.height_px) != 2 || args.width_px < 640 || args.height_px < 480)
-             throw CLI::ValidationError("--windowed", "give a size such as 1280x800, of 640x480 or more");
-         }, "a window instead of the whole screen")->type_name("WxH");
-  app.add_option("--screenshots", args.screenshots, "pictures of all screens in all languages, as files")->type_name("DIR");
-  app.add_option("--script", args.script, "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots")->type_name("FILE");
-  app.add_option("--only", args.only, "of those, the sheets with this in their name, as 1280x800_100_de; behind a slash, the pages with this in theirs: 1280x800_100_de/thanks")->type_name("TEXT");
-  app.add_flag_function("--tell-nobody", [&args](std::int64_t) { args.tells_known = false; }, "who types a name is not told that it is in the records already");
-  app.add_flag("--showpiece", args.write_showpiece, "with --screenshots: only the head of the page that invites")->group("");
 }
 
 struct AllArgs {

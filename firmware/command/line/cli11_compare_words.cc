@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 
-#include <charconv>
-
 #include "firmware/command/line/compare_words.h"
+#include "firmware/command/line/two_numbers.h"
 
 namespace relievo::firmware {
 namespace {
 
 // "0:256"; either may be negative.
 bool disparity_range(const std::string& text, int& least, int& most) {
-  const char* end = text.data() + text.size();
-  const auto [after_least, bad_least] = std::from_chars(text.data(), end, least);
-  if (bad_least != std::errc() || after_least == end || *after_least != ':') return false;
-  const auto [after_most, bad_most] = std::from_chars(after_least + 1, end, most);
-  return bad_most == std::errc() && after_most == end && least < most && least >= -4096 && most <= 4096;
+  const auto range = two_numbers(text, ':');
+  if (!range || range->first >= range->second || range->first < -4096 || range->second > 4096) return false;
+  least = range->first, most = range->second;
+  return true;
 }
 
 void check_counts(const CompareArgs& args) {

@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "firmware/command/line/shared_words.h"
+
 namespace relievo::firmware {
 
 void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
@@ -13,7 +15,7 @@ void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, StaffArgs::Verb which) {
     CLI::App* sub = command->add_subcommand(name, help);
-    sub->add_option("--store", args.store, "folder of the store")->type_name("DIR");
+    add_store(*sub, args.store);
     sub->callback([&args, &chosen, which] {
       args.verb = which;
       chosen = args;

@@ -15,7 +15,7 @@ namespace relievo::hal::sim {
 
 struct Panel {
   Vec3 centre, half_x, half_y;        // a rectangle
-  double power;                       // on white that faces it from kPanelReferenceMm away
+  double power = 0;                   // on white that faces it from kPanelReferenceMm away
 };
 
 constexpr std::size_t kPanels = 3;

@@ -13,8 +13,8 @@ namespace {
 constexpr float kEdge = 12;   // of the screen: what stands there must not reach into the oval
 
 struct Said {
-  const char* words;
-  const char* letter;
+  const char* words = nullptr;
+  const char* letter = nullptr;
   bool good = false;
 };
 

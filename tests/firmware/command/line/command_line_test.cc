@@ -173,6 +173,8 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
   const std::vector<std::vector<const char*>> wrong{
       {"--windowed", "wide"},
       {"--windowed", "100x100"},
+      {"--windowed", "1280x800px"},
+      {"--windowed", "1280x99999999999"},
       {"bogus"},
       {"reconstruct"},
       {"reconstruct", "l.png", "r.png", "-o", "out"},
