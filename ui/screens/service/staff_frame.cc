@@ -12,6 +12,9 @@ constexpr float kMargin = 32, kTop = 20;
 constexpr const char* kLeaveSign = "\uf343";
 constexpr Colour kNone{};
 
+// Of a PIN's keys; upright there is room for larger ones.
+float key_share(const Page& page) { return page.text_share * (page.portrait ? 1.25F : 1.0F); }
+
 }  // namespace
 
 Colour StaffFrame::ink_of(Mood mood) const {
@@ -199,7 +202,7 @@ void StaffFrame::digit(const char* letter) {
   node.role = Role::Key;
   node.action = {ActionKind::TypeKey, 0};
   node.box.grow = 1;
-  node.box.min_height = px(size::kKeyLeast * text_share);
+  node.box.min_height = px(size::kKeyLeast * key_share(*this));
   node.box.fill = palette.card;
   node.box.border = palette.card_border;
   node.box.border_px = px(1.5F);
@@ -210,7 +213,7 @@ void StaffFrame::digit(const char* letter) {
 void StaffFrame::keypad(Action done) {
   constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
   Node pad = box(Flow::Column, 10);
-  pad.box.width = px(360 * text_share);
+  pad.box.width = px(360 * key_share(*this));
   tree.open(pad);
   for (const auto& keys : kRows) {
     Node row = box(Flow::Row, 10);
@@ -230,7 +233,7 @@ void StaffFrame::keypad(Action done) {
     node.action = action;
     node.box.along = Along::Centre;
     node.box.across = Across::Centre;
-    node.box.min_height = px(size::kKeyLeast * text_share);
+    node.box.min_height = px(size::kKeyLeast * key_share(*this));
     node.box.radius = px(16);
     node.box.fill = main ? palette.accent : palette.card;
     node.box.border = main ? kNone : palette.card_border;
