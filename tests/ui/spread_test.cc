@@ -35,7 +35,7 @@ class SpreadTest : public testing::Test {
       Node row, inside, line;
       row.id = id;
       row.box.flow = Flow::Row;
-      inside.box.height = 50;
+      inside.box.height = *id == 'd' ? highest_ : 50;
       inside.box.grow = 1;
       line.box.height = 1;
       tree_.open(row);
@@ -49,6 +49,7 @@ class SpreadTest : public testing::Test {
   }
   Rect at(const char* id) const { return tree_.find(id)->rect; }
 
+  float highest_ = 50;  // of the last row
   std::unique_ptr<TextEngine> text_;
   Tree tree_;
 };
@@ -60,6 +61,13 @@ TEST_F(SpreadTest, RowsGrowAlikeUpToTheLimitAndTheCardWithThem) {
   for (const char* id : {"a", "b", "c", "d"}) EXPECT_FLOAT_EQ(at(id).h, 90) << id;
   EXPECT_FLOAT_EQ(at("list").h, kLeast + 4 * 40);
   EXPECT_GE(at("b").y, at("a").bottom() + 1);
+}
+
+TEST_F(SpreadTest, AHigherRowGetsNoMoreThanTheOthers) {
+  highest_ = 120;
+  list_in(1000, 1.8F);
+  EXPECT_FLOAT_EQ(at("a").h, 90);
+  EXPECT_FLOAT_EQ(at("d").h, 160);
 }
 
 TEST_F(SpreadTest, WithLessRoomTheyFillIt) {

@@ -22,7 +22,7 @@ constexpr float kFoldedGaps = 0.25F;   // what was a gap beside is a smaller one
 
 bool is_row(const Node& node) { return node.box.flow == Flow::Row && node.first_child >= 0 && node.box.grow <= 0; }
 
-float spread_height(const Node& node, float h, float taller) { return taller > 1 && is_row(node) ? std::floor(h * taller) : h; }
+float spread_height(const Node& node, float h, float more) { return is_row(node) ? h + more : h; }
 
 bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
 
@@ -90,17 +90,17 @@ bool Layout::folded(const Node& row, float width) {
   return left < kLeastShare * width && need(words, kEndless).w > left;
 }
 
-// How many times as high as their content the rows of a column are, where it may spread and there is room.
+// How much higher than its content each row of a column is, where it may spread and there is room.
 float Layout::spread(const Node& column, const Rect& inner) {
-  if (column.box.spreads <= 1) return 1;
-  float rows = 0, all = -column.box.gap;
+  if (column.box.spreads <= 1) return 0;
+  float rows = 0, lowest = inner.h, all = -column.box.gap;
   for (std::int32_t at = column.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     const float h = need(child, inner.w).h;
     all += h + column.box.gap;
-    if (is_row(child)) rows += h;
+    if (is_row(child)) ++rows, lowest = std::min(lowest, h);
   }
-  return rows > 0 ? std::clamp(1 + (inner.h - all) / rows, 1.0F, column.box.spreads) : 1;
+  return rows > 0 ? std::floor(std::clamp((inner.h - all) / rows, 0.0F, (column.box.spreads - 1) * lowest) + kRounding) : 0;
 }
 
 // The widths of a row's children. Those that grow share what the others leave.
@@ -163,10 +163,10 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
   float fixed = 0, grow = 0, growing = 0, highest = 0, shown = 0;   // highest: a share of what those need that grow, were all shares as high
                                                               // shown: the height of a picture, when it alone grows
   int count = 0;
-  const float taller = spread(node, inner);
+  const float spread_by = spread(node, inner);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    const float h = spread_height(child, need(child, inner.w).h, taller);
+    const float h = spread_height(child, need(child, inner.w).h, spread_by);
     fixed += h;
     if (child.box.grow <= 0) continue;
     grow += child.box.grow, growing += h;
@@ -191,7 +191,7 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     Need n = need(child, inner.w);
-    n.h = spread_height(child, n.h, taller);
+    n.h = spread_height(child, n.h, spread_by);
     if (child.box.yields) n.h -= std::exchange(over, 0.0F);
     const float more = grow > 0 ? left * child.box.grow / grow : 0, h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
     const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) && child.box.width <= 0 && child.box.max_width <= 0;

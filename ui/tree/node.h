@@ -33,7 +33,7 @@ struct Box {
   bool even = false;                    // a column whose growing children are as high as their shares, not higher by them
   bool scroll = false;                  // a column that may be higher than its room
   bool yields = false;                  // in a column: as high as its content is where there is room, else as high as is left
-  float spreads = 1;                    // a column: where there is room its rows are up to so many times as high
+  float spreads = 1;                    // a column: where there is room its rows get higher, the lowest up to so many times
   bool hugs = false;                    // a growing column that ends where its content does; what is left of its share stays free
   bool left_to_right = false;           // a row that is not mirrored: digits, keys
   bool folds = false;                   // a row whose first child grows: the others stand under it where it would be narrow

@@ -45,7 +45,7 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   page.heading("cross words", test ? page.tr("Now this cross, to test it") : page.tr("Touch the middle of the cross"), type::kHeading, TextAlign::Centre);
   char text[16];
   std::snprintf(text, sizeof text, "%d", seen.seconds_left);
-  page.body("cross wait", page.filled(page.tr.plural("Everything goes back to what it was in {} second.", "Everything goes back to what it was in {} seconds.", static_cast<unsigned long>(seen.seconds_left)), text), TextAlign::Centre);
+  page.body("cross wait", page.filled(page.tr.plural("In {} second everything goes back to what it was.", "In {} seconds everything goes back to what it was.", static_cast<unsigned long>(seen.seconds_left)), text), TextAlign::Centre);
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
   Node cross = page.sized(page.box(Flow::Row), 84, 84);
