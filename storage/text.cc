@@ -41,7 +41,8 @@ bool is_name(std::string_view text) {
 
 bool contains_name(std::string_view name, std::string_view part) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; };
-  return !std::ranges::search(name, part, {}, lower, lower).empty() || part.empty();
+  const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+  return part.empty() || std::search(name.begin(), name.end(), part.begin(), part.end(), alike) != name.end();
 }
 
 }  // namespace relievo::storage

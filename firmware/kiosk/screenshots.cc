@@ -211,7 +211,12 @@ Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& cons
       }
     }
   }
-  return photographer.take(review, kSizes[0], 0, ui::Language::English, true, console);
+  // High contrast changes colours alone: one size, one language; asked for by name, every other language, too.
+  const bool asked = args.only.find("contrast") != std::string::npos;
+  for (std::size_t i = 0; i < (asked ? ui::kLanguages : 1); ++i) {
+    RELIEVO_TRY(photographer.take(review, kSizes[0], 0, static_cast<ui::Language>(i), true, console));
+  }
+  return {};
 }
 
 }  // namespace relievo::firmware

@@ -35,6 +35,9 @@ TEST(Theme, EveryTextCanBeRead) {
 TEST(Theme, HighContrastIsHigher) {
   EXPECT_GE(contrast(kHighContrast.ink, kHighContrast.ground), 15);
   EXPECT_GE(contrast(kHighContrast.accent_ink, kHighContrast.accent), 12);
+  // WCAG 2.2, 1.4.11: what shows a state has 3 : 1 to what is beside it.
+  EXPECT_GE(contrast(kHighContrast.accent, kHighContrast.track), 3);
+  EXPECT_GE(contrast(kHighContrast.track, kHighContrast.ground), 3);
 }
 
 }  // namespace

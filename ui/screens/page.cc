@@ -200,7 +200,7 @@ void Page::steps() {
   for (int i = 0; i < 4; ++i) {
     Node dot = sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10);
     dot.box.radius = px(5);
-    dot.box.fill = i <= now ? palette.accent : palette.quiet_border;
+    dot.box.fill = i <= now ? palette.accent : palette.track;
     tree.leaf(dot);
   }
   tree.close();

@@ -28,10 +28,10 @@ class Grower {
   HairStyle take() { return std::move(out_); }
 
   struct Shape {
-    double length, root_radius, height;
+    double length = 0, root_radius = 0, height = 0;
     Vec3 direction, bend;           // bend is added to the direction from root to tip
-    int nodes;
-    bool hug;                       // keep at `height` over the skin
+    int nodes = 0;
+    bool hug = false;               // keep at `height` over the skin
   };
   void grow(Vec3 root, const Shape& s) {
     const auto tint = static_cast<float>(0.8 + 0.4 * random_.uniform());
@@ -73,8 +73,10 @@ void grow_scalp(Grower& grower, const HeadField& field, const Mesh& skin, const 
     const Vec3 a = point_of(skin, corner[0]), b = point_of(skin, corner[1]), c = point_of(skin, corner[2]);
     if (a.z < -40 || a.y < -60 || scalp_hair(t, a) <= 0) continue;
     const double wanted = kPerMm2 * length(cross(b - a, c - a)) / 2;
-    for (double left = wanted; left > 0; left -= 1) {
-      if (left < 1 && random.uniform() > left) break;
+    const int whole = static_cast<int>(wanted);
+    const double rest = wanted - whole;   // how often there is one more
+    for (int k = 0; k <= whole; ++k) {
+      if (k == whole && (rest <= 0 || random.uniform() > rest)) break;
       double u = random.uniform(), v = random.uniform();
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const Vec3 p = a + (b - a) * u + (c - a) * v, n = normals[corner[0]];

@@ -27,8 +27,10 @@ Vec3 skin_at(const HeadField& field, double x, double y) {
 Vec3 extreme(const HeadField& field, double from_y, double to_y, double dy, double dz) {
   Vec3 best;
   double most = -1e9;
-  for (double y = from_y; y <= to_y; y += 0.1) {
-    const Vec3 p = skin_at(field, 0, y);
+  constexpr double kStepMm = 0.1;
+  const int steps = static_cast<int>((to_y - from_y) / kStepMm + 1e-9);
+  for (int i = 0; i <= steps; ++i) {
+    const Vec3 p = skin_at(field, 0, from_y + kStepMm * i);
     if (const double along = dy * p.y + dz * p.z; along > most) most = along, best = p;
   }
   return best;

@@ -25,7 +25,7 @@ void dots(StaffFrame& page) {
     const bool typed = i < page.service.typed().size();
     Node dot = page.sized(page.box(Flow::Column), typed ? 20.0F : 12.0F, typed ? 20.0F : 12.0F);
     dot.box.radius = page.px(10);
-    dot.box.fill = typed ? page.palette.accent : page.palette.quiet_border;
+    dot.box.fill = typed ? page.palette.accent : page.palette.track;
     page.tree.leaf(dot);
   }
   page.tree.close();

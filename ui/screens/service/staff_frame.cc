@@ -91,7 +91,7 @@ void StaffFrame::progress(std::string_view id, float share) {
   track.name = tr("How far it is");
   track.box.height = px(14);
   track.box.radius = px(7);
-  track.box.fill = palette.quiet_border;
+  track.box.fill = palette.track;
   tree.open(track);
   if (done > 0) {
     Node bar = grown(box(Flow::Column), std::max(0.02F, done));

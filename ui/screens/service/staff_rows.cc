@@ -131,7 +131,7 @@ void StaffFrame::nothing(std::string_view id, const char* letter, std::string_vi
   room.box.along = Along::Centre;
   room.box.across = Across::Centre;
   tree.open(room);
-  sign(letter, 64 / text_share, palette.quiet_border);
+  sign(letter, 64 / text_share, palette.track);
   Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);
   said.id = id;
   tree.leaf(said);

@@ -90,7 +90,7 @@ void progress(Page& page) {
   track.name = page.tr("How far it is");
   track.box.height = page.px(14);
   track.box.radius = page.px(7);
-  track.box.fill = page.palette.quiet_border;
+  track.box.fill = page.palette.track;
   page.tree.open(track);
   if (done > 0) {
     Node bar = page.grown(page.box(Flow::Column), std::max(0.02F, done));

@@ -65,7 +65,7 @@ void coverage(BenchFrame& b, std::size_t side, float aspect) {
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
       Node cell = b.page.grown(b.page.box(Flow::Column));
       const float share = std::min(1.0F, static_cast<float>(seen[row * kCoverageCells + column]) / 40);
-      cell.box.fill = share > 0 ? b.page.palette.accent.with_alpha(0.25F + 0.75F * share) : b.page.palette.quiet_border;
+      cell.box.fill = share > 0 ? b.page.palette.accent.with_alpha(0.45F + 0.55F * share) : b.page.palette.track;
       cell.box.radius = b.page.px(3);
       b.page.tree.leaf(cell);
     }
