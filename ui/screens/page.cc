@@ -10,6 +10,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr Colour kNone{};
+constexpr float kMostSignShare = 1.35F;   // signs on buttons that stay as large as they are grow no further
 
 constexpr std::string_view kUnits[] = {"mm", "px", "sr", "%"};
 
@@ -136,7 +137,7 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   node.box.border = palette.quiet_border;
   node.box.border_px = std::max(1.5F, px(2));
   tree.open(node);
-  Node sign_node = text(letter, 34 / text_share, Weight::Regular, palette.link, TextAlign::Centre);
+  Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular, palette.link, TextAlign::Centre);
   sign_node.role = Role::Icon;
   sign_node.style.icon = true;
   tree.leaf(sign_node);

@@ -91,7 +91,7 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   node.box.border = dead ? Colour{} : palette.quiet_border;
   node.box.border_px = dead ? 0 : std::max(1.5F, px(2));
   tree.open(node);
-  if (!dead) sign(letter, 30 / text_share, palette.link);
+  if (!dead) sign(letter, 30, palette.link);
   tree.close();
 }
 
