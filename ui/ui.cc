@@ -132,17 +132,44 @@ void Ui::activate(const Node& node, const ViewState& view) {
 // A keypad has no finger that rests. What must not happen by mistake takes the same time here, and nobody has to keep a key down.
 void Ui::activate_focus(const ViewState& view) {
   const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
-  if (node == nullptr) return;
+  if (node == nullptr || node->action.kind == ActionKind::None) return;
   if (!node->slow_key) return activate(*node, view);
   hands_.pressed = node->id;
   pressed_at_ = view.now;
   key_held_ = true;
 }
 
+// What goes on is read to its end before the focus leaves it.
 void Ui::focus_on(int direction) {
-  const Node* next = tree_.after(hands_.show_focus ? std::string_view(hands_.focus) : std::string_view{}, direction);
+  constexpr float kScreenful = 0.7F;   // the last lines of one are seen again, and none lies under a fade
+  const Node* at = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
+  const Node* next = tree_.after(at != nullptr ? std::string_view(hands_.focus) : std::string_view{}, direction);
+  const Node* left = at == nullptr ? nullptr : at->box.scroll ? at : tree_.scroller_around(*at);
+  const bool leaves = left != nullptr && (next == nullptr || next == left || tree_.scroller_around(*next) != left);
+  const bool turns_round = left != nullptr && next != nullptr && (direction > 0) != (next > at);
+  if ((leaves || turns_round) && scroll(*left, scrolled_px(*left) + static_cast<float>(direction) * kScreenful * left->rect.h)) return;
   hands_.show_focus = next != nullptr;
-  if (next != nullptr) hands_.focus = next->id;
+  if (next == nullptr) return;
+  hands_.focus = next->id;
+  bring_into_view(*next);
+}
+
+bool Ui::scroll(const Node& scroller, float to_px) {
+  const float to = std::clamp(to_px, 0.0F, std::max(0.0F, scroller.content_height - scroller.rect.h)), before = scrolled_px(scroller);
+  if (std::abs(to - before) < 1) return false;
+  hands_.scrolled = scroller.id;
+  hands_.scroll_px = to;
+  return true;
+}
+
+void Ui::bring_into_view(const Node& node) {
+  const Node* scroller = tree_.scroller_around(node);
+  if (scroller == nullptr) return;
+  const Rect& room = scroller->rect;
+  const float margin = std::max(0.0F, std::min(room.h / 4, (room.h - node.rect.h) / 2));   // as high as a fade, where there is room
+  const float above = room.y + margin - node.rect.y, below = node.rect.bottom() - (room.bottom() - margin);
+  if (above > 0) scroll(*scroller, scrolled_px(*scroller) - above);
+  else if (below > 0) scroll(*scroller, scrolled_px(*scroller) + below);
 }
 
 void Ui::drag_face(float dx, float dy) {

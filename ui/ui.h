@@ -66,6 +66,9 @@ class Ui {
   void move(const Input& input);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
+  float scrolled_px(const Node& scroller) const { return hands_.scrolled == scroller.id ? hands_.scroll_px : 0; }
+  bool scroll(const Node& scroller, float to_px);   // false: it is there
+  void bring_into_view(const Node& node);
   void activate(const Node& node, const ViewState& view);
   void activate_focus(const ViewState& view);
   void drag_face(float dx, float dy);

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kNodes = 2048, kDepth = 32, kStringBytes = 128 * 1024;
 
 bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
+bool goes_on(const Node& node) { return node.box.scroll && !node.id.empty() && node.content_height > node.rect.h + 1; }
 
 }  // namespace
 
@@ -108,7 +109,20 @@ const Node* Tree::after(std::string_view id, int direction) const {
   }
   for (int step = 1; step <= count; ++step) {
     const auto i = static_cast<std::size_t>(((from + direction * step) % count + count) % count);
-    if (touchable(nodes_[i]) && nodes_[i].action.kind != ActionKind::TurnFace && !under_modal(i)) return &nodes_[i];
+    if (takes_focus(i) && !under_modal(i)) return &nodes_[i];
+  }
+  return nullptr;
+}
+
+bool Tree::takes_focus(std::size_t index) const {
+  const Node& node = nodes_[index];
+  if (touchable(node)) return node.action.kind != ActionKind::TurnFace;
+  return goes_on(node) && std::ranges::none_of(nodes_, [&](const Node& other) { return touchable(other) && scroller_around(other) == &node; });
+}
+
+const Node* Tree::scroller_around(const Node& node) const {
+  for (std::int32_t at = node.parent; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
+    if (goes_on(nodes_[static_cast<std::size_t>(at)])) return &nodes_[static_cast<std::size_t>(at)];
   }
   return nullptr;
 }

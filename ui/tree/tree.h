@@ -47,14 +47,18 @@ class Tree {
   // The topmost node there that can be touched; the scroller there.
   const Node* at(float x, float y) const;
   const Node* scroller_at(float x, float y) const;
-  // The next in reading order that can have the focus, round and round.
+  // The next in reading order (that of the nodes) that can have the focus, round and round: what can be touched, and a scroller that goes on
+  // and has nothing to touch in it, so that a keypad reads on there, too.
   const Node* after(std::string_view id, int direction) const;
+  // The scroller that goes on and holds the node; nullptr: none.
+  const Node* scroller_around(const Node& node) const;
   bool right_to_left() const { return right_to_left_; }
   // [{"id", "role", "name", "x", "y", "w", "h"}, ...] of everything that speaks or can be touched.
   std::string to_json() const;
 
  private:
   bool under_modal(std::size_t index) const;
+  bool takes_focus(std::size_t index) const;
   void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands, float unit) const;
   static bool touches(const Interaction& hands, const Node& node);
 

@@ -13,6 +13,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "firmware/service/event_log.h"
 #include "ui/screens/visitor/visitor_screens.h"
@@ -39,6 +40,17 @@ bool in_a_scroller(const ui::Tree& tree, const ui::Node& node) {
 ui::Rect seen_of(const ui::Node& node) {
   const float x = std::max(node.rect.x, node.clip.x), y = std::max(node.rect.y, node.clip.y);
   return {x, y, std::min(node.rect.right(), node.clip.right()) - x, std::min(node.rect.bottom(), node.clip.bottom()) - y};
+}
+
+bool goes_on(const ui::Node& node) { return node.box.scroll && node.content_height > node.rect.h + 1; }
+
+// Where the content of a scroller ends, as far as it is scrolled.
+float end_of(const ui::Tree& tree, const ui::Node& scroller) {
+  float end = scroller.rect.y;
+  for (const ui::Node& node : tree.nodes()) {
+    if (node.parent >= 0 && &tree.nodes()[static_cast<std::size_t>(node.parent)] == &scroller) end = std::max(end, node.rect.bottom());
+  }
+  return end + scroller.box.pad_y;
 }
 
 bool overlap(const ui::Rect& a, const ui::Rect& b) {
@@ -159,6 +171,46 @@ TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
 }
 
 // As many lines as a log keeps, each as long as one may be, faults all of them.
+// Presses the keypad's "on" until everything was there; what was in view, scroller by scroller, is struck off `unread`.
+void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string>& unread) {
+  std::set<std::pair<std::string, float>> seen;   // what had the focus, and how far its scroller was
+  std::string before;
+  for (;;) {
+    screen.feed({ui::Input::Kind::Next}, exhibit.view);
+    screen.show(exhibit.view, exhibit.visit, exhibit.service);
+    const ui::Tree& tree = screen.tree();
+    const ui::Node* at = tree.find(screen.focus());
+    ASSERT_NE(at, nullptr);
+    const ui::Node* scroller = goes_on(*at) ? at : tree.scroller_around(*at);
+    const float end = scroller != nullptr ? end_of(tree, *scroller) : 0;
+    if (scroller != nullptr && scroller != at && at->id != before) {
+      EXPECT_GE(at->rect.y, scroller->rect.y - 1) << at->id;
+      EXPECT_LE(at->rect.bottom(), scroller->rect.bottom() + 1) << at->id;
+    }
+    if (scroller != nullptr && end <= scroller->rect.bottom() + 1) unread.erase(std::string(scroller->id));
+    if (!seen.emplace(at->id, end).second) return;
+    before = at->id;
+  }
+}
+
+// Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its end.
+TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
+  for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), ui::kTextPercents.size() - 1, false)) {
+    SCOPED_TRACE(exhibit.name);
+    auto text = ui::TextEngine::make();
+    ASSERT_TRUE(text.has_value());
+    ui::Ui screen(std::move(*text));
+    screen.show(exhibit.view, exhibit.visit, exhibit.service);
+    const bool modal = screen.tree().find("veil") != nullptr;
+    std::set<std::string> unread;
+    for (const ui::Node& node : screen.tree().nodes()) {
+      if (goes_on(node) && (!modal || node.id == "overlay_words")) unread.insert(std::string(node.id));
+    }
+    if (!unread.empty()) read_by_keypad(screen, exhibit, unread);
+    EXPECT_TRUE(unread.empty()) << *unread.begin();
+  }
+}
+
 TEST_P(GalleryTest, AFullLogHasRoom) {
   const std::string sentence(EventLog::kTextBytes, 'x');
   const ui::LogLine line{"2026-03-14 10:21:09", true, sentence, "setting {} is {}", {std::string_view(sentence).substr(0, 80), std::string_view(sentence).substr(0, 80)}};
