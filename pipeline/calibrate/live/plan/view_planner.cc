@@ -33,6 +33,7 @@ constexpr std::array<double, kBoardAxes> kTolerance = {0.04, 0.05, 0.07, 0.13, 0
 // Of the depths of a field's nine points, by steps of one `unit` of each global.
 DepthByGlobals depth_by_globals(const Problem& rig, double distance_mm, const GlobalVector& unit) {
   std::vector<Eigen::Vector3d> field;
+  field.reserve(9);
   for (int i = 0; i < 9; ++i)
     field.emplace_back((i % 3 - 1) * kFieldStepMm, (i / 3 - 1) * kFieldStepMm, distance_mm);
   Problem bare = rig;

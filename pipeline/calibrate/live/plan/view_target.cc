@@ -110,6 +110,7 @@ std::vector<LiveAdvice> words_towards(const ViewTarget& target, const BoardParam
   }
   std::stable_sort(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<LiveAdvice> words;
+  words.reserve(off.size());
   for (const auto& [steps, word] : off) words.push_back(word);
   return words;
 }
