@@ -135,6 +135,7 @@ nlohmann::ordered_json views_json(const CalibratorOutput& out) {
 
 std::vector<std::string> texts(const std::vector<Sentence>& reasons) {
   std::vector<std::string> all;
+  all.reserve(reasons.size());
   for (const Sentence& reason : reasons) all.push_back(reason.text());
   return all;
 }
