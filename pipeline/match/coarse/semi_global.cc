@@ -127,7 +127,7 @@ struct Sweep {
 
   // The paths into pixel x, the i-th of its row: from the three of the row before, then along the row. `above` is null in the first row.
   RELIEVO_INLINE std::array<PathStep, 4> into(int x, int i, int now, const std::int16_t* base, const std::int16_t* above) {
-    std::array<PathStep, 4> steps;
+    std::array<PathStep, 4> steps{};
     for (int d = 0; d < 3; ++d) {
       auto& row = rows[static_cast<std::size_t>(d)];
       PathRow &target = row[static_cast<std::size_t>(now)], &source = row[static_cast<std::size_t>(now ^ 1)];
@@ -191,8 +191,8 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
     const std::array<PathStep, 4> steps = s.into(x, i, now, base, above);
     const std::uint8_t* cost = s.volume.cost + s.volume.cell(x, y);
     std::uint16_t* sum = s.volume.sum + s.volume.cell(x, y);
-    std::array<Lanes, 4> least;
-    least.fill(Lanes{} + static_cast<std::int16_t>(kFar));
+    const Lanes far = Lanes{} + static_cast<std::int16_t>(kFar);
+    std::array<Lanes, 4> least{far, far, far, far};
     Least best;
     for (int b = 0; b < lanes; b += kLanes) {
       Sums total{}, other{};

@@ -3,6 +3,7 @@
 #include "pipeline/match/constraints/uniqueness_constraint.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/match/image/plane.h"
 
@@ -22,8 +23,8 @@ void UniquenessConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   Plane<float> nearest(&context.scratch, pair.width_px / cell + 1, pair.height_px / cell + 1, kNothing);
   const auto place = [&](const Match& match) -> float* {
     const float x = (match.left_px.x - match.disparity_px) / static_cast<float>(cell);
-    const int column = static_cast<int>(x + 0.5F);
-    const int row = static_cast<int>(match.left_px.y / static_cast<float>(cell) + 0.5F);
+    const int column = static_cast<int>(std::lround(x));
+    const int row = static_cast<int>(std::lround(match.left_px.y / static_cast<float>(cell)));
     if (x < 0 || column >= nearest.width || row < 0 || row >= nearest.height) return nullptr;
     return nearest.row(row) + column;
   };

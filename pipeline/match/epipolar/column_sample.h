@@ -14,11 +14,7 @@ inline constexpr int kColumnReach = 3;  // rows needed on either side
 
 struct ColumnWeights {
   // t in [0, 1): the way from the row above to the one below.
-  explicit ColumnWeights(float t) {
-    const float u = 1 - t;
-    w[0] = outer(t), w[1] = middle(t), w[2] = inner(t);
-    w[3] = inner(u), w[4] = middle(u), w[5] = outer(u);
-  }
+  explicit ColumnWeights(float t) : w{outer(t), middle(t), inner(t), inner(1 - t), middle(1 - t), outer(1 - t)} {}
   float sample(const float* above, std::ptrdiff_t stride) const {
     return w[0] * above[-2 * stride] + w[1] * above[-stride] + w[2] * above[0] + w[3] * above[stride] +
            w[4] * above[2 * stride] + w[5] * above[3 * stride];
