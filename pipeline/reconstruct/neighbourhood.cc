@@ -37,7 +37,7 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
   const double area = static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1);
   const double step = on_lattice_ ? cloud.lattice_step_px
                                   : std::max(1e-3, std::sqrt(area * kPointsPerBucket / static_cast<double>(count)));
-  const auto cell_of = [step](float from, float at) { return static_cast<int>(static_cast<double>(at - from) / step + 0.5); };
+  const auto cell_of = [step](float from, float at) { return static_cast<int>(std::lround(static_cast<double>(at - from) / step)); };
   columns_ = cell_of(left, right) + 1;
   rows_ = cell_of(top, bottom) + 1;
   const auto place = [&](const CloudPoint& p) {

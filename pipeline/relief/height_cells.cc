@@ -48,7 +48,9 @@ double median_of(std::pmr::vector<double>& values) {
 Vector3d middle_of(const Samples& all, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
   std::pmr::vector<double> x(memory), y(memory), z(memory);
   x.reserve(all.size()), y.reserve(all.size()), z.reserve(all.size());
-  for (double reach = kMiddleShare * pair.face_width_px; z.size() < std::min(kEnough, all.size()); reach *= 2) {
+  double reach = kMiddleShare * pair.face_width_px / 2;
+  while (z.size() < std::min(kEnough, all.size())) {
+    reach *= 2;
     x.clear(), y.clear(), z.clear();
     for (const Sample& s : all) {
       const double u = pair.left_centre_px.x + pair.focal_px * s.at.x() / s.at.z() - pair.face_centre_px.x;

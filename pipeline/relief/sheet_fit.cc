@@ -145,10 +145,11 @@ Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
     for (const double convergence : kConvergence) best.offer(cells, {std::numbers::pi * k / kDirections, convergence}, rows);
   }
   double turn = std::numbers::pi / kDirections / 2, meet = kConvergence[2] / 2;
-  for (int round = 0; round < kRefinements; ++round, turn /= 2, meet /= 2) {
+  for (int round = 0; round < kRefinements; ++round) {
     const Lines from = best.lines;
     for (const int i : {-1, 0, 1})
       for (const int j : {-1, 0, 1}) best.offer(cells, {from.direction + i * turn, from.convergence + j * meet}, rows);
+    turn /= 2, meet /= 2;
   }
   SheetFit fit(&context.scratch);
   fit.axis_deg = best.lines.direction * 180 / std::numbers::pi;
