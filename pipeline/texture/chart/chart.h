@@ -59,7 +59,7 @@ inline constexpr float kRightSide = -0.5F;
 // What no texturer can work with: InvalidInput.
 Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
 
-// As fine as the better photograph on 95 % of the measured surface, and never finer; coarser where
+// `finer` times as fine as the better photograph on 95 % of the measured surface; coarser where
 // `max_px` asks for it. Its frame is that of the measured vertices both windows can see.
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory);
