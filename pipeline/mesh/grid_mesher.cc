@@ -19,27 +19,25 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kCutAway = 0.009;  // of the triangles, by the outline's cut
-constexpr double kThinnerStep = 1.003;  // where the triangles at hand are exceeded by a few
+constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
 
-std::size_t count_triangles(const LatticeSurface& surface) {
-  std::size_t count = 0;
-  for (const std::uint8_t cell : surface.cells) count += static_cast<std::size_t>(triangle_count(cell));
-  return count;
-}
-
-// On a lattice that makes good use of the triangles there may be: of a face far away finer than the
-// points', but not so fine that it would only repeat them.
+// On a lattice that makes good use of the triangles there may be: of a face far away finer than the points', but not so fine
+// that it would only repeat them; of a face near by coarser, above all towards the edges.
 ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesherOptions& o, Arena& scratch) {
-  const double present = static_cast<double>(count_triangles(shaped.surface));
-  double spacing = std::max(std::sqrt(present / triangles), o.finest_cells);
-  while (present > 0 && spacing != 1) {
-    ShapedLattice other = resample_lattice(shaped, static_cast<float>(spacing), max_slope, &scratch);
-    if (static_cast<double>(count_triangles(other.surface)) <= triangles) return other;
-    spacing *= kThinnerStep;
+  const double present = expected_triangles(shaped, 1);
+  if (present <= 0) return shaped;
+  LatticeSpacing spacing{static_cast<float>(std::sqrt(present / triangles)), 1};
+  if (static_cast<double>(spacing.cells) > o.finest_cells) {
+    spacing.edge = static_cast<float>(o.edge_cells);
+    spacing.cells = static_cast<float>(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
   }
-  return shaped;
+  for (spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));; spacing.cells *= kThinnerStep) {
+    if (spacing.cells == 1 && spacing.edge == 1) return shaped;
+    ShapedLattice other = resample_lattice(shaped, spacing, max_slope, &scratch);
+    if (expected_triangles(other, 1) <= triangles) return other;
+  }
 }
 
 CutSurface make_surface(PointLattice lattice, double triangles, const GridMesherOptions& o, Arena& scratch) {
@@ -70,6 +68,8 @@ Result<void> GridMesherOptions::check() const {
     return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.grid");
   if (!(finest_cells >= 0.5 && finest_cells <= 4))
     return Error{Errc::InvalidInput, "finest_cells must lie in 0.5 .. 4"}.at("mesher.grid");
+  if (!(edge_cells >= 1 && edge_cells <= 4))
+    return Error{Errc::InvalidInput, "edge_cells must lie in 1 .. 4"}.at("mesher.grid");
   if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
     return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.grid");
   if (!(step_sigmas >= 0 && step_sigmas <= 100) || !(step_slope_ratio >= 1 && step_slope_ratio <= 100) ||

@@ -23,7 +23,8 @@ namespace relievo::pipeline {
 
 struct GridMesherOptions {
   int max_triangles = 320'000;        // the lattice is resampled to use them, and never more
-  double finest_cells = 0.8;          // but to no finer than so many cells of the points' own lattice
+  double finest_cells = 0.7;          // but to no finer than so many cells of the points' own lattice
+  double edge_cells = 1.55;            // where they are not enough for that: the outermost cells, in those of the middle
   double max_incidence_deg = 77;      // steepest triangle, between its normal and the line of sight
   double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side
@@ -46,6 +47,7 @@ template <typename Field>
 void describe(GridMesherOptions& o, Field&& field) {
   field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "the lattice is resampled to use so many triangles, and never more");
   field("finest_cells", o.finest_cells, OptionRange{0.5, 4}, "the resampled lattice is no finer than so many cells of the points' own");
+  field("edge_cells", o.edge_cells, OptionRange{1, 4}, "how many times wider the outermost cells may be where triangles are scarce");
   field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89}, "steepest triangle, between its normal and the line of sight, degrees");
   field("step_sigmas", o.step_sigmas, OptionRange{0, 100}, "a neighbour's depth may leave the local slope by this many sigmas");
   field("step_slope_ratio", o.step_slope_ratio, OptionRange{1, 100}, "and by this many times the slope on either side");

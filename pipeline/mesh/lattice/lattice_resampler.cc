@@ -14,6 +14,8 @@ namespace {
 
 using mesh::plus, mesh::times;
 
+constexpr double kEvenPart = 0.4;  // of an axis, about its middle, that has cells of one size
+
 // A place between nodes: the cell, and how far into it.
 struct Place { int column, row; float tx, ty; };
 
@@ -113,42 +115,66 @@ class Reader {
   const CellMask& inside_;
 };
 
-// Cells of the new lattice in those of the old: as asked for, but whole cells from end to end.
-struct Step { float x, y; };
-
-Step fit(const PointLattice& from, float spacing, PointLattice& to) {
-  const auto cells = [spacing](int nodes) { return std::max(1, static_cast<int>(std::lround(static_cast<float>(nodes - 1) / spacing))); };
-  to.columns = cells(from.columns) + 1;
-  to.rows = cells(from.rows) + 1;
-  const Step step{static_cast<float>(from.columns - 1) / static_cast<float>(to.columns - 1),
-                  static_cast<float>(from.rows - 1) / static_cast<float>(to.rows - 1)};
-  to.cell_width_mm = from.cell_width_mm * step.x;
-  to.cell_height_mm = from.cell_height_mm * step.y;
-  return step;
+// How many of the old cells a new one is long, of the shortest: 1 in the middle half, then smoothly up to `edge` at the ends.
+double stretch(double at, double edge) {
+  const double out = std::max(0.0, std::abs(2 * at - 1) - kEvenPart) / (1 - kEvenPart);
+  return 1 + (edge - 1) * out * out * (3 - 2 * out);
 }
 
-void read_nodes(const Reader& reader, const Step& step, PointLattice& to) {
-  const std::size_t count = static_cast<std::size_t>(to.columns) * static_cast<std::size_t>(to.rows);
+// Where the new nodes of an axis lie on the old one: whole cells from end to end.
+std::pmr::vector<float> lay_nodes(int old_nodes, const LatticeSpacing& spacing, std::pmr::memory_resource* memory) {
+  const int old_cells = old_nodes - 1;
+  std::pmr::vector<double> cells(static_cast<std::size_t>(old_nodes), 0.0, memory);  // new ones up to an old node
+  for (std::size_t k = 1; k < cells.size(); ++k)
+    cells[k] = cells[k - 1] + 1 / stretch((static_cast<double>(k) - 0.5) / old_cells, static_cast<double>(spacing.edge));
+  const int wanted = std::max(1, static_cast<int>(std::lround(cells.back() / static_cast<double>(spacing.cells))));
+  std::pmr::vector<float> at(static_cast<std::size_t>(wanted) + 1, static_cast<float>(old_cells), memory);
+  std::size_t k = 1;
+  for (std::size_t n = 0; n + 1 < at.size(); ++n) {
+    const double reached = cells.back() * static_cast<double>(n) / wanted;
+    while (k + 1 < cells.size() && cells[k] <= reached) ++k;
+    at[n] = static_cast<float>(static_cast<double>(k - 1) + (reached - cells[k - 1]) / (cells[k] - cells[k - 1]));
+  }
+  return at;
+}
+
+// The new nodes, in cells of the old lattice.
+struct Nodes { std::pmr::vector<float> x, y; };
+
+Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to, std::pmr::memory_resource* memory) {
+  Nodes at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
+  to.columns = static_cast<int>(at.x.size());
+  to.rows = static_cast<int>(at.y.size());
+  to.cell_width_mm = from.cell_width_mm * at.x.back() / static_cast<float>(to.columns - 1);
+  to.cell_height_mm = from.cell_height_mm * at.y.back() / static_cast<float>(to.rows - 1);
+  return at;
+}
+
+void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to) {
+  const std::size_t count = at.x.size() * at.y.size();
   to.node.assign(count, Node::Empty);
   to.at_mm.assign(count, Vec3f{});
   to.sigma_mm.assign(count, 0.0F);
-  for (int r = 0; r < to.rows; ++r)
-    for (int c = 0; c < to.columns; ++c) {
-      const std::size_t k = to.index(c, r);
-      to.node[k] = reader.read(reader.place(static_cast<float>(c) * step.x, static_cast<float>(r) * step.y), to.at_mm[k], to.sigma_mm[k]);
+  std::size_t k = 0;
+  for (const float y : at.y)
+    for (const float x : at.x) {
+      to.node[k] = reader.read(reader.place(x, y), to.at_mm[k], to.sigma_mm[k]);
+      ++k;
     }
 }
 
-// Which of the four triangles of the new cell (c, r) the old surface carries, by samples no further apart
-// than half an old cell.
-std::uint8_t carried_parts(const Reader& reader, int c, int r, const Step& step) {
-  const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(step.x, step.y)));
+// A cell of the new lattice in those of the old: its first corner, and how wide and high it is.
+struct Window { float x, y, width, height; };
+
+// Which of the four triangles of the new cell the old surface carries, by samples no further apart than half an old cell.
+std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
+  const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(cell.width, cell.height)));
   std::uint8_t parts = kFalling | kRising;
   for (int j = 0; j < samples && parts != 0; ++j)
     for (int i = 0; i < samples; ++i) {
       const float x = static_cast<float>(i) / static_cast<float>(samples - 1);
       const float y = static_cast<float>(j) / static_cast<float>(samples - 1);
-      if (reader.carried((static_cast<float>(c) + x) * step.x, (static_cast<float>(r) + y) * step.y)) continue;
+      if (reader.carried(cell.x + x * cell.width, cell.y + y * cell.height)) continue;
       if (j >= i) parts &= static_cast<std::uint8_t>(~kUnder);
       if (i >= j) parts &= static_cast<std::uint8_t>(~kOver);
       if (i + j <= samples - 1) parts &= static_cast<std::uint8_t>(~kLeft);
@@ -173,20 +199,35 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, f
 
 }  // namespace
 
-ShapedLattice resample_lattice(const ShapedLattice& old, float spacing, float max_slope, std::pmr::memory_resource* memory) {
+double expected_triangles(const ShapedLattice& old, float edge) {
+  const PointLattice& l = old.lattice;
+  double sum = 0;
+  for (int r = 0; r + 1 < l.rows; ++r) {
+    double row = 0;
+    for (int c = 0; c + 1 < l.columns; ++c)
+      row += triangle_count(old.surface.cells[l.index(c, r)]) / stretch((c + 0.5) / (l.columns - 1), static_cast<double>(edge));
+    sum += row / stretch((r + 0.5) / (l.rows - 1), static_cast<double>(edge));
+  }
+  return sum;
+}
+
+ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory) {
   ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old);
-  const Step step = fit(old.lattice, spacing, made.lattice);
-  read_nodes(reader, step, made.lattice);
+  const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
+  read_nodes(reader, at, made.lattice);
   const PointLattice& l = made.lattice;
   made.surface.cells.assign(l.size(), 0);
   made.inside.assign(l.size(), 0);
   for (int r = 0; r + 1 < l.rows; ++r)
     for (int c = 0; c + 1 < l.columns; ++c) {
       const std::size_t k = l.index(c, r);
-      made.inside[k] = reader.inside((static_cast<float>(c) + 0.5F) * step.x, (static_cast<float>(r) + 0.5F) * step.y);
-      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, c, r, step), max_slope);
+      const auto x = static_cast<std::size_t>(c);
+      const auto y = static_cast<std::size_t>(r);
+      const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
+      made.inside[k] = reader.inside(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
+      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope);
     }
   return made;
 }

@@ -6,6 +6,7 @@
 // neighbourhood is surface on the cubic through 4 x 4 nodes (Keys 1981, a = -1/2), which does not flatten
 // what is curved between nodes, else on its cell or triangle. A new triangle is made only where the old
 // surface lies under all of it: no hole is filled, no step bridged, nothing put beyond the old edges.
+// The new cells may grow towards the lattice's edges, where a face's crop holds hair, neck and cheeks seen askew.
 #pragma once
 
 #include <memory_resource>
@@ -21,7 +22,15 @@ struct ShapedLattice {
   CellMask inside;  // what lies within the outline, holes included
 };
 
-// `spacing` in cells of the old lattice, above 0. Throws std::bad_alloc when `memory` is used up.
-ShapedLattice resample_lattice(const ShapedLattice& old, float spacing, float max_slope, std::pmr::memory_resource* memory);
+struct LatticeSpacing {
+  float cells = 1;  // a new cell's width in old ones, about the middle; above 0
+  float edge = 1;   // how many times wider it is at the edges; 1 or more
+};
+
+// About how many triangles a lattice of cells as wide as the old ones, and so much wider at the edges, has of this surface.
+double expected_triangles(const ShapedLattice& old, float edge);
+
+// Throws std::bad_alloc when `memory` is used up.
+ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

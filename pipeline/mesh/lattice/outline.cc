@@ -14,8 +14,9 @@ namespace {
 using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus;
 
 constexpr float kSlopeRadiusMm = 1.5F;   // a cell's slope is the mean so far around it
-constexpr float kGiven = 0.5F, kKept = 0.4F;  // of what lies around, so much must be in to gain a cell, or to keep one: what was measured weighs more
+constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much must be in to gain a cell, or to keep one: what was measured weighs more
 constexpr float kAgreeMm = 1;           // along the line of sight, where it is steep: a third of it across the surface
+constexpr float kRimMm = 6;             // a hole so near to the outside is a nick in the outline
 constexpr float kChannelShare = 0.5F;   // steep channels narrower than this share of min_width_mm let nothing in
 
 // Sums along rows over windows of 2 reach + 1, in place.
@@ -81,6 +82,14 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
     if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
 }
 
+void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper, std::pmr::memory_resource* memory) {
+  CellMask near_outside(kept, memory);
+  for (std::uint8_t& cell : near_outside) cell ^= 1;
+  shaper.dilate(near_outside, kRimMm);
+  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
+  shaper.open(kept, bow_mm);
+}
+
 }  // namespace
 
 CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
@@ -106,7 +115,7 @@ CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLim
     for (std::size_t k = 0; k < l.size(); ++k) kept[k] = given[k] || (kept[k] && before[k]);
     grow(l, surface, before, kept, limits.max_slope, shaper, memory);
     for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && (before[k] || surface.cells[k]);
-    shaper.open(kept, limits.min_width_mm / 2);
+    round_off_nicks(surface, kept, limits.min_width_mm, shaper, memory);
   }
   shaper.keep_largest_piece(kept);
   for (std::size_t k = 0; k < l.size(); ++k)

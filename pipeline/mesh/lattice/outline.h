@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The outline of a lattice's surface, found in three steps, all blind to holes inside, whose surroundings
+// The outline of a lattice's surface, found in four steps, the first three blind to holes inside, whose surroundings
 // stay as they are:
 //   the rim   surface that turns away from the camera and leads to the outside goes: the last rows before
 //             the horizon are measured worst, and left standing they are a fringe of teeth and flags;
 //   strips    whatever a disc of min_width_mm does not fit into goes (an opening; Serra 1982);
 //   waves     the line of a cheek's steepest surface swings in and out: it is straightened (a Gaussian of
 //             wave_mm over what is in). Bays are filled with what was measured there, where it continues
-//             the surface, else with its smooth continuation (Node::Filled); tongues are cut.
+//             the surface, else with its smooth continuation (Node::Filled); tongues are cut;
+//   nicks     a hole that stayed open a few millimetres from the outside (between strands of hair) goes with what
+//             lies around it: the outline passes within it, in a bow no narrower than a disc of min_width_mm's radius.
 #pragma once
 
 #include <memory_resource>

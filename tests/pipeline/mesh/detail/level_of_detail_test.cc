@@ -53,7 +53,7 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
     const FaceMesh& m = light->model.mesh;
     EXPECT_LE(m.triangles.size(), static_cast<std::size_t>(triangles));
     test::expect_clean(m);
-    EXPECT_LT(light->rms_error_mm, 0.08);
+    EXPECT_LT(light->rms_error_mm, 0.1);
     EXPECT_LE(light->max_error_mm, 0.5);
     // The ball itself is the truth: vertices are the model's, and between them it is as round as stated.
     double worst = 0;

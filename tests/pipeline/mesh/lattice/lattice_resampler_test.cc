@@ -25,7 +25,7 @@ struct Resampled {
 };
 
 // 2 px of 1000 px focal length at about 500 mm: 1 mm a cell.
-Resampled resample(double (*depth)(double, double), float spacing) {
+Resampled resample(double (*depth)(double, double), const LatticeSpacing& spacing) {
   auto* memory = std::pmr::get_default_resource();
   PointLattice lattice = make_lattice(test::formula_cloud(2, 300, depth, 0), memory);
   LatticeSurface joined = join_neighbours(lattice, kLimits, memory);
@@ -44,7 +44,7 @@ std::size_t measured(const PointLattice& lattice) {
 class Spacing : public testing::TestWithParam<float> {};
 
 TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
-  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, GetParam());
+  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {GetParam(), 1});
   const auto expected = static_cast<double>(measured(r.from)) / static_cast<double>(GetParam() * GetParam());
   EXPECT_NEAR(static_cast<double>(measured(r.to)), expected, 0.08 * expected) << "less the horizon, too steep to carry a surface";
   double squares = 0;
@@ -64,12 +64,47 @@ TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
 INSTANTIATE_TEST_SUITE_P(Factors, Spacing, testing::Values(0.8F, 0.93F, 1.31F, 2.6F));
 
 TEST(LatticeResampler, AtOneCellRepeatsWhatCarriesTheSurface) {
-  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, 1);
+  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {});
   ASSERT_EQ(r.to.size(), r.from.size());
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] == Node::Empty) continue;
     EXPECT_LT(mesh::length(mesh::minus(r.to.at_mm[k], r.from.at_mm[k])), 1e-4F);
   }
+}
+
+TEST(LatticeResampler, CellsGrowTowardsTheEdgesAndNowhereElse) {
+  const Resampled even = resample([](double, double) { return 500.0; }, {1, 1});
+  const Resampled r = resample([](double, double) { return 500.0; }, {1, 2});
+  const PointLattice& l = r.to;
+  const auto width = [&](int column) {
+    const int row = l.rows / 2;
+    return l.at_mm[l.index(column + 1, row)].x - l.at_mm[l.index(column, row)].x;
+  };
+  const float middle = width(l.columns / 2);
+  EXPECT_NEAR(middle, even.to.cell_width_mm, 0.01F * middle);
+  for (int c = 0; c + 1 < l.columns; ++c) {
+    EXPECT_NEAR(width(c), width(l.columns - 2 - c), 0.02F * middle) << c;
+    if (4 * c > l.columns && 4 * c < 3 * l.columns) { EXPECT_NEAR(width(c), middle, 0.01F * middle) << c; }
+    if (c > 0 && 2 * c < l.columns) { EXPECT_LE(width(c), width(c - 1) + 0.001F) << c; }
+  }
+  EXPECT_NEAR(width(0), 2 * middle, 0.05F * middle);
+  EXPECT_FLOAT_EQ(l.at_mm[0].x, r.from.at_mm[0].x);
+  EXPECT_FLOAT_EQ(l.at_mm[l.size() - 1].y, r.from.at_mm[r.from.size() - 1].y);
+}
+
+TEST(LatticeResampler, ExpectsAsManyTrianglesAsItMakes) {
+  const auto ball = [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); };
+  const auto expected = [&](float edge) {
+    const Resampled old = resample(ball, {});
+    const ShapedLattice surface{old.to, old.surface, CellMask(std::pmr::get_default_resource())};
+    return expected_triangles(surface, edge);
+  };
+  for (const float edge : {1.0F, 1.4F, 2.0F}) {
+    double made = 0;
+    for (const std::uint8_t cell : resample(ball, {1, edge}).surface.cells) made += triangle_count(cell);
+    EXPECT_NEAR(expected(edge), made, 0.03 * made) << edge;
+  }
+  EXPECT_LT(expected(2), 0.95 * expected(1));
 }
 
 TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
@@ -78,7 +113,7 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
         if (std::hypot(sx + 0.05, sy) < 0.02) return std::numeric_limits<double>::quiet_NaN();
         return sx > 0.0303 ? 480.0 : 500.0;
       },
-      0.8F);
+      {0.8F, 1.6F});
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] != Node::Measured) continue;
     const Vec3f& at = r.to.at_mm[k];
@@ -99,7 +134,7 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
 TEST(LatticeResampler, OfNothingMakesNothing) {
   auto* memory = std::pmr::get_default_resource();
   const ShapedLattice empty{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
-  EXPECT_EQ(resample_lattice(empty, 0.8F, 4, memory).lattice.size(), 0U);
+  EXPECT_EQ(resample_lattice(empty, {0.8F, 1}, 4, memory).lattice.size(), 0U);
 }
 
 }  // namespace

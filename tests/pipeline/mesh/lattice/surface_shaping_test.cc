@@ -166,5 +166,24 @@ TEST(GridMesher, TheRimThatTurnsAwayGoesAndAHoleInsideKeepsItsSurroundings) {
   EXPECT_GT(steepest, 62);
 }
 
+TEST(GridMesher, AHoleAtTheOutlineIsNoNickInIt) {
+  // A sheet that is round, with two holes that stay open: one 3 mm from the outside, as between strands of hair, one 20 mm.
+  const PointCloud cloud = cloud_of([](double sx, double sy) {
+    const double x = sx * 500;
+    const double y = sy * 500;
+    if (std::hypot(x, y) > 60 || std::hypot(x, y + 54) < 3 || std::hypot(x, y - 37) < 3) return kNothing;
+    return 500.0;
+  });
+  GridMesherOptions options;
+  options.max_hole_mm = 0;
+  StageRoom room;
+  const auto result = mesh_grid(cloud, room, options);
+  ASSERT_TRUE(result);
+  test::expect_clean(*result);
+  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), 0.93 * 3.14159 * 60 * 60) << "little is lost";
+  for (const Vec3f& v : result->vertices_mm) EXPECT_FALSE(std::abs(v.x) < 5 && v.y < -55) << "the bow passes below the hole: it has no walls";
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
