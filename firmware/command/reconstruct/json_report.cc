@@ -74,6 +74,7 @@ std::string report_json(const Report& report) {
                     {"relief", relief_json(q.relief)}}},
                   {"landmarks", landmarks_json(report)},
                   {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
+                  {"overexposed", report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},
                   {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -34,7 +34,8 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
 
   for (const StageRecord& stage : reconstruction.report().stages) services.console.say(line_of(stage));
   services.console.say(line_of(*reconstruction.report().drift));
-  if (*reconstruction.report().motion_px > 0) services.console.say(line_of_motion(*reconstruction.report().motion_px));
+  for (const std::string& advice : {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
+    if (!advice.empty()) services.console.say(advice);
   const pipeline::ModelQuality& q = reconstruction.report().quality;
   char line[160];
   std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,

@@ -31,7 +31,8 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
   if (!done) return done.error().at(left.string() + (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
   report_ = {calibration_file.string(), stages.algorithms().to_text(), job.records(), job.took(),
              peak_rss_bytes(), model().quality, session_.products().drift,
-             session_.products().matches->motion_px, model().landmarks, model().head_from_camera};
+             session_.products().matches->motion_px, model().landmarks, model().head_from_camera,
+             pipeline::measure_overexposure(*session_.products().pair, *session_.products().matches)};
   return {};
 }
 

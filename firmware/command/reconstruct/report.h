@@ -13,6 +13,7 @@
 
 #include "firmware/work/stage_record.h"
 #include "pipeline/calibrate/drift.h"
+#include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::firmware {
@@ -28,11 +29,13 @@ struct Report {
   std::optional<double> motion_px;       // MatchSet::motion_px, where it is known
   pipeline::Landmarks landmarks{};       // the left camera's frame
   pipeline::RigidTransform head_from_camera{};
+  std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
 };
 
 std::string line_of(const StageRecord& stage);   // for a terminal
 std::string line_of(const pipeline::DriftJudgement& drift);
-std::string line_of_motion(double motion_px);
+std::string line_of_motion(double motion_px);              // empty where it is not worth saying
+std::string line_of_light(const pipeline::Overexposure& white);  // the same
 std::string report_json(const Report& report);
 std::uint64_t peak_rss_bytes();          // of this process, up to now
 

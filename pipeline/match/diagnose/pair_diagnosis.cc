@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/rectify/grey_rows.h"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int kEvery = 4;                // pixels looked at for light
 constexpr float kDark = 24;              // grey: the brightest thousandth of a lit face is far above it
 constexpr float kWhite = 250;
-constexpr double kTooMuchWhite = 0.25;   // share of what is lit
+constexpr double kTooMuchWhite = 0.25;   // share of what is lit, and of a face
 constexpr float kLeastContrast = 8;      // grey, between the darkest and the brightest hundredth
 constexpr double kSame = 0.5;            // mean difference in grey: the noise of two pictures alone is more
 constexpr int kReducedWidth = 120;       // pixels: so few that a face's relief does not matter
@@ -137,6 +138,10 @@ std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCal
   if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
   const auto pair = Rectifier(volume).rectify(frame, calibration, context);
   if (!pair) return std::nullopt;
+  // A white face before a dark wall is little of the picture, and all that matters of it.
+  const Overexposure white = guess_overexposure(*pair);
+  const auto judge = [](double share) { return share > kTooMuchWhite ? Light::Overexposed : Light::Good; };
+  if (const auto light = fault_of_light(judge(white.left), judge(white.right))) return light;
   const Place middle = find_middle(*pair, &context.scratch);
   return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted) : std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <optional>
 #include <vector>
@@ -40,6 +41,15 @@ Pixels brighter(Pixels picture, double factor) {
   return picture;
 }
 
+// Far too bright about the middle and dark beyond, as a lit face before a wall is.
+Pixels face_too_bright(const Pixels& picture) {
+  Pixels made = brighter(picture, 8);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (std::hypot(x - kWidth / 2, y - kHeight / 2) > 110) std::fill_n(made.begin() + 3 * (y * kWidth + x), 3, std::uint8_t{40});
+  return made;
+}
+
 // So many rows up, black below.
 Pixels lifted(Pixels picture, int rows) {
   const auto by = static_cast<std::size_t>(rows) * kWidth * 3;
@@ -67,6 +77,7 @@ TEST(PairDiagnosis, TellsWhatWasDoneToThePictures) {
       {"both covered", brighter(left, 0.03), brighter(right, 0.03), PairFault::BothDark},
       {"a lamp in the left", brighter(left, 8), right, PairFault::LeftOverexposed},
       {"a lamp in both", brighter(left, 8), brighter(right, 8), PairFault::BothOverexposed},
+      {"a lamp on the face, seen by the right one", left, face_too_bright(right), PairFault::RightOverexposed},
       {"one grey", left, grey, PairFault::RightBlank},
       {"the same twice", left, left, PairFault::SamePicture},
       {"one higher", left, lifted(right, 24), PairFault::Shifted}};
