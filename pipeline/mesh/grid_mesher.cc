@@ -33,11 +33,13 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
     spacing.edge = static_cast<float>(o.edge_cells);
     spacing.cells = static_cast<float>(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
   }
-  for (spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));; spacing.cells *= kThinnerStep) {
-    if (spacing.cells == 1 && spacing.edge == 1) return shaped;
+  spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));
+  while (spacing.cells != 1 || spacing.edge != 1) {
     ShapedLattice other = resample_lattice(shaped, spacing, max_slope, &scratch);
     if (expected_triangles(other, 1) <= triangles) return other;
+    spacing.cells *= kThinnerStep;
   }
+  return shaped;
 }
 
 CutSurface make_surface(PointLattice lattice, double triangles, const GridMesherOptions& o, Arena& scratch) {
@@ -105,7 +107,8 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
 
   // What the outline's cut takes is known once it is done: about a hundredth, which may be had more of before. Where it leaves
   // too many, a thinner lattice fits.
-  for (double triangles = (1 + kCutAway) * options_.max_triangles;; triangles *= 1 - kCutAway / 2) {
+  double triangles = (1 + kCutAway) * options_.max_triangles;
+  for (;;) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
     PointLattice lattice = make_lattice(cloud, &context.scratch);
@@ -114,7 +117,10 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface();
-    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) continue;
+    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) {
+      triangles *= 1 - kCutAway / 2;
+      continue;
+    }
     FaceMesh mesh = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
       const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
       return PackedVertex{surface.at_mm[v], surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
