@@ -8,6 +8,7 @@
 #include "pipeline/match/coarse/edge_search.h"
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/detail_search.h"
+#include "pipeline/match/refine/enlarged_scene.h"
 #include "pipeline/match/refine/occluding_contour.h"
 #include "pipeline/match/region/face_reach.h"
 
@@ -46,24 +47,26 @@ double bending_weight(const RectifiedPair& pair, float bending) {
   return (z / pair.focal_px) * (z / pair.focal_px) / (per_px * per_px);
 }
 
-// The nearest node, or bilinear between four of the domain.
+// Bilinear between four nodes of the domain, or at its rim the nearest.
 bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
   const float fx = at.x / static_cast<float>(field.step_px);
   const float fy = at.y / static_cast<float>(field.step_px);
   const int x = static_cast<int>(fx);
   const int y = static_cast<int>(fy);
   if (fx < 0 || fy < 0 || x >= field.domain.width || y >= field.domain.height) return false;
-  if (field.domain.row(y)[x] == 0) return false;
-  match.disparity_px = field.disparity_px.row(y)[x];
-  match.sigma_px = field.sigma_px.row(y)[x];
-  match.cost = field.cost.row(y)[x];
+  const int near_x = std::min(static_cast<int>(fx + 0.5F), field.domain.width - 1);
+  const int near_y = std::min(static_cast<int>(fy + 0.5F), field.domain.height - 1);
+  if (field.domain.row(near_y)[near_x] == 0) return false;
+  match.disparity_px = field.disparity_px.row(near_y)[near_x];
+  match.sigma_px = field.sigma_px.row(near_y)[near_x];
+  match.cost = field.cost.row(near_y)[near_x];
   const float tx = fx - static_cast<float>(x);
   const float ty = fy - static_cast<float>(y);
   if (tx == 0 && ty == 0) return true;
-  if (x + 1 >= field.domain.width || y + 1 >= field.domain.height) return false;
+  if (x + 1 >= field.domain.width || y + 1 >= field.domain.height) return true;
   const float* upper = field.disparity_px.row(y) + x;
   const float* lower = field.disparity_px.row(y + 1) + x;
-  if ((field.domain.row(y)[x + 1] & field.domain.row(y + 1)[x] & field.domain.row(y + 1)[x + 1]) == 0) return false;
+  if ((field.domain.row(y)[x] & field.domain.row(y)[x + 1] & field.domain.row(y + 1)[x] & field.domain.row(y + 1)[x + 1]) == 0) return true;
   const float top = upper[0] + tx * (upper[1] - upper[0]);
   match.disparity_px = top + ty * (lower[0] + tx * (lower[1] - lower[0]) - top);
   return true;
@@ -103,6 +106,13 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
                                        StageContext& context) const {
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
     return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
+  if (!is_small_scene(pair)) return match_at_size(pair, keypoints, context);
+  RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(enlarge(pair, &context.scratch), enlarge(keypoints, &context.scratch), context));
+  shrink(found, keypoints.lattice_step_px);
+  return found;
+}
+
+Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   Pyramids pyramids = build_pyramids(pair, kLevels, context);

@@ -4,7 +4,7 @@
 // RefinedMatcher ("refined", the default): coarse semi-global matching blind to exposure, then one
 // least-squares surface over the whole face, refined from a quarter of the size to full size.
 // See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit; cost is one minus
-// the local correlation of the warped views.
+// the local correlation of the warped views. A small picture of a scene is matched at twice its size (enlarged_scene.h).
 // Keypoints may lie anywhere; on the lattice of dense_selector.h no interpolation is needed.
 #pragma once
 
@@ -46,6 +46,8 @@ class RefinedMatcher final : public Matcher {
   Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const override;
 
  private:
+  Result<MatchSet> match_at_size(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
+
   RefinedMatcherOptions options_;
 };
 
