@@ -54,8 +54,8 @@ bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
   const int x = static_cast<int>(fx);
   const int y = static_cast<int>(fy);
   if (fx < 0 || fy < 0 || x >= field.domain.width || y >= field.domain.height) return false;
-  const int near_x = std::min(static_cast<int>(fx + 0.5F), field.domain.width - 1);
-  const int near_y = std::min(static_cast<int>(fy + 0.5F), field.domain.height - 1);
+  const int near_x = std::min(static_cast<int>(std::lround(fx)), field.domain.width - 1);
+  const int near_y = std::min(static_cast<int>(std::lround(fy)), field.domain.height - 1);
   if (field.domain.row(near_y)[near_x] == 0) return false;
   match.disparity_px = field.disparity_px.row(near_y)[near_x];
   match.sigma_px = field.sigma_px.row(near_y)[near_x];
