@@ -7,7 +7,6 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kWhite = 250;
 constexpr double kFaceWidthMm = 150;                        // a grown-up's, as in RectifiedPair::face_width_px
 constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;       // of that width: an ellipse of skin, no background
 constexpr int kEvery = 2;                                   // pixels looked at
@@ -29,7 +28,7 @@ double white_share(const RectifiedView& view, const RectifiedPair& pair, const O
       const std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
       if (!view.valid[k] || !face.holds(x, y)) continue;
       ++seen;
-      if (view.grey[k] >= kWhite) ++white;
+      if (view.grey[k] >= kWhiteGrey) ++white;
     }
   return seen > 0 ? static_cast<double>(white) / static_cast<double>(seen) : 0;
 }

@@ -10,7 +10,9 @@
 
 namespace relievo::pipeline {
 
-// Shares of the face, 0 .. 1; a pixel is white from grey 250 on.
+inline constexpr float kWhiteGrey = 250;  // grey values, 0 .. 255, from which on a pixel is white
+
+// Shares of the face, 0 .. 1.
 struct Overexposure {
   double left = 0;
   double right = 0;

@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kEvery = 4;                // pixels looked at for light
 constexpr float kDark = 24;              // grey: the brightest thousandth of a lit face is far above it
-constexpr float kWhite = 250;
 constexpr double kTooMuchWhite = 0.25;   // share of what is lit, and of a face
 constexpr float kLeastContrast = 8;      // grey, between the darkest and the brightest hundredth
 constexpr double kSame = 0.5;            // mean difference in grey: the noise of two pictures alone is more
@@ -53,7 +52,7 @@ Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
   long lit = 0, white = 0;
   for (int grey = static_cast<int>(kDark); grey < 256; ++grey) {
     lit += histogram[static_cast<std::size_t>(grey)];
-    white += static_cast<float>(grey) >= kWhite ? histogram[static_cast<std::size_t>(grey)] : 0;
+    white += static_cast<float>(grey) >= kWhiteGrey ? histogram[static_cast<std::size_t>(grey)] : 0;
   }
   if (static_cast<double>(white) > kTooMuchWhite * static_cast<double>(lit)) return Light::Overexposed;
   return level(0.99) - level(0.01) < kLeastContrast ? Light::Blank : Light::Good;

@@ -115,7 +115,7 @@ class Reader {
   const CellMask& inside_;
 };
 
-// How many of the old cells a new one is long, of the shortest: 1 in the middle half, then smoothly up to `edge` at the ends.
+// How many times longer than in the middle a new cell is at `at` (0 .. 1 along the axis): 1 over kEvenPart, then smoothly up to `edge` at the ends.
 double stretch(double at, double edge) {
   const double out = std::max(0.0, std::abs(2 * at - 1) - kEvenPart) / (1 - kEvenPart);
   return 1 + (edge - 1) * out * out * (3 - 2 * out);

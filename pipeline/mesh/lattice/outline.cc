@@ -82,6 +82,7 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
     if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
 }
 
+// See outline.h; `bow_mm` is the radius of the disc.
 void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper, std::pmr::memory_resource* memory) {
   CellMask near_outside(kept, memory);
   for (std::uint8_t& cell : near_outside) cell ^= 1;
