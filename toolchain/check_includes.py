@@ -56,7 +56,7 @@ LIBRARIES = {
     r"mimalloc": "mimalloc_",
     r"assimp/": "assimp_",
 }
-TESTS_ONLY = r"gtest/|gmock/|benchmark/"
+TESTS_ONLY = r"gtest/|benchmark/"
 # The system's own headers: C's, POSIX's and Linux's. Everything else in angle brackets is a library.
 SYSTEM = re.compile(
     r"^[a-z0-9_]+$"                                    # C++: <vector>

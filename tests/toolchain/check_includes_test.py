@@ -58,6 +58,7 @@ PLANTED = [
     ("firmware/main.cc", "#include <gtest/gtest.h>", "only in tests/"),
     ("firmware/main.cc", "#include <benchmark/benchmark.h>", "only in tests/"),
     ("firmware/main.cc", "#include <unheard_of/library.h>", "no library"),
+    ("tests/pipeline/zmncc_matcher_test.cc", "#include <gmock/gmock.h>", "no library"),
 ]
 LIBRARY_HEADERS = [
     "yaml.h", "yaml-cpp/yaml.h",
