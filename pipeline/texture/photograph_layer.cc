@@ -41,7 +41,9 @@ class Layer {
     if (context_.stop()) return stopped;
     const ShotPlanes planes = shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, options_.shot, context_);
     if (context_.stop()) return stopped;
-    const ViewBlend blend(chart_, planes, bands_, options_.shot.left_only ? 0 : options_.highlight_level, context_);
+    const float margin_px = options_.shot.feather_px * static_cast<float>(chart_.texels_per_px);
+    const bool both = !options_.shot.left_only;
+    const ViewBlend blend(chart_, planes, bands_, both ? options_.highlight_level : 0, both ? margin_px : 0, context_);
     if (context_.stop()) return stopped;
     shade(planes, blend);
     if (context_.stop()) return stopped;
@@ -60,10 +62,9 @@ class Layer {
   bool seen_whole(const std::array<std::uint32_t, 3>& t) const { return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0; }
   std::size_t atlas_index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) + static_cast<std::size_t>(x); }
 
-  // Which triangles the main chart shows, and which vertices a camera both measured and saw.
+  // Which triangles the main chart shows, and which vertices a camera saw.
   void choose(const VertexViews& views) {
-    for (std::size_t v = 0; v < photographed_.size(); ++v)
-      photographed_[v] = views.seen[v] != 0 && (mesh_.measured.empty() || mesh_.measured[v] != 0) ? 1 : 0;
+    for (std::size_t v = 0; v < photographed_.size(); ++v) photographed_[v] = views.seen[v] != 0 ? 1 : 0;
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const auto& t = mesh_.triangles[k];
       const auto in_front = [&](std::uint32_t v) { return maps_[0].sees(chart_.texel[v], chart_.disparity_px[v], kOwnPx); };
@@ -224,7 +225,7 @@ class Layer {
   RowBands bands_;
   std::array<FrontMap, 3> maps_;                    // middle, left, right
   std::pmr::vector<std::uint8_t> kept_;             // a triangle: 1 in the main chart
-  std::pmr::vector<std::uint8_t> photographed_;     // a vertex: 1 measured, and seen by a camera
+  std::pmr::vector<std::uint8_t> photographed_;     // a vertex: 1 seen by a camera
   std::pmr::vector<std::uint8_t> known_;            // a vertex: 1 where a photograph gave it its colour
   std::pmr::vector<VertexColour> colours_;
   SideCharts sides_;

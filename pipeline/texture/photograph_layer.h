@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // PhotographLayer: the whole way from a surface and its photographs to an atlas; both texturers use it.
-// Surface that no camera measured or saw is filled smoothly from its surroundings and flagged in
-// `origin`; it never shows a photograph.
+// Surface that a camera saw shows its photograph, measured or not; what none saw is filled smoothly from its
+// surroundings and flagged in `origin`.
 // Memory: the atlas in `output`, the rest in `scratch`. Thread: any; works on the pool, and the result
 // does not depend on its size. Errors: InvalidInput, Cancelled; throws std::bad_alloc.
 #pragma once

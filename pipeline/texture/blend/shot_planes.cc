@@ -5,11 +5,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/mesh/vector_math.h"
 #include "pipeline/texture/chart/box_window.h"
 #include "pipeline/texture/blend/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {
+
+// Completed surface that a view would only graze may lie behind what that view shows there; at the outline, beyond the head.
+constexpr float kLeastCosine = 0.2F, kLeastCosineAtOutline = 0.5F;
+
+// 1 at vertices that were completed and are joined by such to the surface's border nearby.
+std::pmr::vector<std::uint8_t> completed_at_outline(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
+  constexpr float kReachMm = 12;
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // 0 where the triangles around a vertex close
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+  std::pmr::vector<std::uint32_t> from(mesh.vertices_mm.size(), kNone, memory);  // which vertex of the border
+  const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
+  for (std::uint32_t v = 0; v < from.size(); ++v)
+    if (turn[v] != 0 && completed(v)) from[v] = v;
+  bool grown = true;
+  const auto grow = [&](const std::array<std::uint32_t, 3>& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t border = from[t[i]];
+      if (border == kNone) continue;
+      for (const std::uint32_t v : t)
+        if (from[v] == kNone && completed(v) && mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[border]) < kReachMm * kReachMm)
+          from[v] = border, grown = true;
+    }
+  };
+  while (grown) {  // triangles run along rows: a pass each way reaches far
+    grown = false;
+    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), grow);
+    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), grow);
+  }
+  std::pmr::vector<std::uint8_t> marked(from.size(), 0, memory);
+  for (std::size_t v = 0; v < from.size(); ++v) marked[v] = from[v] != kNone ? 1 : 0;
+  return marked;
+}
 
 float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) {
   const Vec3f d{camera.x - at.x, camera.y - at.y, camera.z - at.z};
@@ -121,17 +156,21 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   const std::size_t n = mesh.vertices_mm.size();
   const Vec3d c = inverse(pair.right_from_left).translation_mm;
   const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+  const auto at_outline = completed_at_outline(mesh, memory);
   VertexViews views(memory);
   views.share.resize(n);
   views.seen.resize(n);
   for (std::size_t v = 0; v < n; ++v) {
+    const float towards_left = cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]);
+    const float towards_right = cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]);
+    const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : at_outline[v] != 0 ? kLeastCosineAtOutline : kLeastCosine;
     if (chart.placed[v] != 0) {
-      if (left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenLeft;
-      if (!options.left_only && right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenRight;
+      if (towards_left >= least && left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenLeft;
+      if (!options.left_only && towards_right >= least && right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenRight;
     }
     if (options.left_only) continue;
-    const float l = std::pow(cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]), options.angle_power);
-    const float r = std::pow(cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]), options.angle_power);
+    const float l = std::pow(towards_left, options.angle_power);
+    const float r = std::pow(towards_right, options.angle_power);
     views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
   }
   return views;

@@ -10,14 +10,16 @@
 
 namespace relievo::pipeline {
 
-ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, StageContext& context)
+ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, float margin_px, StageContext& context)
     : chart_(chart), planes_(planes), exposure_(match_exposure(chart, planes)), excess_(chart.size(), std::int16_t{0}, &context.scratch),
       shines_(chart.size(), std::uint8_t{0}, &context.scratch) {
   // Noise and what is left between the exposures are no highlight, whatever was asked for.
   constexpr float kSigmas = 3;
   if (highlight_level > 0) level_ = std::max(highlight_level, kSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
   if (level_ > 0) find_highlights(bands, context);
-  if (!context.stop()) field_.emplace(chart, planes, exposure_, shines_, &context.scratch);
+  if (context.stop()) return;
+  field_.emplace(chart, planes, exposure_, shines_, &context.scratch);
+  if (margin_px > 0) choice_.emplace(chart, planes, exposure_, *field_, margin_px, &context.scratch);
 }
 
 float ViewBlend::excess_of(const std::uint8_t* left, const std::uint8_t* right) const {
@@ -69,9 +71,11 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
 }
 
 ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) const {
-  const float by_left = (1 - v.share) * static_cast<float>(v.say_left);
-  const float by_right = v.share * static_cast<float>(v.say_right);
-  float share = v.share;
+  constexpr float kLeast = 0.004F;  // of a view not chosen: it shows what the chosen one cannot see
+  const ViewChoice::Choice choice = choice_ ? choice_->at(texel_x, texel_y) : ViewChoice::Choice{};
+  float share = std::clamp(v.share * (1 - choice.strength) + choice.right, kLeast * choice.strength, 1 - kLeast * choice.strength);
+  const float by_left = (1 - share) * static_cast<float>(v.say_left);
+  const float by_right = share * static_cast<float>(v.say_right);
   if (by_left + by_right > 0) {
     share = by_right / (by_left + by_right);
   } else if ((v.seen & (kSeenLeft | kSeenRight)) != (kSeenLeft | kSeenRight)) {
@@ -79,7 +83,7 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
   }
   // The darker view takes over where both have something to say; from one level of excess to two.
   if (level_ > 0 && v.say_left != 0 && v.say_right != 0) {
-    const float trust = std::clamp(std::abs(v.excess) / level_ - 1, 0.0F, 1.0F);
+    const float trust = (1 - choice.strength) * std::clamp(std::abs(v.excess) / level_ - 1, 0.0F, 1.0F);
     share += trust * ((v.excess > 0 ? 1.0F : 0.0F) - share);
   }
   const LevelField::Level level = field_->at(texel_x, texel_y);

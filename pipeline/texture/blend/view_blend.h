@@ -3,7 +3,8 @@
 //
 // ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel,
 // after the exposures are matched, it shows light mirrored towards that camera (Shafer: Using color to
-// separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the skin.
+// separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the skin. Where they
+// disagree otherwise, something moved: one camera shows the whole of it (view_choice.h).
 // Thread: prepared by one, then mix() by any number.
 #pragma once
 
@@ -14,13 +15,14 @@
 #include "pipeline/texture/blend/exposure_match.h"
 #include "pipeline/texture/blend/level_field.h"
 #include "pipeline/texture/blend/shot_planes.h"
+#include "pipeline/texture/blend/view_choice.h"
 
 namespace relievo::pipeline {
 
 class ViewBlend {
  public:
-  // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both.
-  ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, StageContext& context);
+  // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both. `margin_px`: see ViewChoice.
+  ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, float margin_px, StageContext& context);
 
   struct Colour { float rgb[3]; float share; };  // share of the right photograph in it
   // Where a photograph shows the surface: say_* 0 to 255, `excess` how much brighter the left one is.
@@ -41,6 +43,7 @@ class ViewBlend {
   std::pmr::vector<std::int16_t> excess_; // sixteenths of a grey level, smoothed
   std::pmr::vector<std::uint8_t> shines_;
   std::optional<LevelField> field_;
+  std::optional<ViewChoice> choice_;     // none where one view alone counts
 };
 
 }  // namespace relievo::pipeline

@@ -5,11 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/mesh/vector_math.h"
+
 namespace relievo::pipeline {
 namespace {
 
 bool all_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   return mesh.measured.empty() || (mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0);
+}
+
+// Whether the chart must reach a vertex: measured, or completed and turned to the camera.
+bool frames(const FaceMesh& mesh, std::size_t v) {
+  constexpr float kLeastCosine = 0.2F;
+  return mesh.measured.empty() || mesh.measured[v] != 0 ||
+         -mesh::dot(mesh.normals[v], mesh.vertices_mm[v]) > kLeastCosine * mesh::length(mesh.vertices_mm[v]);
 }
 
 // Where every vertex falls, in pixels of the middle view; placed: inside both windows.
@@ -80,7 +89,7 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
   Vec2d from{1e9, 1e9};
   Vec2d to{-1e9, -1e9};
   for (std::size_t v = 0; v < n; ++v) {
-    if (chart.placed[v] == 0 || (!mesh.measured.empty() && mesh.measured[v] == 0)) continue;
+    if (chart.placed[v] == 0 || !frames(mesh, v)) continue;
     const Vec2d at{static_cast<double>(chart.texel[v].x), static_cast<double>(chart.texel[v].y)};
     from = {std::min(from.x, at.x), std::min(from.y, at.y)};
     to = {std::max(to.x, at.x), std::max(to.y, at.y)};

@@ -147,14 +147,14 @@ TEST_P(TexturerContract, TheSameTwiceAndForAnyNumberOfThreads) {
   }
 }
 
-// A cross is painted on what the mesh says was not measured: it must not be shown.
-TEST_P(TexturerContract, NothingInventedIsShownAsPhotograph) {
+// Whether a surface was measured says nothing of whether a camera saw it: a square is painted where the mesh was completed.
+TEST_P(TexturerContract, WhatWasCompletedShowsThePhotographOfIt) {
   FaceMesh mesh = plane_mesh();
   RectifiedPair pair = photographed([](double, double) { return kDepth; });
-  const auto inside = [](double x, double y) { return std::abs(x) < 25 && std::abs(y) < 25; };
+  const auto within = [](const Vec3f& v, float mm) { return std::abs(v.x) < mm && std::abs(v.y) < mm; };
   for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
-    if (inside(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y))) mesh.measured[v] = 0;
-  const auto smear = [&](RectifiedView& view, const Vec2d& centre, double camera_x) {
+    if (within(mesh.vertices_mm[v], 25)) mesh.measured[v] = 0;
+  const auto paint = [&](RectifiedView& view, const Vec2d& centre, double camera_x) {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
@@ -164,34 +164,20 @@ TEST_P(TexturerContract, NothingInventedIsShownAsPhotograph) {
         p[0] = 255, p[1] = 0, p[2] = 0;
       }
   };
-  smear(pair.left, pair.left_centre_px, 0);
-  smear(pair.right, pair.right_centre_px, kBaseline);
+  paint(pair.left, pair.left_centre_px, 0);
+  paint(pair.right, pair.right_centre_px, kBaseline);
   StageRoom room;
   const auto atlas = texture(mesh, pair, room);
   ASSERT_TRUE(atlas);
-  ASSERT_EQ(atlas->origin.size() * 3, atlas->rgb.size());
-  std::size_t filled = 0;
-  for (std::size_t k = 0; k < atlas->origin.size(); ++k) {
-    EXPECT_GT(atlas->rgb[3 * k + 1], 50) << "the cross is nowhere in the atlas";
-    filled += atlas->origin[k] == kFilledTexel ? 1 : 0;
+  std::size_t painted = 0;
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    if (!within(mesh.vertices_mm[v], 18)) continue;
+    ++painted;
+    EXPECT_GT(atlas->vertex_rgb[3 * v], 240);
+    EXPECT_LT(atlas->vertex_rgb[3 * v + 1], 15);
   }
-  EXPECT_GT(filled, 3000u);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec2f* uv = &atlas->uv[3 * t];
-    const int x = static_cast<int>((uv[0].x + uv[1].x + uv[2].x) / 3 * static_cast<float>(atlas->width_px));
-    const int y = static_cast<int>((uv[0].y + uv[1].y + uv[2].y) / 3 * static_cast<float>(atlas->height_px));
-    const std::uint8_t origin = atlas->origin[static_cast<std::size_t>(y * atlas->width_px + x)];
-    const auto& v = mesh.triangles[t];
-    if (mesh.measured[v[0]] == 0 || mesh.measured[v[1]] == 0 || mesh.measured[v[2]] == 0) EXPECT_EQ(origin, kFilledTexel);
-    else EXPECT_GE(origin, kLeftPhotographTexel);
-  }
-  // Smooth: no neighbour inside differs by more than the paint's own slope at the border allows.
-  for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t a = t[i], b = t[(i + 1) % 3];
-      if (mesh.measured[a] != 0 || mesh.measured[b] != 0) continue;
-      EXPECT_LT(std::abs(int{atlas->vertex_rgb[3 * a + 1]} - int{atlas->vertex_rgb[3 * b + 1]}), 30);
-    }
+  EXPECT_GT(painted, 50U);
+  EXPECT_EQ(std::count(atlas->origin.begin(), atlas->origin.end(), kFilledTexel), 0) << "every part of a plane before the cameras is seen";
 }
 
 // A second plane 40 mm behind, seen from its back: no camera measured it, and no texel is shared with the front.

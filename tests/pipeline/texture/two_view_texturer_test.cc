@@ -117,6 +117,38 @@ TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
   EXPECT_GT(kept, 55);
 }
 
+// A dark bar, as a mouth is, that stood 4 mm lower when the right picture was taken: shown once, as one camera saw it.
+TEST(TwoViewTexturer, WhatMovedBetweenThePicturesIsShownOnce) {
+  const FaceMesh mesh = plane_mesh();
+  const auto in_bar = [](double x, double y, double middle) { return std::abs(x) < 22 && std::abs(y - middle) < 2; };
+  const auto draw = [&](RectifiedView& view, const Vec2d& centre, double camera_x, double middle) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
+        const double at_y = (y - centre.y) / kFocal * kDepth;
+        if (in_bar(at_x, at_y, middle)) std::fill_n(&view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)], 3, std::uint8_t{20});
+      }
+  };
+  RectifiedPair pair = photographed_plane();
+  draw(pair.left, pair.left_centre_px, 0, 0);
+  draw(pair.right, pair.right_centre_px, kBaseline, 4);
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  std::array<double, 2> worst{0, 0};  // against what the left and the right camera saw
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& p = mesh.vertices_mm[v];
+    for (std::size_t view = 0; view < 2; ++view) {
+      const double middle = 4.0 * static_cast<double>(view);
+      if (std::abs(p.x) > 15 || std::abs(p.y) > 10 || std::abs(std::abs(double(p.y) - middle) - 2) < 1) continue;  // not the bar's edge
+      const double truth = in_bar(double(p.x), double(p.y), middle) ? 20 : paint(double(p.x), double(p.y)).y;
+      worst[view] = std::max(worst[view], std::abs(double(atlas->vertex_rgb[3 * v + 1]) - truth));
+    }
+  }
+  EXPECT_LT(std::min(worst[0], worst[1]), 20);
+  EXPECT_GT(std::max(worst[0], worst[1]), 50);
+}
+
 TEST(TwoViewTexturer, AnUnderexposedRightViewLeavesNoTrace) {
   StageRoom room;
   const FaceMesh mesh = plane_mesh();
