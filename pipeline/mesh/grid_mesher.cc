@@ -5,20 +5,27 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "pipeline/mesh/catalogue/base_sheet.h"
+#include "pipeline/mesh/lattice/face_closer.h"
 #include "pipeline/mesh/lattice/gap_closer.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
+#include "pipeline/mesh/lattice/middle_lattice.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/mesh/vector_math.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kCutAway = 0.009;  // of the triangles, by the outline's cut
+constexpr double kCutAway = 0.018;  // of the triangles, by the outline's cut
+constexpr float kRoomMm = 25;      // around what was measured, for what is completed
+constexpr float kKeptOfFace = 0.4F;  // of what lies around a cell, so much must be in
+constexpr float kSteepestCompleted = 28.6F;  // tangent of 88 degrees: the side of a nose that no camera saw
 constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
@@ -42,23 +49,37 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
   return shaped;
 }
 
-CutSurface make_surface(PointLattice lattice, double triangles, const GridMesherOptions& o, Arena& scratch) {
+Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesherOptions& o, StageContext& context) {
+  Arena& scratch = context.scratch;
   const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
                              static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
+  PointLattice lattice = make_lattice(cloud, &scratch);
+  if (cloud.middle.exists()) lattice = lay_in_middle_view(lattice, cloud.middle, limits, kRoomMm, &scratch);
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
   close_gaps(lattice, surface, {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
              shaper, &scratch);
   // After the gaps: a crack must not make a narrow place of a wide one.
-  const OutlineLimits outline{limits.max_slope, tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm),
-                              static_cast<float>(o.outline_wave_mm)};
-  CellMask inside = trim_outline(lattice, surface, outline, shaper, &scratch);
+  OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
+  CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
+  std::optional<FaceOutline> outline;
+  if (cloud.middle.exists()) {
+    RELIEVO_TRY_ASSIGN(outline, close_face(lattice, surface, shaper, context));
+  }
+  float max_slope = limits.max_slope;
+  if (outline) {
+    max_slope = kSteepestCompleted;
+    for (std::size_t k = 0; k < inside.size(); ++k) inside[k] = surface.cells[k] != 0;
+    shaper.fill_holes(inside);
+    shaper.open(inside, trimming.min_width_mm / 2);
+    shaper.straighten(inside, trimming.wave_mm, kKeptOfFace);
+  }
   const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm), static_cast<float>(o.rim_smoothing_mm)};
-  const ShapedLattice shaped = fill_budget({std::move(lattice), std::move(surface), std::move(inside)}, triangles, limits.max_slope, o, scratch);
-  CutSurface cut = cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, limits.max_slope, &scratch);
+  const ShapedLattice shaped = fill_budget({std::move(lattice), std::move(surface), std::move(inside), outline.has_value()}, triangles, max_slope, o, scratch);
+  CutSurface cut = cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
   keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
-  if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, limits.max_slope}, &scratch) > 0)
+  if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, max_slope}, &scratch) > 0)
     keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
   return cut;
 }
@@ -111,9 +132,7 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   for (;;) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
-    PointLattice lattice = make_lattice(cloud, &context.scratch);
-    context.progress.done.store(0.2F, std::memory_order_relaxed);
-    const CutSurface surface = make_surface(std::move(lattice), triangles, options_, context.scratch);
+    RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, options_, context));
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2) return no_surface();
@@ -121,14 +140,16 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
       triangles *= 1 - kCutAway / 2;
       continue;
     }
-    FaceMesh mesh = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
+    const Vec3d& at = cloud.middle.at_mm;
+    const Vec3f origin{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+    FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
       const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
-      return PackedVertex{surface.at_mm[v], surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
+      return PackedVertex{mesh::plus(surface.at_mm[v], origin), surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
     });
-    compute_normals(mesh, options_.normal_passes, &context.scratch);
-    turn_sigma_perpendicular(mesh);
+    compute_normals(made, options_.normal_passes, &context.scratch);
+    turn_sigma_perpendicular(made);
     context.progress.done.store(1, std::memory_order_relaxed);
-    return mesh;
+    return made;
   }
 }
 

@@ -3,16 +3,12 @@
 #include "pipeline/mesh/model_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <iterator>
 
 namespace relievo::pipeline {
 namespace {
-
-// The front of the face: a disc around the tip of the nose, looked at from straight ahead.
-constexpr double kFrontRadiusMm = 60;
-constexpr double kCellMm = 2;
-constexpr int kCells = 2 * static_cast<int>(kFrontRadiusMm / kCellMm) + 1;
 
 double triangle_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
@@ -21,28 +17,14 @@ double triangle_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return 0.5 * std::sqrt(nx * nx + ny * ny + nz * nz);
 }
 
-double front_coverage(const FaceMesh& mesh, const HeadFrame& frame, Arena& scratch) {
-  Arena::Mark mark(scratch);
-  std::pmr::vector<std::uint8_t> seen(static_cast<std::size_t>(kCells * kCells), 0, &scratch);
-  for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k) {
-    if (mesh.measured[k] == 0) continue;
-    const Vec3f& v = mesh.vertices_mm[k];
-    const Vec3d p = apply(frame.head_from_camera, {v.x, v.y, v.z});
-    if (std::hypot(p.x, p.y) > kFrontRadiusMm) continue;
-    const int i = static_cast<int>(std::lround((p.x + kFrontRadiusMm) / kCellMm));
-    const int j = static_cast<int>(std::lround((p.y + kFrontRadiusMm) / kCellMm));
-    seen[static_cast<std::size_t>(std::clamp(j, 0, kCells - 1) * kCells + std::clamp(i, 0, kCells - 1))] = 1;
-  }
-  int inside = 0;
-  int covered = 0;
-  for (int j = 0; j < kCells; ++j)
-    for (int i = 0; i < kCells; ++i) {
-      if (std::hypot(i * kCellMm - kFrontRadiusMm, j * kCellMm - kFrontRadiusMm) > kFrontRadiusMm - kCellMm) continue;
-      ++inside;
-      covered += seen[static_cast<std::size_t>(j * kCells + i)];
-    }
-  return static_cast<double>(covered) / inside;
-}
+// What a visitor looks at first, in the head's frame; mm. The mouth lies that far below the nose, however it is opened.
+struct Feature { double x, y, half_width, half_height; };
+constexpr Feature kFeatures[] = {{0, -44, 24, 12}, {0, 0, 14, 14}, {31, 38, 15, 8}, {-31, 38, 15, 8}};
+
+struct Share {
+  double measured = 0, all = 0;
+  double value() const { return all > 0 ? measured / all : 0; }
+};
 
 double median_sigma(const FaceMesh& mesh, Arena& scratch) {
   Arena::Mark mark(scratch);
@@ -60,11 +42,25 @@ double median_sigma(const FaceMesh& mesh, Arena& scratch) {
 
 ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, StageContext& context) {
   ModelQuality quality;
-  for (const auto& t : mesh.triangles)
-    if (mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0)
-      quality.measured_area_mm2 += triangle_area(mesh.vertices_mm[t[0]], mesh.vertices_mm[t[1]], mesh.vertices_mm[t[2]]);
+  Share face;
+  std::array<Share, std::size(kFeatures)> features;
+  for (const auto& t : mesh.triangles) {
+    const Vec3f &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
+    const double area = triangle_area(a, b, c);
+    const double measured = mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0 ? area : 0;
+    const auto add = [&](Share& share) {
+      share.all += area;
+      share.measured += measured;
+    };
+    add(face);
+    const Vec3d p = apply(frame.head_from_camera, {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)});
+    for (std::size_t i = 0; i < features.size(); ++i)
+      if (std::abs(p.x - kFeatures[i].x) < kFeatures[i].half_width && std::abs(p.y - kFeatures[i].y) < kFeatures[i].half_height) add(features[i]);
+  }
+  quality.measured_area_mm2 = face.measured;
+  quality.coverage = face.value();
+  for (const Share& feature : features) quality.coverage = std::min(quality.coverage, feature.value());
   quality.median_sigma_mm = median_sigma(mesh, context.scratch);
-  quality.coverage = front_coverage(mesh, frame, context.scratch);
   quality.width_mm = frame.width_mm;
   quality.height_mm = frame.height_mm;
   quality.nose_relief_mm = frame.nose_relief_mm;

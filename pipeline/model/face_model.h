@@ -16,7 +16,8 @@ namespace relievo::pipeline {
 struct ModelQuality {
   double median_sigma_mm = 0;       // of the measured vertices
   double measured_area_mm2 = 0;
-  double coverage = 0;              // share of the front of the face (60 mm around the nose) that was measured
+  double coverage = 0;              // share of what is shown that was measured, the rest is completed: of the whole, or of
+                                    // mouth, nose or an eye, whichever has the least
   double width_mm = 0;              // of the surface in the head frame, first to last percentile
   double height_mm = 0;
   double nose_relief_mm = 0;        // tip of the nose in front of the cheeks

@@ -10,24 +10,61 @@
 namespace relievo::pipeline {
 namespace {
 
-float usual_sigma(const PointLattice& lattice, const CellMask& carrying, std::uint32_t k) {
-  const int c = static_cast<int>(k) % lattice.columns;
-  const int r = static_cast<int>(k) / lattice.columns;
-  float sum = 0;
-  float count = 0;
-  for (int reach = 1; count == 0 && reach < std::max(lattice.columns, lattice.rows); ++reach)
-    for (int y = r - reach; y <= r + reach; ++y)
-      for (int x = c - reach; x <= c + reach; ++x) {
-        if (!lattice.inside(x, y) || !carrying[lattice.index(x, y)]) continue;
-        sum += lattice.sigma_mm[lattice.index(x, y)];
-        count += 1;
-      }
-  return count > 0 ? sum / count : 1;
+constexpr double kFarthest = 1e-5;  // 1 / mm: a hundred metres
+
+// Twice the sigma of the carrying nodes nearby, from ring to ring.
+void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free, std::pmr::memory_resource* memory) {
+  CellMask known = carrying;
+  std::pmr::vector<std::uint32_t> ring(memory);
+  std::pmr::vector<std::uint32_t> left(free.begin(), free.end(), memory);
+  while (!left.empty()) {
+    ring.clear();
+    for (const std::uint32_t k : left) {
+      const int c = static_cast<int>(k) % lattice.columns;
+      const int r = static_cast<int>(k) / lattice.columns;
+      float sum = 0;
+      float count = 0;
+      for (int y = r - 1; y <= r + 1; ++y)
+        for (int x = c - 1; x <= c + 1; ++x) {
+          if (!lattice.inside(x, y) || !known[lattice.index(x, y)]) continue;
+          sum += lattice.sigma_mm[lattice.index(x, y)] * (carrying[lattice.index(x, y)] ? 2 : 1);
+          count += 1;
+        }
+      if (count == 0) continue;
+      lattice.sigma_mm[k] = sum / count;
+      ring.push_back(k);
+    }
+    if (ring.empty()) {  // an island without surface
+      for (const std::uint32_t k : left) lattice.sigma_mm[k] = 1;
+      return;
+    }
+    for (const std::uint32_t k : ring) known[k] = 1;
+    std::erase_if(left, [&](std::uint32_t k) { return known[k] != 0; });
+  }
+}
+
+// In a view's lattice a node stays on its line of sight and the plate is one of inverse depths: a plane is linear in them, and no
+// fold can arise. Elsewhere each coordinate is a plate.
+void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying, std::span<const double> like, std::pmr::memory_resource* memory) {
+  const PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
+  std::pmr::vector<double> value(l.size(), 0.0, memory);
+  if (l.view.exists()) {
+    for (std::size_t k = 0; k < l.size(); ++k)
+      if (carrying[k]) value[k] = 1 / l.depth_mm(k);
+    relax_thin_plate(value, grid, free, carrying, like, memory);
+    for (const std::uint32_t k : free) l.at_mm[k] = l.on_sight(k, 1 / std::max(value[k], kFarthest));
+    return;
+  }
+  for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+    for (std::size_t k = 0; k < l.size(); ++k) value[k] = static_cast<double>(l.at_mm[k].*axis);
+    relax_thin_plate(value, grid, free, carrying, {}, memory);
+    for (const std::uint32_t k : free) l.at_mm[k].*axis = static_cast<float>(value[k]);
+  }
 }
 
 }  // namespace
 
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
+void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::span<const double> like,
                 std::pmr::memory_resource* memory) {
   CellMask carrying(lattice.size(), 0, memory);
   CellMask listed(lattice.size(), 0, memory);
@@ -41,11 +78,9 @@ void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& 
   free.reserve(static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 1)));
   for (std::uint32_t k = 0; k < listed.size(); ++k)
     if (listed[k]) free.push_back(k);
-  for (const std::uint32_t k : free) {
-    lattice.node[k] = Node::Filled;
-    lattice.sigma_mm[k] = 2 * usual_sigma(lattice, carrying, k);
-  }
-  relax_thin_plate(lattice, free, carrying, memory);
+  for (const std::uint32_t k : free) lattice.node[k] = Node::Filled;
+  spread_sigma(lattice, carrying, free, memory);
+  place(lattice, free, carrying, like, memory);
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (cells[k])
       if (const std::uint8_t cut = best_cut(lattice, k, max_slope)) surface.cells[k] = cut;

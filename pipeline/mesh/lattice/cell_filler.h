@@ -8,13 +8,16 @@
 #pragma once
 
 #include <memory_resource>
+#include <span>
 
 #include "pipeline/mesh/lattice/cell_mask.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 
 namespace relievo::pipeline {
 
-// `cells` must not touch the last column and row.
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::pmr::memory_resource* memory);
+// `cells` must not touch the last column and row. `like`: empty, or of a lattice with a view the
+// inverse depths (1 / mm) of another surface, see relax_thin_plate().
+void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::span<const double> like,
+                std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

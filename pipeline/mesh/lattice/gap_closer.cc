@@ -39,7 +39,7 @@ class GapCloser {
       for (int c = 0; c + 1 < lattice_.columns; ++c)
         if (std::uint8_t& gap = gap_[lattice_.index(c, r)]) gap = bridge({c, r});
     settle_crossings();
-    fill_cells(lattice_, surface_, gap_, limits_.max_slope, memory_);
+    fill_cells(lattice_, surface_, gap_, limits_.max_slope, {}, memory_);
     mend_pinholes();
   }
 
@@ -69,7 +69,7 @@ class GapCloser {
       gap_[k] = gap_[k] && !large_[k] && inner(k);
       if (gap_[k]) surface_.cells[k] = 0;
     }
-    fill_cells(lattice_, surface_, gap_, limits_.max_slope, memory_);
+    fill_cells(lattice_, surface_, gap_, limits_.max_slope, {}, memory_);
   }
 
   // Where a disc of the widest gap's size does not fit. The way back is a little longer than the way

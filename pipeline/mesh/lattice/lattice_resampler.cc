@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "pipeline/mesh/lattice/cubic_weights.h"
 #include "pipeline/mesh/vector_math.h"
 
 namespace relievo::pipeline {
@@ -23,12 +24,6 @@ struct Place { int column, row; float tx, ty; };
 void split(float at, int nodes, int& cell, float& t) {
   cell = std::clamp(static_cast<int>(at), 0, nodes - 2);
   t = at - static_cast<float>(cell);
-}
-
-std::array<float, 4> cubic_weights(float t) {
-  const float t2 = t * t;
-  const float t3 = t2 * t;
-  return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t), 0.5F * (t3 - t2)};
 }
 
 // The weights of the four corners a, b, c, d of lattice_surface.h on the surface of the cell; all 0 off it.
@@ -183,12 +178,17 @@ std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
   return parts;
 }
 
-std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, float max_slope) {
+std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, float max_slope, bool closed) {
   if (parts == 0) return 0;
   const std::size_t a = l.index(c, r);
   const std::size_t below = a + static_cast<std::size_t>(l.columns);
-  if (parts == (kFalling | kRising)) return best_cut(l, a, max_slope);
   const Vec3f &p = l.at_mm[a], &q = l.at_mm[a + 1], &o = l.at_mm[below], &d = l.at_mm[below + 1];
+  if (parts == (kFalling | kRising)) {
+    const std::uint8_t cut = best_cut(l, a, max_slope);
+    const bool completed = l.node[a] == Node::Filled || l.node[a + 1] == Node::Filled || l.node[below] == Node::Filled || l.node[below + 1] == Node::Filled;
+    if (cut != 0 || !closed || !completed) return cut;
+    return mesh::squared_distance(p, d) <= mesh::squared_distance(q, o) ? kFalling : kRising;
+  }
   const float min_cosine = cosine_of_slope(max_slope);
   if ((parts & kUnder) && facing(p, o, d, min_cosine)) return kUnder;
   if ((parts & kOver) && facing(p, d, q, min_cosine)) return kOver;
@@ -212,7 +212,7 @@ double expected_triangles(const ShapedLattice& old, float edge) {
 }
 
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory) {
-  ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
+  ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory), old.closed};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old);
   const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
@@ -227,7 +227,7 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
       const auto y = static_cast<std::size_t>(r);
       const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
       made.inside[k] = reader.inside(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
-      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope);
+      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
     }
   return made;
 }

@@ -20,6 +20,7 @@ struct ShapedLattice {
   PointLattice lattice;
   LatticeSurface surface;
   CellMask inside;  // what lies within the outline, holes included
+  bool closed = false;  // a closed face: what was completed may lie where the view does not see it
 };
 
 struct LatticeSpacing {

@@ -76,6 +76,10 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, const CellEdges& e, f
 
 }  // namespace
 
+bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx, int dy) {
+  return EdgeTest(lattice, limits).joined(column, row, dx, dy);
+}
+
 LatticeSurface join_neighbours(const PointLattice& l, const LatticeLimits& limits,
                                std::pmr::memory_resource* memory) {
   LatticeSurface surface(memory);

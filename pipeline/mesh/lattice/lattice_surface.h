@@ -37,6 +37,9 @@ struct LatticeSurface {
 
 inline int triangle_count(std::uint8_t cell) { return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1; }
 
+// Whether the node (column, row) and its neighbour (column + dx, row + dy) continue one surface.
+bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx, int dy);
+
 // Cuts every cell whose nodes continue one surface, along the shorter diagonal.
 LatticeSurface join_neighbours(const PointLattice& lattice, const LatticeLimits& limits,
                                std::pmr::memory_resource* memory);

@@ -33,6 +33,41 @@ void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr
   }
 }
 
+// What the outline gains by being straightened continues the surface within it. Where something was
+// measured that continues it too, the measurement stays; the last rows before the horizon often do not.
+void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted, float max_slope,
+          MaskShaper& shaper, std::pmr::memory_resource* memory) {
+  CellMask gained = before;
+  shaper.erode(gained, 1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (!before[k]) surface.cells[k] = 0;
+    gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
+                l.inside(static_cast<int>(k) % l.columns + 1, static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
+  }
+  const PointLattice measured(l, memory);
+  fill_cells(l, surface, gained, max_slope, {}, memory);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (l.node[k] == measured.node[k] || measured.node[k] == Node::Empty) continue;
+    if (length(minus(l.at_mm[k], measured.at_mm[k])) > kAgreeMm) continue;
+    l.at_mm[k] = measured.at_mm[k];
+    l.sigma_mm[k] = measured.sigma_mm[k];
+    l.node[k] = measured.node[k];
+  }
+  for (std::size_t k = 0; k < l.size(); ++k)
+    if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
+}
+
+// See outline.h; `bow_mm` is the radius of the disc.
+void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper, std::pmr::memory_resource* memory) {
+  CellMask near_outside(kept, memory);
+  for (std::uint8_t& cell : near_outside) cell ^= 1;
+  shaper.dilate(near_outside, kRimMm);
+  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
+  shaper.open(kept, bow_mm);
+}
+
+}  // namespace
+
 CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory) {
   std::pmr::vector<Vec3f> normal(l.size(), Vec3f{}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
@@ -57,41 +92,6 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
     }
   return steep;
 }
-
-// What the outline gains by being straightened continues the surface within it. Where something was
-// measured that continues it too, the measurement stays; the last rows before the horizon often do not.
-void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted, float max_slope,
-          MaskShaper& shaper, std::pmr::memory_resource* memory) {
-  CellMask gained = before;
-  shaper.erode(gained, 1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
-  for (std::size_t k = 0; k < l.size(); ++k) {
-    if (!before[k]) surface.cells[k] = 0;
-    gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
-                l.inside(static_cast<int>(k) % l.columns + 1, static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
-  }
-  const PointLattice measured(l, memory);
-  fill_cells(l, surface, gained, max_slope, memory);
-  for (std::size_t k = 0; k < l.size(); ++k) {
-    if (l.node[k] == measured.node[k] || measured.node[k] == Node::Empty) continue;
-    if (length(minus(l.at_mm[k], measured.at_mm[k])) > kAgreeMm) continue;
-    l.at_mm[k] = measured.at_mm[k];
-    l.sigma_mm[k] = measured.sigma_mm[k];
-    l.node[k] = measured.node[k];
-  }
-  for (std::size_t k = 0; k < l.size(); ++k)
-    if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
-}
-
-// See outline.h; `bow_mm` is the radius of the disc.
-void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper, std::pmr::memory_resource* memory) {
-  CellMask near_outside(kept, memory);
-  for (std::uint8_t& cell : near_outside) cell ^= 1;
-  shaper.dilate(near_outside, kRimMm);
-  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
-  shaper.open(kept, bow_mm);
-}
-
-}  // namespace
 
 CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
                       std::pmr::memory_resource* memory) {

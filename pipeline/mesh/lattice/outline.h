@@ -31,4 +31,7 @@ struct OutlineLimits {
 CellMask trim_outline(PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
                       MaskShaper& shaper, std::pmr::memory_resource* memory);
 
+// Cells whose surface, averaged over about 1.5 mm, is steeper than this tangent to the line of sight.
+CellMask steep_cells(const PointLattice& lattice, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory);
+
 }  // namespace relievo::pipeline

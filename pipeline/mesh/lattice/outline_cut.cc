@@ -84,7 +84,10 @@ class Cutter {
       : lattice_(lattice), surface_(surface), min_cosine_(cosine_of_slope(max_slope)), over_(lattice.size(), 1.0F, memory),
         snaps_(lattice.size(), Snap{}, memory), number_(lattice.size(), kNone, memory), cuts_(memory) {}
 
-  void draw_lines(const CellMask& inside, const OutlineSmoothing& smoothing, std::pmr::memory_resource* memory) {
+  void draw_lines(const CellMask& inside, const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, std::pmr::memory_resource* memory) {
+    if (outline)
+      for (std::size_t k = 0; k < over_.size(); ++k)
+        if (lattice_.node[k] != Node::Empty) over_[k] = std::min(over_[k], outline->depth_mm(lattice_.at_mm[k]));
     if (smoothing.outline_mm > 0)
       take_least(depth_inside(lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
     if (smoothing.rims_mm > 0)
@@ -248,9 +251,10 @@ class Cutter {
 }  // namespace
 
 CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, float max_slope, std::pmr::memory_resource* memory) {
+                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, float max_slope,
+                       std::pmr::memory_resource* memory) {
   Cutter cutter(lattice, surface, max_slope, memory);
-  if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, memory);
+  if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, outline, memory);
   return cutter.cut(memory);
 }
 

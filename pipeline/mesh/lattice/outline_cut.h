@@ -11,9 +11,11 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 #include "pipeline/mesh/lattice/cell_mask.h"
+#include "pipeline/mesh/lattice/face_outline.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 
 namespace relievo::pipeline {
@@ -34,8 +36,9 @@ struct OutlineSmoothing {
 };
 
 // `inside` is what lies within the outline, holes included. Triangles that the move would make steeper
-// than `max_slope` are left out. Throws std::bad_alloc when `memory` is used up.
+// than `max_slope` are left out. `outline`: nothing beyond this curve is kept. Throws std::bad_alloc when `memory` is used up.
 CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, float max_slope, std::pmr::memory_resource* memory);
+                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, float max_slope,
+                       std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -49,6 +49,11 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
 
 }  // namespace
 
+void measure_cells(PointLattice& lattice) {
+  lattice.cell_width_mm = usual_distance(lattice, 1, 0);
+  lattice.cell_height_mm = usual_distance(lattice, 0, 1);
+}
+
 PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* memory) {
   PointLattice lattice(memory);
   if (cloud.lattice_step_px <= 0) return lattice;
@@ -59,6 +64,8 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
   const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
   lattice.columns = steps(box.left, box.right) + 1;
   lattice.rows = steps(box.top, box.bottom) + 1;
+  lattice.first_px = {box.left, box.top};
+  lattice.step_px = step;
   const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
@@ -72,8 +79,7 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
     lattice.at_mm[k] = p.at_mm;
     lattice.sigma_mm[k] = p.sigma_mm;
   }
-  lattice.cell_width_mm = usual_distance(lattice, 1, 0);
-  lattice.cell_height_mm = usual_distance(lattice, 0, 1);
+  measure_cells(lattice);
   return lattice;
 }
 

@@ -8,7 +8,8 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kToolsEdge = 16;   // dp, above and below the tools that lie on the face
-constexpr double kWholeFace = 0.9, kMostOfTheFace = 0.7;   // share of the front that was measured
+// Share of what is shown that was measured, of the feature with the least: of an eye, whose cornea mirrors the lamps, half at best.
+constexpr double kWholeFace = 0.45, kMostOfTheFace = 0.3;
 constexpr double kSharp = 0.25;                            // of the photographed texels
 
 // No figures: they mean nothing to a visitor.

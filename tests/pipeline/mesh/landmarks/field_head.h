@@ -31,9 +31,14 @@ class FieldHead {
     return t;
   }
 
+  // The same, with what is known of the two views: the right camera beside the left one, both straight ahead.
+  PointCloud cloud_of_two(const hal::sim::HeadPose& pose, ThreadPool& pool, double noise_mm = 0.1) const {
+    PointCloud made = cloud(pose, pool, noise_mm);
+    made.middle = {{}, 2 / kSlope, {kWidth, kHeight}, {0.5 * kRight.x, 0, 0}};
+    return made;
+  }
+
   PointCloud cloud(const hal::sim::HeadPose& pose, ThreadPool& pool, double noise_mm = 0.1) const {
-    constexpr int kWidth = 200, kHeight = 260;
-    constexpr double kSlope = 0.0018;  // about a millimetre on the face
     const hal::sim::Mat3 to_head = pose.world_from_head().transposed();
     const auto in_head = [&](hal::sim::Vec3 p) { return to_head * (p - pose.origin_mm()); };
     std::vector<double> depth(kWidth * kHeight, 0);
@@ -57,10 +62,13 @@ class FieldHead {
   }
 
  private:
+  static constexpr int kWidth = 200, kHeight = 260;
+  static constexpr double kSlope = 0.0018;  // about a millimetre on the face
+  static constexpr hal::sim::Vec3 kRight{138, 0, 17};  // the right camera
+
   // Depth of the face on this ray; 0 where there is none or the right camera does not see it well.
   template <typename InHead>
   double march(InHead&& in_head, hal::sim::Vec3 ray) const {
-    const hal::sim::Vec3 right{138, 0, 17};
     double z = 420;
     for (int k = 0; k < 120 && z < 640; ++k) {
       const double d = field_.distance(in_head(ray * z));
@@ -70,7 +78,7 @@ class FieldHead {
       }
       const hal::sim::Vec3 p = in_head(ray * z), n = field_.gradient(p);
       const hal::sim::Vec3 tip = field_.nose.tip();
-      const hal::sim::Vec3 to_left = normalised(in_head({0, 0, 0}) - p), to_right = normalised(in_head(right) - p);
+      const hal::sim::Vec3 to_left = normalised(in_head({0, 0, 0}) - p), to_right = normalised(in_head(kRight) - p);
       if (length(p - tip) > 105 || dot(n, to_left) < 0.3 || dot(n, to_right) < 0.3) return 0;
       for (double s = 2; s < 60; s += 1.5)
         if (field_.distance(p + to_right * s) < 0) return 0;
