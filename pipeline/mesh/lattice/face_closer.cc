@@ -201,6 +201,7 @@ void sink_to_mirror(PointLattice& l, const LatticeSurface& surface, const FaceMe
 }  // namespace
 
 Result<std::optional<FaceOutline>> close_face(PointLattice& lattice, LatticeSurface& surface, MaskShaper& shaper, StageContext& context) {
+  const Arena::Mark mark(context.scratch);
   const FaceMesh rough = rough_surface(lattice, surface, context.scratch);
   const auto head = find_head_frame(rough, {}, context, lattice.view.at_mm);
   if (!head && head.error().code == Errc::Cancelled) return head.error();

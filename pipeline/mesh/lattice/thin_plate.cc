@@ -116,20 +116,27 @@ class Plate {
   }
 
   void list_differences() {
+    std::size_t count = 0;
+    for_each_difference([&](const Difference&) { ++count; });
+    differences_.reserve(count);
+    for_each_difference([this](const Difference& difference) { differences_.push_back(difference); });
+  }
+
+  template <typename Visit>
+  void for_each_difference(Visit&& visit) const {
     const double across = static_cast<double>(grid_.height_to_width);  // cells may be oblong
-    differences_.reserve(10 * free_.size());
     for (const std::uint32_t k : free_) {
       const int c = column(k);
       const int r = row(k);
       for (int d = -1; d <= 1; ++d) {
-        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, {across, -across, across, -across});
-        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, {1 / across, -1 / across, 1 / across, -1 / across});
+        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, {across, -across, across, -across}, visit);
+        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, {1 / across, -1 / across, 1 / across, -1 / across}, visit);
       }
       constexpr double kTwist = 1.41421356;
       for (int dr = -1; dr <= 0; ++dr)
         for (int dc = -1; dc <= 0; ++dc)
           take(k, {{{c + dc, r + dr}, {c + dc + 1, r + dr}, {c + dc, r + dr + 1}, {c + dc + 1, r + dr + 1}}},
-               {kTwist, -kTwist, -kTwist, kTwist});
+               {kTwist, -kTwist, -kTwist, kTwist}, visit);
     }
   }
 
@@ -161,7 +168,8 @@ class Plate {
   struct Place { int c, r; };
 
   // Each difference once: by the first of its free places.
-  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights) {
+  template <typename Visit>
+  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights, Visit&& visit) const {
     Difference difference;
     difference.weight = weights;
     for (std::size_t j = 0; j < 4; ++j) {
@@ -170,7 +178,7 @@ class Plate {
       if (known_[k] == 0 && (place_[k] == kNone || place_[k] < place_[owner])) return;
       difference.at[j] = k;
     }
-    differences_.push_back(difference);
+    visit(difference);
   }
 
   void bend() {  // change_ = differences of step_
