@@ -126,7 +126,7 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported, "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
 
-  // What the outline's cut takes is known once it is done: about a hundredth, which may be had more of before. Where it leaves
+  // What the outline's cut takes is known once it is done: about a fiftieth, which may be had more of before. Where it leaves
   // too many, a thinner lattice fits.
   double triangles = (1 + kCutAway) * options_.max_triangles;
   for (;;) {

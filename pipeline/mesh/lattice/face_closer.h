@@ -3,7 +3,8 @@
 //
 // Closes a face: everything within its outline (face_outline.h) that was not measured gets a surface that continues what was,
 // as curved as the mirrored other side where that was measured (thin_plate.h). Beside a nose, under it, in corners of eyes
-// and mouth, beyond what both cameras saw of a cheek. Measured nodes stay where they are.
+// and mouth, beyond what both cameras saw of a cheek. Measured nodes stay where they
+// are, but for the steep last two millimetres before a hole, which are laid anew.
 #pragma once
 
 #include <optional>
