@@ -12,7 +12,6 @@
 #include "pipeline/mesh/lattice/face_closer.h"
 #include "pipeline/mesh/lattice/gap_closer.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
-#include "pipeline/mesh/lattice/middle_lattice.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
@@ -23,9 +22,6 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kCutAway = 0.018;  // of the triangles, by the outline's cut
-constexpr float kRoomMm = 25;      // around what was measured, for what is completed
-constexpr float kKeptOfFace = 0.4F;  // of what lies around a cell, so much must be in
-constexpr float kSteepestCompleted = 28.6F;  // tangent of 88 degrees: the side of a nose that no camera saw
 constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 
 float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
@@ -49,38 +45,42 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
   return shaped;
 }
 
+// What was seen from within a head, as the cameras see it.
+void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
+  const Vec3f centre{static_cast<float>(centre_mm.x), static_cast<float>(centre_mm.y), static_cast<float>(centre_mm.z)};
+  for (Vec3f& v : cut.at_mm) v = mesh::plus(v, centre);
+  for (auto& t : cut.triangles) std::swap(t[1], t[2]);
+}
+
 Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesherOptions& o, StageContext& context) {
   Arena& scratch = context.scratch;
   const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
                              static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
-  if (cloud.middle.exists()) lattice = lay_in_middle_view(lattice, cloud.middle, limits, kRoomMm, &scratch);
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
   close_gaps(lattice, surface, {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
              shaper, &scratch);
   // After the gaps: a crack must not make a narrow place of a wide one.
-  OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
+  const Vec3d& right = cloud.right_camera_mm;
+  const Vec3f between_cameras{static_cast<float>(right.x / 2), static_cast<float>(right.y / 2), static_cast<float>(right.z / 2)};
+  const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), between_cameras, static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
   CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
-  std::optional<FaceOutline> outline;
-  if (cloud.middle.exists()) {
-    RELIEVO_TRY_ASSIGN(outline, close_face(lattice, surface, shaper, context));
+  std::optional<ClosedFace> closed;
+  if (right.x != 0 || right.y != 0 || right.z != 0) {
+    RELIEVO_TRY_ASSIGN(closed, close_face(lattice, surface, right, limits, context));
   }
-  float max_slope = limits.max_slope;
-  if (outline) {
-    max_slope = kSteepestCompleted;
-    for (std::size_t k = 0; k < inside.size(); ++k) inside[k] = surface.cells[k] != 0;
-    shaper.fill_holes(inside);
-    shaper.open(inside, trimming.min_width_mm / 2);
-    shaper.straighten(inside, trimming.wave_mm, kKeptOfFace);
-  }
+  const float max_slope = closed ? kSteepest : limits.max_slope;
+  const std::optional<FaceOutline> outline = closed ? std::optional(closed->outline) : std::nullopt;
   const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm), static_cast<float>(o.rim_smoothing_mm)};
-  const ShapedLattice shaped = fill_budget({std::move(lattice), std::move(surface), std::move(inside), outline.has_value()}, triangles, max_slope, o, scratch);
+  const ShapedLattice shaped = fill_budget(closed ? std::move(closed->shaped) : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
+                                           triangles, max_slope, o, scratch);
   CutSurface cut = cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
   keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
   if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, max_slope}, &scratch) > 0)
     keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  if (outline) turn_outwards(cut, outline->chart.centre_mm);
   return cut;
 }
 
@@ -140,11 +140,9 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
       triangles *= 1 - kCutAway / 2;
       continue;
     }
-    const Vec3d& at = cloud.middle.at_mm;
-    const Vec3f origin{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
     FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
       const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
-      return PackedVertex{mesh::plus(surface.at_mm[v], origin), surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
+      return PackedVertex{surface.at_mm[v], surface.sigma_mm[v], certain ? surface.measured[v] : std::uint8_t{0}};
     });
     compute_normals(made, options_.normal_passes, &context.scratch);
     turn_sigma_perpendicular(made);

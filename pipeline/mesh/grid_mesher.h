@@ -23,9 +23,9 @@
 namespace relievo::pipeline {
 
 struct GridMesherOptions {
-  int max_triangles = 320'000;        // the lattice is resampled to use them, and never more
+  int max_triangles = 470'000;        // the lattice is resampled to use them, and never more
   double finest_cells = 0.7;          // but to no finer than so many cells of the points' own lattice
-  double edge_cells = 1.55;            // where they are not enough for that: the outermost cells, in those of the middle
+  double edge_cells = 1.4;            // where they are not enough for that: the outermost cells, in those of the middle
   double max_incidence_deg = 77;      // steepest triangle, between its normal and the line of sight
   double step_sigmas = 4;             // a neighbour's depth may leave the local slope by this many sigmas ...
   double step_slope_ratio = 3;        // ... and by this many times the slope on either side

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "pipeline/model/geometry.h"
-#include "pipeline/model/middle_view.h"
 
 namespace relievo::pipeline {
 
@@ -22,7 +21,7 @@ struct PointCloud {
   explicit PointCloud(std::pmr::memory_resource* memory) : points(memory) {}
   std::pmr::vector<CloudPoint> points;
   int lattice_step_px = 0;  // left_px lie on a lattice with this step; 0 where scattered
-  MiddleView middle;        // of the two views that measured them
+  Vec3d right_camera_mm;    // where the other view stands; all 0 where there is none, or it is unknown
 };
 
 }  // namespace relievo::pipeline

@@ -17,7 +17,6 @@
 
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/geometry.h"
-#include "pipeline/model/middle_view.h"
 
 namespace relievo::pipeline {
 
@@ -55,10 +54,7 @@ struct RectifiedPair {
   double disparity_px(double depth_mm) const {
     return focal_px * baseline_mm / depth_mm + disparity_at_infinity_px();
   }
-  MiddleView middle_view() const {
-    return {rectified_from_left, focal_px, {0.5 * (left_centre_px.x + right_centre_px.x), left_centre_px.y},
-            apply(transposed(rectified_from_left), Vec3d{0.5 * baseline_mm, 0, 0})};
-  }
+  Vec3d right_camera_mm() const { return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0}); }  // in the left camera's frame
 };
 
 }  // namespace relievo::pipeline

@@ -16,7 +16,7 @@ Result<PointCloud> LinearTriangulator::triangulate(const RectifiedPair& pair, co
   if (accepted < 3) return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
   PointCloud cloud(&context.output);
   cloud.lattice_step_px = matches.lattice_step_px;
-  cloud.middle = pair.middle_view();
+  cloud.right_camera_mm = pair.right_camera_mm();
   cloud.points.reserve(accepted);
   const Rotation left_from_rectified = transposed(pair.rectified_from_left);
   const Eigen::Vector3d centre(pair.baseline_mm, 0, 0);  // of the right camera, rectified frame

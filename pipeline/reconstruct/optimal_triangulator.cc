@@ -62,7 +62,7 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
   if (accepted < 3) return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
   PointCloud cloud(&context.output);
   cloud.lattice_step_px = matches.lattice_step_px;
-  cloud.middle = pair.middle_view();
+  cloud.right_camera_mm = pair.right_camera_mm();
   cloud.points.reserve(accepted);
   const Frames frames(pair);
   const double f = pair.focal_px;

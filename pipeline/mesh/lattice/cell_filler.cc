@@ -10,7 +10,9 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kFarthest = 1e-5;  // 1 / mm: a hundred metres
+constexpr double kLeastRadiusMm = 1;
+constexpr double kBesideMm = 2.5;  // over more than this a plate runs beside the surface it is like
+constexpr double kBowMm = 40;      // where nothing says otherwise skin bends back from a ball about the chart's centre, by 1 / this
 
 // Twice the sigma of the carrying nodes nearby, from ring to ring.
 void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free, std::pmr::memory_resource* memory) {
@@ -43,16 +45,19 @@ void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<con
   }
 }
 
-// In a view's lattice a node stays on its line of sight and the plate is one of inverse depths: a plane is linear in them, and no
-// fold can arise. Elsewhere each coordinate is a plate.
+// On a head's chart a node stays on its ray and the plate is one of radii: no fold can arise, and what nothing bends is round as
+// a head is. Elsewhere each coordinate is a plate.
 void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying, std::span<const double> like, std::pmr::memory_resource* memory) {
-  const PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
+  PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
   std::pmr::vector<double> value(l.size(), 0.0, memory);
-  if (l.view.exists()) {
+  if (l.chart) {
+    const double cell = static_cast<double>(l.cell_width_mm);
+    grid.tension = cell / kBesideMm;
+    grid.bow = -cell * cell / kBowMm;
     for (std::size_t k = 0; k < l.size(); ++k)
-      if (carrying[k]) value[k] = 1 / l.depth_mm(k);
+      if (carrying[k]) value[k] = l.radius_mm(k);
     relax_thin_plate(value, grid, free, carrying, like, memory);
-    for (const std::uint32_t k : free) l.at_mm[k] = l.on_sight(k, 1 / std::max(value[k], kFarthest));
+    for (const std::uint32_t k : free) l.at_mm[k] = l.on_ray(k, std::max(value[k], kLeastRadiusMm));
     return;
   }
   for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {

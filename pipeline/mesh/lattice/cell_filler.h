@@ -15,8 +15,8 @@
 
 namespace relievo::pipeline {
 
-// `cells` must not touch the last column and row. `like`: empty, or of a lattice with a view the
-// inverse depths (1 / mm) of another surface, see relax_thin_plate().
+// `cells` must not touch the last column and row. `like`: empty, or on a head's chart the radii of
+// another surface, mm, see relax_thin_plate().
 void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::span<const double> like,
                 std::pmr::memory_resource* memory);
 

@@ -1,23 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Closes a face: everything within its outline (face_outline.h) that was not measured gets a surface that continues what was,
-// as curved as the mirrored other side where that was measured (thin_plate.h). Beside a nose, under it, in corners of eyes
-// and mouth, beyond what both cameras saw of a cheek. Measured nodes stay where they
-// are, but for the steep last two millimetres before a hole, which are laid anew.
+// Closes a face on its head's chart (head_chart.h): everything within its outline (face_outline.h) that was not measured gets a
+// surface that continues what was, as curved as the mirrored other side where that was measured (thin_plate.h). Beside a nose,
+// under it, in corners of eyes and mouth, beyond what both cameras saw of a cheek. Measured surface stays where it is, but for the
+// steep last two millimetres before a hole, which are laid anew.
 #pragma once
 
 #include <optional>
 
-#include "pipeline/mesh/lattice/cell_mask.h"
 #include "pipeline/mesh/lattice/face_outline.h"
-#include "pipeline/mesh/lattice/lattice_surface.h"
+#include "pipeline/mesh/lattice/lattice_resampler.h"
 #include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 
-// A view's lattice, with room around what was measured. None where no head is found in it: then nothing is changed.
-// Errors: Cancelled; throws std::bad_alloc.
-Result<std::optional<FaceOutline>> close_face(PointLattice& lattice, LatticeSurface& surface, MaskShaper& shaper, StageContext& context);
+inline constexpr float kSteepest = 28.6F;  // tangent of 88 degrees: of what was completed, to a ray from the chart's centre
+
+struct ClosedFace {
+  ShapedLattice shaped;  // on the chart; in scratch
+  FaceOutline outline;
+};
+
+// `seen`: the left view's lattice. None where no head is found in it. Errors: Cancelled; throws std::bad_alloc.
+Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& surface, const Vec3d& right_camera_mm,
+                                             const LatticeLimits& limits, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -15,8 +15,8 @@ constexpr double kBend = 12;    // mm over which the curve turns from the cheeks
 
 }  // namespace
 
-float FaceOutline::depth_mm(const Vec3f& at_mm) const {
-  const Vec3d p = apply(head_from_here, Vec3d{static_cast<double>(at_mm.x), static_cast<double>(at_mm.y), static_cast<double>(at_mm.z)});
+float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
+  const Vec3d p = chart.in_head(from_chart_centre_mm);
   const double share = std::max(std::hypot(p.x / kAcross, p.y / kUp, p.z / kBack), 1e-3);
   const double to_reach = std::hypot(p.x, p.y, p.z) * (1 / share - 1);
   const double to_chin = p.y + below_mm;

@@ -6,16 +6,16 @@
 // of where a picture's measurements end: what they do not reach is left to the edge of what was measured. Thread: any.
 #pragma once
 
-#include "pipeline/model/geometry.h"
+#include "pipeline/mesh/lattice/head_chart.h"
 
 namespace relievo::pipeline {
 
 struct FaceOutline {
-  RigidTransform head_from_here;
+  HeadChart chart;
   double below_mm = 82;  // of the tip of the nose, on the plane of symmetry
 
   // How far inside the curve a point lies, about in mm near it; negative outside.
-  float depth_mm(const Vec3f& at_mm) const;
+  float depth_mm(const Vec3f& from_chart_centre_mm) const;
 };
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/mesh/lattice/cubic_weights.h"
+#include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/mesh/vector_math.h"
 
 namespace relievo::pipeline {
@@ -15,6 +15,7 @@ namespace {
 
 using mesh::plus, mesh::times;
 
+constexpr double kFarthest = 190;  // mm on a chart: behind the ears
 constexpr double kEvenPart = 0.4;  // of an axis, about its middle, that has cells of one size
 
 // A place between nodes: the cell, and how far into it.
@@ -40,11 +41,18 @@ std::array<float, 4> corner_weights(std::uint8_t cell, float tx, float ty) {
   return {};
 }
 
+// Of four nodes in a row, `t` of the way from the second to the third (Keys 1981, a = -1/2). At a node exactly that node.
+std::array<float, 4> cubic_weights(float t) {
+  const float t2 = t * t;
+  const float t3 = t2 * t;
+  return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t), 0.5F * (t3 - t2)};
+}
+
 bool whole(std::uint8_t cell) { return cell == kFalling || cell == kRising; }
 
 class Reader {
  public:
-  explicit Reader(const ShapedLattice& old) : from_(old.lattice), cells_(old.surface.cells), inside_(old.inside) {}
+  Reader(const PointLattice& lattice, const LatticeSurface& surface) : from_(lattice), cells_(surface.cells) {}
 
   Place place(float u, float v) const {
     Place at{};
@@ -56,10 +64,6 @@ class Reader {
     const Place at = place(u, v);
     const std::array<float, 4> w = corner_weights(cells_[from_.index(at.column, at.row)], at.tx, at.ty);
     return w[0] + w[1] + w[2] + w[3] > 0;
-  }
-  std::uint8_t inside(float u, float v) const {
-    const Place at = place(u, v);
-    return inside_[from_.index(at.column, at.row)];
   }
 
   Node read(const Place& at, Vec3f& point, float& sigma) const {
@@ -107,7 +111,6 @@ class Reader {
 
   const PointLattice& from_;
   const std::pmr::vector<std::uint8_t>& cells_;
-  const CellMask& inside_;
 };
 
 // How many times longer than in the middle a new cell is at `at` (0 .. 1 along the axis): 1 over kEvenPart, then smoothly up to `edge` at the ends.
@@ -214,7 +217,7 @@ double expected_triangles(const ShapedLattice& old, float edge) {
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory) {
   ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory), old.closed};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
-  const Reader reader(old);
+  const Reader reader(old.lattice, old.surface);
   const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
   read_nodes(reader, at, made.lattice);
   const PointLattice& l = made.lattice;
@@ -226,9 +229,65 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
       const auto x = static_cast<std::size_t>(c);
       const auto y = static_cast<std::size_t>(r);
       const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
-      made.inside[k] = reader.inside(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
+      const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
+      made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
       made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
     }
+  return made;
+}
+
+PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart, float margin_mm, std::pmr::memory_resource* memory) {
+  PointLattice made(memory);
+  const Vec3f centre{static_cast<float>(chart.centre_mm.x), static_cast<float>(chart.centre_mm.y), static_cast<float>(chart.centre_mm.z)};
+  const double step = std::sqrt(static_cast<double>(old.cell_width_mm) * static_cast<double>(old.cell_height_mm));
+  std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
+  float aside = 0;
+  float above = 0;
+  float below = 0;
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    if (old.node[k] == Node::Empty) continue;
+    const Vec2d p = chart.place(mesh::minus(old.at_mm[k], centre));
+    place[k] = {static_cast<float>(p.x / step), static_cast<float>(p.y / step)};
+    aside = std::max(aside, std::abs(place[k].x));
+    above = std::max(above, -place[k].y);
+    below = std::max(below, place[k].y);
+  }
+  const auto room = [&](float reach) { return static_cast<int>(std::ceil(std::min(reach + margin_mm / static_cast<float>(step), static_cast<float>(kFarthest / step)))); };
+  const int left = room(aside);
+  const int top = room(above);
+  made.columns = 2 * left + 1;
+  made.rows = top + room(below) + 1;
+  made.chart = chart;
+  made.step_mm = step;
+  made.first_mm = {-left * step, -top * step};
+  const std::size_t nodes = static_cast<std::size_t>(made.columns) * static_cast<std::size_t>(made.rows);
+  made.node.assign(nodes, Node::Empty);
+  made.at_mm.assign(nodes, Vec3f{});
+  made.sigma_mm.assign(nodes, 0.0F);
+  for (Vec2f& p : place) p = {p.x + static_cast<float>(left), p.y + static_cast<float>(top)};
+  const Reader reader(old, surface);
+  std::pmr::vector<float> radius(nodes, 0.0F, memory);
+  for_each_triangle(old, surface, [&](const std::array<std::uint32_t, 3>& t) {
+    const Vec2f &a = place[t[0]], &b = place[t[1]], &c = place[t[2]];
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0) return;  // seen from outside it turns away
+    const auto corner = [&](std::uint32_t k) { return Vec2f{static_cast<float>(k % static_cast<std::uint32_t>(old.columns)), static_cast<float>(k / static_cast<std::uint32_t>(old.columns))}; };
+    const Vec2f oa = corner(t[0]), ob = corner(t[1]), oc = corner(t[2]);
+    for_each_texel(a, b, c, made.columns, {0, made.rows}, [&](int x, int y, float wa, float wb, float wc) {
+      const std::size_t k = made.index(x, y);
+      Vec3f at{};
+      float sigma = 0;
+      const Node node = reader.read(reader.place(wa * oa.x + wb * ob.x + wc * oc.x, wa * oa.y + wb * ob.y + wc * oc.y), at, sigma);
+      if (node != Node::Measured) return;
+      at = mesh::minus(at, centre);
+      const float away = mesh::length(at);
+      if (away <= radius[k]) return;  // where surface stands before surface the outer one counts
+      radius[k] = away;
+      made.node[k] = node;
+      made.at_mm[k] = at;
+      made.sigma_mm[k] = sigma;
+    });
+  });
+  measure_cells(made);
   return made;
 }
 

@@ -11,6 +11,7 @@
 // A surface of cells is planar in the picture, so no edge can carry more than two triangles.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory_resource>
@@ -34,6 +35,19 @@ struct LatticeSurface {
   explicit LatticeSurface(std::pmr::memory_resource* memory) : cells(memory) {}
   std::pmr::vector<std::uint8_t> cells;  // as many as the lattice has nodes; last column and row empty
 };
+
+// Nodes of every triangle, counter-clockwise as the camera at the origin sees them.
+template <typename Visit>
+void for_each_triangle(const PointLattice& lattice, const LatticeSurface& surface, Visit&& visit) {
+  const std::uint32_t w = static_cast<std::uint32_t>(lattice.columns);
+  for (std::uint32_t a = 0; a < surface.cells.size(); ++a) {
+    const std::uint8_t cell = surface.cells[a];
+    if (cell & kUnder) visit(std::array<std::uint32_t, 3>{a, a + w, a + w + 1});
+    if (cell & kOver) visit(std::array<std::uint32_t, 3>{a, a + w + 1, a + 1});
+    if (cell & kLeft) visit(std::array<std::uint32_t, 3>{a, a + w, a + 1});
+    if (cell & kRight) visit(std::array<std::uint32_t, 3>{a + 1, a + w, a + w + 1});
+  }
+}
 
 inline int triangle_count(std::uint8_t cell) { return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1; }
 

@@ -68,7 +68,7 @@ void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm
 
 }  // namespace
 
-CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory) {
+CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope, const Vec3f& from_mm, std::pmr::memory_resource* memory) {
   std::pmr::vector<Vec3f> normal(l.size(), Vec3f{}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (triangle_count(surface.cells[k]) != 2) continue;
@@ -86,7 +86,7 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
       if (surface.cells[k] == 0) continue;
       Vec3f n{};
       for (int y = std::max(r - reach, 0); y <= std::min(r + reach, l.rows - 1); ++y) n = plus(n, normal[l.index(c, y)]);
-      const Vec3f& p = l.at_mm[l.node[k] != Node::Empty ? k : k + 1];  // a triangle holds one of the upper nodes
+      const Vec3f p = minus(l.at_mm[l.node[k] != Node::Empty ? k : k + 1], from_mm);  // a triangle holds one of the upper nodes
       const float towards = dot(n, p);
       steep[k] = towards * towards < cosine * cosine * dot(n, n) * dot(p, p);
     }
@@ -99,7 +99,7 @@ CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLim
   for (std::size_t k = 0; k < l.size(); ++k) all[k] = surface.cells[k] != 0;
   shaper.fill_holes(all);
   CellMask kept = all;
-  const CellMask steep = steep_cells(l, surface, limits.max_rim_slope, memory);
+  const CellMask steep = steep_cells(l, surface, limits.max_rim_slope, limits.from_mm, memory);
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !steep[k];
   // A steep fold that leads from the outside to the nose must not open a way in.
   const float channel = kChannelShare * limits.min_width_mm;

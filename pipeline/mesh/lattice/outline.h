@@ -22,7 +22,8 @@ namespace relievo::pipeline {
 
 struct OutlineLimits {
   float max_slope = 0;       // tangent of the steepest angle of incidence
-  float max_rim_slope = 0;   // tangent of the steepest angle of incidence before the outside
+  float max_rim_slope = 0;   // tangent of the steepest angle of incidence before the outside, seen from:
+  Vec3f from_mm{};
   float min_width_mm = 0;
   float wave_mm = 0;         // sigma of the straightening
 };
@@ -31,7 +32,7 @@ struct OutlineLimits {
 CellMask trim_outline(PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
                       MaskShaper& shaper, std::pmr::memory_resource* memory);
 
-// Cells whose surface, averaged over about 1.5 mm, is steeper than this tangent to the line of sight.
-CellMask steep_cells(const PointLattice& lattice, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory);
+// Cells whose surface, averaged over about 1.5 mm, is steeper than this tangent to the line of sight from a place.
+CellMask steep_cells(const PointLattice& lattice, const LatticeSurface& surface, float max_slope, const Vec3f& from_mm, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

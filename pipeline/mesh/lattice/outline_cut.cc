@@ -92,7 +92,7 @@ class Cutter {
       take_least(depth_inside(lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
     if (smoothing.rims_mm > 0)
       take_least(depth_inside(lattice_, [&](std::size_t k) { return triangle_count(surface_.cells[k]); }, smoothing.rims_mm, memory));
-    for_each_triangle([this](const Triangle& t) {
+    for_each_triangle(lattice_, surface_, [this](const Triangle& t) {
       for (std::size_t i = 0; i < 3; ++i) pull_together(t[i], t[(i + 1) % 3]);
     });
     for (std::size_t k = 0; k < snaps_.size(); ++k)
@@ -128,18 +128,6 @@ class Cutter {
     for (std::size_t k = 0; k < over_.size(); ++k) over_[k] = std::min(over_[k], depth[k]);
   }
 
-  template <typename Visit>
-  void for_each_triangle(Visit&& visit) const {
-    const std::uint32_t w = static_cast<std::uint32_t>(lattice_.columns);
-    for (std::uint32_t a = 0; a < surface_.cells.size(); ++a) {
-      const std::uint8_t cell = surface_.cells[a];
-      if (cell & kUnder) visit(Triangle{a, a + w, a + w + 1});
-      if (cell & kOver) visit(Triangle{a, a + w + 1, a + 1});
-      if (cell & kLeft) visit(Triangle{a, a + w, a + 1});
-      if (cell & kRight) visit(Triangle{a + 1, a + w, a + w + 1});
-    }
-  }
-
   // Where the line crosses an edge close to one of its nodes, that node shall come to the line.
   void pull_together(std::uint32_t a, std::uint32_t b) {
     if (over_[a] < 0) std::swap(a, b);
@@ -152,7 +140,7 @@ class Cutter {
   // The triangles and parts of triangles on the inner side of the line.
   template <typename Visit>
   void for_each_piece(Visit&& visit) const {
-    for_each_triangle([&](const Triangle& t) {
+    for_each_triangle(lattice_, surface_, [&](const Triangle& t) {
       const float least = std::min({over_[t[0]], over_[t[1]], over_[t[2]]});
       const float most = std::max({over_[t[0]], over_[t[1]], over_[t[2]]});
       if (most <= 0) return;

@@ -64,8 +64,6 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
   const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
   lattice.columns = steps(box.left, box.right) + 1;
   lattice.rows = steps(box.top, box.bottom) + 1;
-  lattice.first_px = {box.left, box.top};
-  lattice.step_px = step;
   const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});

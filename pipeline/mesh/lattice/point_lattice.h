@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // PointLattice: measured points laid back on the pixel lattice of a rectified view, so that neighbours are found by
-// counting. Columns run right, rows down. Frame: the axes of the left camera, the origin where the view's camera
-// stands, millimetres.
+// counting, or laid on a head's chart. Columns run right, rows down, as the camera at the origin sees it: the left one, or on a
+// chart one within the head. Axes: the left camera's. Millimetres.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
+#include "pipeline/mesh/lattice/head_chart.h"
+#include "pipeline/mesh/vector_math.h"
 #include "pipeline/model/point_cloud.h"
 
 namespace relievo::pipeline {
@@ -20,13 +23,13 @@ enum class Node : std::uint8_t { Empty, Measured, Filled };
 struct PointLattice {
   explicit PointLattice(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), node(memory) {}
   PointLattice(const PointLattice& other, std::pmr::memory_resource* memory)
-      : columns(other.columns), rows(other.rows), view(other.view), first_px(other.first_px), step_px(other.step_px), cell_width_mm(other.cell_width_mm), cell_height_mm(other.cell_height_mm),
+      : columns(other.columns), rows(other.rows), chart(other.chart), first_mm(other.first_mm), step_mm(other.step_mm), cell_width_mm(other.cell_width_mm), cell_height_mm(other.cell_height_mm),
         at_mm(other.at_mm, memory), sigma_mm(other.sigma_mm, memory), node(other.node, memory) {}
   int columns = 0;
   int rows = 0;
-  MiddleView view;     // whose lattice it is, where that is known: then every node lies on its own line of sight
-  Vec2f first_px;      // where node (0, 0) stands in its view, and how far its neighbours
-  float step_px = 1;
+  std::optional<HeadChart> chart;  // whose lattice it is, where it is one's: then every node lies on its own ray from the chart's centre
+  Vec2d first_mm;                  // where node (0, 0) stands on the chart, and how far its neighbours
+  double step_mm = 1;
   // A cell as the camera sees it, across the line of sight: the usual distance of neighbours in a row
   // and in a column. 0 where nothing has a neighbour.
   float cell_width_mm = 0;
@@ -41,18 +44,11 @@ struct PointLattice {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(column);
   }
-  // Along the view's axis, of a node that has a place.
-  double depth_mm(std::size_t k) const {
-    const double* axis = &view.rectified_from_left.m[6];
-    return axis[0] * static_cast<double>(at_mm[k].x) + axis[1] * static_cast<double>(at_mm[k].y) + axis[2] * static_cast<double>(at_mm[k].z);
-  }
-  // Where a node stands at that depth.
-  Vec3f on_sight(std::size_t k, double depth_mm) const {
+  double radius_mm(std::size_t k) const { return static_cast<double>(mesh::length(at_mm[k])); }
+  // Where a chart's node stands at that distance from its centre.
+  Vec3f on_ray(std::size_t k, double radius_mm) const {
     const auto w = static_cast<std::size_t>(columns);
-    const double x = static_cast<double>(first_px.x + step_px * static_cast<float>(k % w)), y = static_cast<double>(first_px.y + step_px * static_cast<float>(k / w));
-    const Vec3d p = apply(transposed(view.rectified_from_left),
-                          Vec3d{(x - view.centre_px.x) / view.focal_px * depth_mm, (y - view.centre_px.y) / view.focal_px * depth_mm, depth_mm});
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    return chart->at({first_mm.x + step_mm * static_cast<double>(k % w), first_mm.y + step_mm * static_cast<double>(k / w)}, radius_mm);
   }
   bool inside(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns && row < rows;

@@ -12,12 +12,13 @@ namespace {
 
 constexpr std::int32_t kNone = -1;
 constexpr std::size_t kCoarsest = 5000;  // free places that are solved for without a coarser grid
-constexpr int kMostTurns = 300, kTurnsBelow = 30;  // of conjugate gradients, on the coarsest grid and on those below
+constexpr int kMostTurns = 300, kTurnsBelow = 12;  // of conjugate gradients, on the coarsest grid and on those below
 
 // One second difference: weights times places.
 struct Difference {
   std::array<std::uint32_t, 4> at{};
   std::array<double, 4> weight{};
+  double wanted = 0;  // where no other surface says so
 };
 
 double squared(const std::pmr::vector<double>& v) {
@@ -52,7 +53,7 @@ class Plate {
 
   // Every second place of every second row is a plate of its own; between them lies the mean of those around.
   void start_from_coarser() {
-    const PlateGrid coarse{(grid_.columns + 1) / 2, (grid_.rows + 1) / 2, grid_.height_to_width};
+    const PlateGrid coarse{(grid_.columns + 1) / 2, (grid_.rows + 1) / 2, grid_.height_to_width, 2 * grid_.tension, 4 * grid_.bow};
     const std::size_t size = static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows);
     std::pmr::vector<double> value(size, 0.0, memory_), like(like_.empty() ? 0 : size, 0.0, memory_);
     std::pmr::vector<std::uint8_t> known(size, 0, memory_);
@@ -129,14 +130,19 @@ class Plate {
       const int c = column(k);
       const int r = row(k);
       for (int d = -1; d <= 1; ++d) {
-        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, {across, -across, across, -across}, visit);
-        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, {1 / across, -1 / across, 1 / across, -1 / across}, visit);
+        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, {across, -across, across, -across}, across * grid_.bow, visit);
+        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, {1 / across, -1 / across, 1 / across, -1 / across}, across * grid_.bow, visit);
       }
+      if (grid_.tension > 0 && guided(k))
+        for (int d = -1; d <= 0; ++d) {
+          pull(k, {{{c + d, r}, {c + d + 1, r}}}, grid_.tension * std::sqrt(across), visit);
+          pull(k, {{{c, r + d}, {c, r + d + 1}}}, grid_.tension / std::sqrt(across), visit);
+        }
       constexpr double kTwist = 1.41421356;
       for (int dr = -1; dr <= 0; ++dr)
         for (int dc = -1; dc <= 0; ++dc)
           take(k, {{{c + dc, r + dr}, {c + dc + 1, r + dr}, {c + dc, r + dr + 1}, {c + dc + 1, r + dr + 1}}},
-               {kTwist, -kTwist, -kTwist, kTwist}, visit);
+               {kTwist, -kTwist, -kTwist, kTwist}, 0, visit);
     }
   }
 
@@ -146,6 +152,7 @@ class Plate {
     for (std::size_t i = 0; i < differences_.size(); ++i) {
       const auto& at = differences_[i].at;
       const bool bent = std::all_of(at.begin(), at.end(), [this](std::uint32_t k) { return guided(k); });
+      residual_[i] = bent ? 0 : differences_[i].wanted;
       for (std::size_t j = 0; j < 4; ++j) residual_[i] -= differences_[i].weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
     }
     descend();
@@ -169,9 +176,10 @@ class Plate {
 
   // Each difference once: by the first of its free places.
   template <typename Visit>
-  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights, Visit&& visit) const {
+  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights, double wanted, Visit&& visit) const {
     Difference difference;
     difference.weight = weights;
+    difference.wanted = wanted;
     for (std::size_t j = 0; j < 4; ++j) {
       if (!inside(places[j].c, places[j].r)) return;
       const std::uint32_t k = static_cast<std::uint32_t>(index(places[j].c, places[j].r));
@@ -179,6 +187,13 @@ class Plate {
       difference.at[j] = k;
     }
     visit(difference);
+  }
+
+  template <typename Visit>
+  void pull(std::uint32_t owner, const std::array<Place, 2>& places, double weight, Visit&& visit) const {
+    for (const Place& p : places)
+      if (!inside(p.c, p.r) || !guided(index(p.c, p.r))) return;
+    take(owner, {{places[0], places[1], places[0], places[1]}}, {weight, -weight, 0, 0}, 0, visit);
   }
 
   void bend() {  // change_ = differences of step_

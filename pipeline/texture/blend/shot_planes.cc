@@ -3,7 +3,9 @@
 #include "pipeline/texture/blend/shot_planes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "pipeline/mesh/vector_math.h"
 #include "pipeline/texture/chart/box_window.h"
@@ -12,38 +14,80 @@
 namespace relievo::pipeline {
 namespace {
 
-// Completed surface that a view would only graze may lie behind what that view shows there; at the outline, beyond the head.
-constexpr float kLeastCosine = 0.2F, kLeastCosineAtOutline = 0.5F;
+constexpr float kLeastCosine = 0.2F;  // completed surface that a view would only graze may lie behind what that view shows there
+constexpr float kLevels = 3, kShare = 0.17F;  // by which colour may leave that beside it ...
+constexpr float kHue = 0.025F;                 // of a channel's part in all three
+constexpr float kMemory = 0.93F;               // ... which remembers so much of where it came from
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Those that hold a vertex that was completed.
+std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Triangle> found(memory);
+  const auto measured = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
+  for (const Triangle& t : mesh.triangles)
+    if (!measured(t[0]) || !measured(t[1]) || !measured(t[2])) found.push_back(t);
+  return found;
+}
+
+// Calls step(from, to) along edges until no call says that it changed anything. Triangles run along rows: a pass each way reaches far.
+template <typename Step>
+void sweep(std::span<const Triangle> triangles, Step&& step) {
+  bool changed = true;
+  const auto go = [&](const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 1; j < 3; ++j) changed = step(t[i], t[(i + j) % 3]) || changed;
+  };
+  while (changed) {
+    changed = false;
+    std::for_each(triangles.begin(), triangles.end(), go);
+    std::for_each(triangles.rbegin(), triangles.rend(), go);
+  }
+}
 
 // 1 at vertices that were completed and are joined by such to the surface's border nearby.
-std::pmr::vector<std::uint8_t> completed_at_outline(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
-  constexpr float kReachMm = 12;
+std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh, std::span<const Triangle> completed_parts, std::pmr::memory_resource* memory) {
+  constexpr float kReachMm = 25;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // 0 where the triangles around a vertex close
   for (const auto& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
-  std::pmr::vector<std::uint32_t> from(mesh.vertices_mm.size(), kNone, memory);  // which vertex of the border
+  std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // which vertex of it
   const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
-  for (std::uint32_t v = 0; v < from.size(); ++v)
-    if (turn[v] != 0 && completed(v)) from[v] = v;
-  bool grown = true;
-  const auto grow = [&](const std::array<std::uint32_t, 3>& t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t border = from[t[i]];
-      if (border == kNone) continue;
-      for (const std::uint32_t v : t)
-        if (from[v] == kNone && completed(v) && mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[border]) < kReachMm * kReachMm)
-          from[v] = border, grown = true;
-    }
-  };
-  while (grown) {  // triangles run along rows: a pass each way reaches far
-    grown = false;
-    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), grow);
-    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), grow);
-  }
-  std::pmr::vector<std::uint8_t> marked(from.size(), 0, memory);
-  for (std::size_t v = 0; v < from.size(); ++v) marked[v] = from[v] != kNone ? 1 : 0;
+  for (std::uint32_t v = 0; v < border.size(); ++v)
+    if (turn[v] != 0 && completed(v)) border[v] = v;
+  sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
+    if (border[from] == kNone || border[to] != kNone || !completed(to)) return false;
+    if (mesh::squared_distance(mesh.vertices_mm[to], mesh.vertices_mm[border[from]]) > kReachMm * kReachMm) return false;
+    border[to] = border[from];
+    return true;
+  });
+  std::pmr::vector<std::uint8_t> marked(border.size(), 0, memory);
+  for (std::size_t v = 0; v < border.size(); ++v) marked[v] = border[v] != kNone ? 1 : 0;
   return marked;
+}
+
+// Surface that was completed up to the border lies somewhat off: a photograph may show hair or the room there. What it shows belongs
+// to the face as far as its colour goes on from what was measured; beyond, the view is taken for not seeing it.
+template <typename Colour>
+void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::span<const std::uint8_t> beyond, std::uint8_t bit, Colour&& colour, std::span<std::uint8_t> seen,
+                             std::pmr::memory_resource* memory) {
+  using Rgb = std::array<float, 3>;
+  std::pmr::vector<Rgb> usual(seen.size(), Rgb{-1, 0, 0}, memory);
+  const auto known = [&](std::uint32_t v) { return usual[v][0] >= 0; };
+  for (std::uint32_t v = 0; v < seen.size(); ++v)
+    if ((seen[v] & bit) != 0 && beyond[v] == 0) usual[v] = colour(v);
+  sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
+    if (!known(from) || known(to) || (seen[to] & bit) == 0) return false;
+    const Rgb here = colour(to);
+    const float light = here[0] + here[1] + here[2] + 1, usual_light = usual[from][0] + usual[from][1] + usual[from][2] + 1;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::abs(here[c] - usual[from][c]) > kLevels + kShare * usual[from][c] || std::abs(here[c] / light - usual[from][c] / usual_light) > kHue) return false;
+    for (std::size_t c = 0; c < 3; ++c) usual[to][c] = kMemory * usual[from][c] + (1 - kMemory) * here[c];
+    return true;
+  });
+  for (std::uint32_t v = 0; v < seen.size(); ++v)
+    if (!known(v)) seen[v] &= static_cast<std::uint8_t>(~bit);
 }
 
 float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) {
@@ -101,18 +145,19 @@ struct Shooting {
   void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left, const PhotoRow& right) const {
     const Vec2f at{static_cast<float>(x), static_cast<float>(y)};
     const float disparity = maps[0].nearest[k];
+    const std::uint8_t may = views.seen[t[0]] | views.seen[t[1]] | views.seen[t[2]];
     std::uint8_t seen = kSurface;
     float rgb[3];
     const float row = chart.view_y(at.y);
     const float left_x = chart.view_x(at.x, disparity, kLeftSide);
     left.read(left_x, rgb);
     for (std::size_t i = 0; i < 3; ++i) planes.left[3 * k + i] = to_byte(rgb[i]);
-    if (covered(pair.left, pair, left_x, row) && maps[1].sees(at, disparity, options.occlusion_px)) seen |= kSeenLeft;
+    if ((may & kSeenLeft) != 0 && covered(pair.left, pair, left_x, row) && maps[1].sees(at, disparity, options.occlusion_px)) seen |= kSeenLeft;
     if (!options.left_only) {
       const float right_x = chart.view_x(at.x, disparity, kRightSide);
       right.read(right_x, rgb);
       for (std::size_t i = 0; i < 3; ++i) planes.right[3 * k + i] = to_byte(rgb[i]);
-      if (covered(pair.right, pair, right_x, row) && maps[2].sees(at, disparity, options.occlusion_px)) seen |= kSeenRight;
+      if ((may & kSeenRight) != 0 && covered(pair.right, pair, right_x, row) && maps[2].sees(at, disparity, options.occlusion_px)) seen |= kSeenRight;
     }
     planes.seen[k] = seen;
     planes.share[k] = to_byte(255 * share_at(at, t));
@@ -156,14 +201,13 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   const std::size_t n = mesh.vertices_mm.size();
   const Vec3d c = inverse(pair.right_from_left).translation_mm;
   const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
-  const auto at_outline = completed_at_outline(mesh, memory);
   VertexViews views(memory);
   views.share.resize(n);
   views.seen.resize(n);
   for (std::size_t v = 0; v < n; ++v) {
     const float towards_left = cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]);
     const float towards_right = cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]);
-    const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : at_outline[v] != 0 ? kLeastCosineAtOutline : kLeastCosine;
+    const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : kLeastCosine;
     if (chart.placed[v] != 0) {
       if (towards_left >= least && left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenLeft;
       if (!options.left_only && towards_right >= least && right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenRight;
@@ -173,6 +217,18 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     const float r = std::pow(towards_right, options.angle_power);
     views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
   }
+  const auto parts = completed_triangles(mesh, memory);
+  const auto beyond = completed_to_border(mesh, parts, memory);
+  const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit) {
+    const PhotoSampler photo(view, pair.width_px, pair.height_px);
+    forget_what_lies_behind(parts, beyond, bit, [&](std::uint32_t v) {
+      float rgb[3];
+      photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side), chart.view_y(chart.texel[v].y), rgb);
+      return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
+    }, views.seen, memory);
+  };
+  look(pair.left, kLeftSide, kSeenLeft);
+  if (!options.left_only) look(pair.right, kRightSide, kSeenRight);
   return views;
 }
 

@@ -233,7 +233,7 @@ TEST_P(MesherContract, RenderedHeads) {
     const auto result = mesh(test::truth_cloud(*dir, options), room);
     ASSERT_TRUE(result);
     test::expect_clean(*result);
-    EXPECT_LE(result->triangles.size(), 320'000U);
+    EXPECT_LE(result->triangles.size(), 470'000U);
     EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), expected_of(GetParam()).head_area_mm2) << "a whole face";
   }
 }

@@ -34,7 +34,7 @@ class FieldHead {
   // The same, with what is known of the two views: the right camera beside the left one, both straight ahead.
   PointCloud cloud_of_two(const hal::sim::HeadPose& pose, ThreadPool& pool, double noise_mm = 0.1) const {
     PointCloud made = cloud(pose, pool, noise_mm);
-    made.middle = {{}, 2 / kSlope, {kWidth, kHeight}, {0.5 * kRight.x, 0, 0}};
+    made.right_camera_mm = {kRight.x, kRight.y, kRight.z};
     return made;
   }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -56,8 +57,54 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
       (mesh.measured[v] != 0 ? measured : completed).push_back(off_the_head(head, pose, mesh.vertices_mm[v]));
     EXPECT_GT(completed.size(), 300U) << "beside the nose, at least";
     EXPECT_LT(percentile(measured, 0.95), 0.35) << seed;
-    EXPECT_LT(percentile(completed, 0.5), 1.0) << seed;
-    EXPECT_LT(percentile(completed, 0.95), 4.0) << seed;
+    EXPECT_LT(percentile(completed, 0.5), 0.5) << seed;
+    EXPECT_LT(percentile(completed, 0.8), 1.8) << seed << ", the rest is under the chin and beyond what either side shows";
+    EXPECT_LT(percentile(completed, 0.95), 12.0) << seed;
+  }
+}
+
+// The border, in the true head's frame.
+std::vector<Vec3d> outline(const FaceMesh& mesh, const hal::sim::HeadPose& pose) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_of;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++triangles_of[std::minmax(t[i], t[(i + 1) % 3])];
+  std::vector<Vec3d> border;
+  for (const auto& [edge, count] : triangles_of) {
+    if (count != 1) continue;
+    const Vec3f& v = mesh.vertices_mm[edge.first];
+    const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    const hal::sim::Vec3 h = pose.world_from_head().transposed() * (p - pose.origin_mm());
+    border.push_back({h.x, h.y, h.z});
+  }
+  return border;
+}
+
+double rms_between(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) {
+  double sum = 0;
+  for (const Vec3d& p : from) {
+    double least = 1e9;
+    for (const Vec3d& q : to) least = std::min(least, (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
+    sum += least;
+  }
+  return std::sqrt(sum / static_cast<double>(from.size()));
+}
+
+constexpr double kFacing = 8;  // turned so, a head faces the place between the cameras
+
+TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
+  for (const std::uint32_t seed : {1U, 2U, 3U}) {
+    const test::FieldHead head(seed);
+    const auto cut_at = [&](double yaw, double pitch) {
+      const hal::sim::HeadPose pose = turned(yaw, pitch);
+      StageRoom room;
+      return outline(closed_face(head, pose, room), pose);
+    };
+    const std::vector<Vec3d> facing = cut_at(kFacing, 0);
+    for (const auto& [yaw, pitch] : {std::pair{0.0, 0.0}, {2.0, 3.0}, {15.0, 0.0}, {14.0, -3.0}, {8.0, 6.0}}) {
+      const std::vector<Vec3d> other = cut_at(yaw, pitch);
+      EXPECT_LT(rms_between(other, facing), 2.0) << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
+      EXPECT_LT(rms_between(facing, other), 2.0) << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
+    }
   }
 }
 
