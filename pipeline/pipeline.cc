@@ -11,6 +11,7 @@
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/model_quality.h"
+#include "pipeline/texture/backdrop_maker.h"
 #include "pipeline/texture/texture_sharpness.h"
 
 namespace relievo::pipeline {
@@ -154,6 +155,7 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     model.head_from_camera = frame.head_from_camera;
     if (head) {
       RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
+      model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
     }
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;

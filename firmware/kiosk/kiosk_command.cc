@@ -9,7 +9,6 @@
 #include "firmware/command/interrupt.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/screenshots.h"
-#include "firmware/kiosk/showpiece.h"
 #include "firmware/kiosk/script/script_player.h"
 #include "firmware/kiosk/script/visit_figures.h"
 #include "hal/picture_file.h"
@@ -122,9 +121,7 @@ Result<void> run_kiosk(const KioskArgs& args, Services& services) {
   std::error_code error;
   if (!args.screenshots.empty() && (std::filesystem::create_directories(args.screenshots, error), error))
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
-  KioskArgs wanted = args;
-  if (args.write_showpiece) wanted.algorithms.settings = Showpiece::algorithms();
-  RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(wanted, services));
+  RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px, pictures ? 800 : args.height_px}));
   if (scripted) return run_script(*display, *kiosk, std::move(script), args.screenshots, services);
   return pictures ? take_screenshots(args, *kiosk, services.console) : run_on(*display, *kiosk, nullptr);

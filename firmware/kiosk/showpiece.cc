@@ -7,7 +7,6 @@
 #include <fstream>
 #include <vector>
 
-#include "firmware/kiosk/showpiece_finish.h"
 #include "hal/picture_file.h"
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "storage/model_blob.h"
@@ -16,7 +15,6 @@ namespace relievo::firmware {
 namespace {
 
 constexpr int kTriangles = 9000;       // seen from across a room
-constexpr double kLongestHoleMm = 60;
 constexpr int kTexturePx = 768;
 constexpr int kJpegPercent = 88;
 constexpr const char *kMeshFile = "showpiece.face", *kTextureFile = "showpiece.jpg";
@@ -64,19 +62,11 @@ Result<std::unique_ptr<Showpiece>> Showpiece::read(const std::filesystem::path& 
   return piece;
 }
 
-std::vector<std::string> Showpiece::algorithms() {
-  return {"outliers=none", "mesher=bezier", "bezier.patch_mm=3", "completion=generic-head", "generic-head.cell_mm=1.5"};
-}
-
 Result<void> Showpiece::write(const pipeline::FaceModel& model, const std::filesystem::path& folder) {
   std::pmr::monotonic_buffer_resource memory;
-  pipeline::FaceModel whole(&memory);
-  whole = model;
-  close_holes(whole, kLongestHoleMm);
-  cut_to_oval(whole, {});
   pipeline::DetailOptions options;
   options.triangles = kTriangles;
-  RELIEVO_TRY_ASSIGN(pipeline::LighterModel light, pipeline::lighten(whole, options, &memory));
+  RELIEVO_TRY_ASSIGN(pipeline::LighterModel light, pipeline::lighten(model, options, &memory));
   const hal::Picture skin = smaller(light.model.texture);
   RELIEVO_TRY_ASSIGN(const auto jpeg, hal::encode_jpeg(skin.view(), kJpegPercent));
   pipeline::TextureAtlas& atlas = light.model.texture;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Showpiece: the head on the page that invites. A simulated person, photographed by the simulated rig
-// and measured by this product, completed where no camera saw it and cut to an oval; nobody real. Two files: the mesh as the store keeps models, with a
-// texture of one texel, and the texture as a JPEG.
+// Showpiece: the head on the page that invites. A simulated person, photographed by the simulated rig and measured as every visitor is:
+// it promises nothing that a visitor's own does not keep. Two files: the mesh as the store keeps models, with a texture of one
+// texel, and the texture as a JPEG.
 // Errors: NotFound, StoreCorrupt, those of the picture file. Thread: main.
 #pragma once
 
@@ -11,8 +11,6 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
@@ -22,9 +20,7 @@ namespace relievo::firmware {
 class Showpiece {
  public:
   static Result<std::unique_ptr<Showpiece>> read(const std::filesystem::path& folder);
-  // What a face is reconstructed with for it, as --set has it: a smooth surface, completed by the usual head.
-  static std::vector<std::string> algorithms();
-  // Writes a lighter form of a model, whole and cut to an oval (showpiece_finish.h); the folder must exist.
+  // Writes a lighter form of a model; the folder must exist.
   static Result<void> write(const pipeline::FaceModel& model, const std::filesystem::path& folder);
   const pipeline::FaceModel& model() const { return *model_; }
 

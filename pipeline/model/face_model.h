@@ -6,6 +6,7 @@
 
 #include <memory_resource>
 
+#include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
 #include "pipeline/model/relief_figures.h"
@@ -30,12 +31,13 @@ struct ModelQuality {
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the
 // face. Mesh and normals stay in the left camera's frame; head_from_camera takes them over.
 struct FaceModel {
-  explicit FaceModel(std::pmr::memory_resource* memory) : mesh(memory), texture(memory) {}
+  explicit FaceModel(std::pmr::memory_resource* memory) : mesh(memory), texture(memory), backdrop(memory) {}
   FaceMesh mesh;
   TextureAtlas texture;
   RigidTransform head_from_camera;
   Landmarks landmarks{};
   ModelQuality quality;
+  Backdrop backdrop;  // shown behind the face, nothing else
 };
 
 }  // namespace relievo::pipeline

@@ -61,6 +61,7 @@ struct FaceLook {
   bool textured = true;
   bool fill = true, lit = true;        // the surface itself; shaded by the light
   bool edges = false, points = false;  // the triangles' sides; the measured points
+  bool backdrop = false;               // what the photograph showed around it stands behind, and its rim fades into that
   bool operator==(const FaceLook&) const = default;
 };
 

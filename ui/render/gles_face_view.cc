@@ -3,7 +3,10 @@
 #include <GLES3/gl3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "ui/render/face_view.h"
@@ -15,10 +18,17 @@ namespace {
 constexpr float kDistanceMm = 640;     // of the viewer: a face is seen like this across a table
 constexpr float kSeenHeightMm = 272;   // of the window, at zoom 1: a face that is turned or nods stays inside
 constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
+constexpr float kFadeMm = 6;           // of the rim, into what stands behind
+constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
 
 struct Corner {
-  float x, y, z, nx, ny, nz, u, v;
+  float x, y, z, nx, ny, nz, u, v, within;
+};
+
+struct Tinted {
+  float x, y, z;
+  std::array<std::uint8_t, 4> rgba;
 };
 
 float radians(float degrees) { return degrees * 0.017453293F; }
@@ -43,9 +53,50 @@ std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::Point
   return dots;
 }
 
+// How far from its border each vertex lies, in kFadeMm and no more than 1.
+std::vector<float> within(const pipeline::FaceMesh& mesh) {
+  std::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0);  // 0 where the triangles around a vertex close
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+  std::vector<float> share(turn.size(), 1.0F);
+  for (std::size_t v = 0; v < turn.size(); ++v)
+    if (turn[v] != 0) share[v] = 0;
+  const auto spread = [&](const std::array<std::uint32_t, 3>& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 1; j < 3; ++j) {
+        const auto &a = mesh.vertices_mm[t[i]], &b = mesh.vertices_mm[t[(i + j) % 3]];
+        if (share[t[i]] >= 1) continue;
+        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]], share[t[i]] + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) / kFadeMm);
+      }
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), spread);
+    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), spread);
+  }
+  return share;
+}
+
+// Two triangles a cell that shows anything.
+std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
+  const pipeline::Backdrop& b = model.backdrop;
+  std::vector<Tinted> corners;
+  const auto corner = [&](int c, int r) {
+    const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(b.columns) + static_cast<std::size_t>(c);
+    const Dot d = dot_of(model.head_from_camera, b.at_mm[k]);
+    return Tinted{d.x, d.y, d.z, b.rgba[k]};
+  };
+  for (int r = 0; r + 1 < b.rows; ++r)
+    for (int c = 0; c + 1 < b.columns; ++c) {
+      const Tinted p = corner(c, r), q = corner(c + 1, r), o = corner(c, r + 1), d = corner(c + 1, r + 1);
+      if ((p.rgba[3] | q.rgba[3] | o.rgba[3] | d.rgba[3]) != 0) corners.insert(corners.end(), {p, o, d, p, d, q});
+    }
+  return corners;
+}
+
 // Head frame, with the point the head turns about as its origin.
 std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
   const auto& t = model.head_from_camera;
+  const std::vector<float> share = within(model.mesh);
   std::vector<Corner> corners;
   corners.reserve(model.mesh.triangles.size() * 3);
   for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i) {
@@ -58,7 +109,7 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
       const bool flat = model.texture.uv.size() <= 3 * i + k;
       const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
       corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm, static_cast<float>(m.x),
-                         static_cast<float>(m.y), static_cast<float>(m.z), uv.x, uv.y});
+                         static_cast<float>(m.y), static_cast<float>(m.z), uv.x, uv.y, share[at]});
     }
   }
   return corners;
@@ -70,12 +121,14 @@ class GlesFaceView final : public FaceView {
     forget();
     glDeleteProgram(program_);
     glDeleteProgram(point_program_);
+    glDeleteProgram(backdrop_program_);
     glDeleteVertexArrays(1, &array_);
   }
 
   Result<void> prepare() {
     RELIEVO_TRY_ASSIGN(program_, compile_program(shader::kFaceVertex, shader::kFace));
     RELIEVO_TRY_ASSIGN(point_program_, compile_program(shader::kPointVertex, shader::kPoint));
+    RELIEVO_TRY_ASSIGN(backdrop_program_, compile_program(shader::kBackdropVertex, shader::kBackdrop));
     glGenVertexArrays(1, &array_);
     return {};
   }
@@ -104,13 +157,14 @@ class GlesFaceView final : public FaceView {
   void forget() override {
     glDeleteBuffers(1, &buffer_);
     glDeleteBuffers(1, &point_buffer_);
+    glDeleteBuffers(1, &backdrop_buffer_);
     glDeleteTextures(1, &texture_);
     glDeleteTextures(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);
     glDeleteFramebuffers(1, &frame_);
-    buffer_ = point_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
+    buffer_ = point_buffer_ = backdrop_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
     version_ = points_version_ = 0;
-    count_ = point_count_ = width_ = height_ = 0;
+    count_ = point_count_ = backdrop_count_ = width_ = height_ = 0;
   }
 
  private:
@@ -123,6 +177,7 @@ class GlesFaceView final : public FaceView {
     middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
+    upload_backdrop(model);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const auto& atlas = model.texture;
@@ -134,11 +189,19 @@ class GlesFaceView final : public FaceView {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   }
 
+  void upload_backdrop(const pipeline::FaceModel& model) {
+    if (backdrop_buffer_ == 0) glGenBuffers(1, &backdrop_buffer_);
+    const std::vector<Tinted> corners = tinted_of(model);
+    backdrop_count_ = static_cast<int>(corners.size());
+    glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Tinted)), corners.data(), GL_STATIC_DRAW);
+  }
+
   void point_at_corners() const {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    const int sizes[] = {3, 3, 2};
+    const int sizes[] = {3, 3, 2, 1};
     std::size_t offset = 0;
-    for (GLuint i = 0; i < 3; ++i) {
+    for (GLuint i = 0; i < 4; ++i) {
       glEnableVertexAttribArray(i);
       glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<const void*>(offset));  // NOLINT
       offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
@@ -211,6 +274,7 @@ class GlesFaceView final : public FaceView {
     glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "edges"), look_.edges ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "fading"), shows_backdrop() ? 1.0F : 0.0F);
     glUniform1i(glGetUniformLocation(program_, "picture"), 0);
   }
 
@@ -223,6 +287,9 @@ class GlesFaceView final : public FaceView {
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     const Turned t = turned();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (shows_backdrop()) draw_backdrop(t);
     set_uniforms(t);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture_);
@@ -230,7 +297,30 @@ class GlesFaceView final : public FaceView {
     point_at_corners();
     if (look_.fill || look_.edges) glDrawArrays(GL_TRIANGLES, 0, count_);
     if (look_.points) draw_points(t);
+    glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
+  }
+
+  bool shows_backdrop() const { return look_.backdrop && look_.textured && look_.fill && textured_; }
+
+  void draw_backdrop(const Turned& t) const {
+    const float away = std::max(std::abs(look_.yaw_deg), std::abs(look_.pitch_deg));
+    const float opacity = std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F);
+    if (backdrop_count_ == 0 || opacity <= 0) return;
+    glUseProgram(backdrop_program_);
+    glUniformMatrix4fv(glGetUniformLocation(backdrop_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
+    glUniform1f(glGetUniformLocation(backdrop_program_, "opacity"), opacity);
+    glBindVertexArray(array_);
+    glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(1);
+    glDisableVertexAttribArray(2);
+    glDisableVertexAttribArray(3);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Tinted), nullptr);
+    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Tinted), reinterpret_cast<const void*>(offsetof(Tinted, rgba)));  // NOLINT
+    glDepthMask(GL_FALSE);
+    glDrawArrays(GL_TRIANGLES, 0, backdrop_count_);
+    glDepthMask(GL_TRUE);
   }
 
   void draw_points(const Turned& t) const {
@@ -240,15 +330,16 @@ class GlesFaceView final : public FaceView {
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
     glDisableVertexAttribArray(1);
     glDisableVertexAttribArray(2);
+    glDisableVertexAttribArray(3);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Dot), nullptr);
     glDrawArrays(GL_POINTS, 0, point_count_);
   }
 
-  GLuint program_ = 0, point_program_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0;
   FaceLook look_;
   float covered_ = 0, middle_mm_ = 0;   // where the middle of the model is, upwards, as it looks ahead
-  int count_ = 0, point_count_ = 0, width_ = 0, height_ = 0;
+  int count_ = 0, point_count_ = 0, backdrop_count_ = 0, width_ = 0, height_ = 0;
   bool textured_ = false;
 };
 

@@ -155,9 +155,10 @@ const char* const kFaceVertex = R"(#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in float within_in;
 uniform mat4 clip_from_head;
 uniform mat3 turned;
-out vec3 normal; out vec2 texel; out vec3 seen_from; out vec3 sides;
+out vec3 normal; out vec2 texel; out vec3 seen_from; out vec3 sides; out float within;
 uniform vec3 eye;
 void main() {
   int corner = gl_VertexID % 3;  // three vertices a triangle: how far from each of its sides
@@ -165,16 +166,17 @@ void main() {
   normal = turned * normal_in;
   seen_from = eye - turned * position;
   texel = uv;
+  within = within_in;
   gl_Position = clip_from_head * vec4(position, 1.0);
 }
 )";
 
 const char* const kFace = R"(#version 300 es
 precision highp float;
-in vec3 normal; in vec2 texel; in vec3 seen_from; in vec3 sides;
+in vec3 normal; in vec2 texel; in vec3 seen_from; in vec3 sides; in float within;
 uniform sampler2D picture;
 uniform vec3 light;
-uniform float textured, lit, filled, edges;
+uniform float textured, lit, filled, edges, fading;
 out vec4 colour;
 void main() {
   vec3 n = normalize(normal);
@@ -198,7 +200,30 @@ void main() {
   if (filled < 0.5 && on_edge < 0.35) discard;
   vec3 surface = mix(clay, skin, textured);
   vec3 line = filled < 0.5 ? mix(vec3(0.45, 0.80, 1.0), surface, textured) : vec3(0.05, 0.13, 0.22);
-  colour = vec4(mix(surface, line, filled < 0.5 ? 1.0 : 0.6 * on_edge), 1.0);
+  float there = mix(1.0, smoothstep(0.0, 1.0, within), fading);
+  colour = vec4(mix(surface, line, filled < 0.5 ? 1.0 : 0.6 * on_edge) * there, there);
+}
+)";
+
+const char* const kBackdropVertex = R"(#version 300 es
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 rgba;
+uniform mat4 clip_from_head;
+out vec4 tint;
+void main() {
+  tint = rgba;
+  gl_Position = clip_from_head * vec4(position, 1.0);
+}
+)";
+
+const char* const kBackdrop = R"(#version 300 es
+precision mediump float;
+in vec4 tint;
+uniform float opacity;
+out vec4 colour;
+void main() {
+  float a = tint.a * opacity;
+  colour = vec4(tint.rgb * a, a);
 }
 )";
 

@@ -23,6 +23,8 @@ extern const char* const kImage;
 extern const char* const kRing;
 extern const char* const kFaceVertex;
 extern const char* const kFace;
+extern const char* const kBackdropVertex;
+extern const char* const kBackdrop;
 extern const char* const kPointVertex;   // its points
 extern const char* const kPoint;
 }  // namespace shader

@@ -92,7 +92,7 @@ std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& s
 void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l, std::span<double> like, MaskShaper& shaper, Arena& scratch) {
   const UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
   const FaceRelief fitted = fit_generic_head(head, kHeadCellMm, kHeadMisfitMm).radius;
-  struct Place { Vec2f at; float radius_mm; };
+  struct Place { Vec2f at; float radius_mm = 0; };
   const auto place = [&](int c, int r) {
     const Vec3d p = rolled(fitted.x_mm(c), fitted.y_mm(r), static_cast<double>(fitted.z(c, r)));
     const Vec3d from{p.x - HeadChart::kCentreMm.x, p.y - HeadChart::kCentreMm.y, p.z - HeadChart::kCentreMm.z};

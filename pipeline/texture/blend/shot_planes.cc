@@ -47,18 +47,19 @@ void sweep(std::span<const Triangle> triangles, Step&& step) {
 
 // 1 at vertices that were completed and are joined by such to the surface's border nearby.
 std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh, std::span<const Triangle> completed_parts, std::pmr::memory_resource* memory) {
-  constexpr float kReachMm = 25;
+  constexpr float kReachMm = 38;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // 0 where the triangles around a vertex close
   for (const auto& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
-  std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // which vertex of it
+  std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // the nearest vertex of it
   const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
   for (std::uint32_t v = 0; v < border.size(); ++v)
     if (turn[v] != 0 && completed(v)) border[v] = v;
+  const auto squared_mm = [&](std::uint32_t v, std::uint32_t at_border) { return mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]); };
   sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
-    if (border[from] == kNone || border[to] != kNone || !completed(to)) return false;
-    if (mesh::squared_distance(mesh.vertices_mm[to], mesh.vertices_mm[border[from]]) > kReachMm * kReachMm) return false;
+    if (border[from] == kNone || border[to] == border[from] || !completed(to)) return false;
+    if (squared_mm(to, border[from]) >= (border[to] == kNone ? kReachMm * kReachMm : squared_mm(to, border[to]))) return false;
     border[to] = border[from];
     return true;
   });

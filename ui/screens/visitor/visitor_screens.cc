@@ -59,7 +59,8 @@ void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   list.face = face_of(view, visit);
   list.face_version = list.face == nullptr ? 0 : visit.step == Step::Attract ? ~0U : view.model_number;
   list.face_look = visit.look;
-  if (visit.step == Step::Attract) list.face_look = {-26, 9, 1.12F, -40, true};
+  list.face_look.backdrop = visit.step == Step::Review;
+  if (visit.step == Step::Attract) list.face_look = {.yaw_deg = -26, .pitch_deg = 9, .zoom = 1.12F, .light_deg = -40};
 }
 
 }  // namespace relievo::ui
