@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kEvery = 3;               // nodes of the lattice a node of the rough surface that shows where the head is
 constexpr float kRoomMm = 25;           // on the chart, around what was measured
-constexpr float kReachMm = 20;          // so far from what either side shows, at most, a face is continued to its outline
+constexpr float kReachMm = 35;          // so far from what either side shows, at most, a face is continued to its outline
 constexpr float kSeamMm = 6;            // between what one side and what the generic head say
 constexpr double kHeadCellMm = 2, kHeadMisfitMm = 1.5;
 constexpr double kAboveJawMm = -35;     // from the tip of the nose: jaws differ too much

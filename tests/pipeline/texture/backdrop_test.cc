@@ -57,8 +57,8 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
       ASSERT_LT(x, static_cast<std::size_t>(pair->width_px));
       ASSERT_LT(y, static_cast<std::size_t>(pair->height_px));
       int brightest = 0;  // of what it may be the mean of
-      for (int dy = -9; dy <= 9; ++dy)
-        for (int dx = -9; dx <= 9; ++dx) {
+      for (int dy = -14; dy <= 14; ++dy)
+        for (int dx = -14; dx <= 14; ++dx) {
           const std::size_t u = std::clamp<std::size_t>(x + static_cast<std::size_t>(dx), 0, static_cast<std::size_t>(pair->width_px) - 1);
           const std::size_t v = std::clamp<std::size_t>(y + static_cast<std::size_t>(dy), 0, static_cast<std::size_t>(pair->height_px) - 1);
           brightest = std::max(brightest, static_cast<int>(pair->left.rgb[3 * (v * static_cast<std::size_t>(pair->width_px) + u)]));
