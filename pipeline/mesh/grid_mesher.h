@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // GridMesher (`grid`, the default): joins neighbours of the pixel lattice on which a dense matcher
-// measured, in the view half way between the cameras (middle_lattice.h). Needs PointCloud::lattice_step_px > 0.
+// measured, a face on its head's chart (head_chart.h). Needs PointCloud::lattice_step_px > 0.
 //
 // Promises: one connected component (the largest), every edge in at most two triangles, one fan a
 // vertex, counter-clockwise seen from the cameras, no measured triangle steeper than max_incidence_deg to

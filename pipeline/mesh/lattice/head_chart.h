@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// HeadChart: a head laid flat, as a camera within it would see its skin from inside, all around: directions from a point
-// behind the eyes' bridge on an azimuthal equidistant map (Snyder 1987) about the way the face looks. Columns run to the person's
+// HeadChart: a head laid flat, as a camera at its back would see the skin of the face from inside: directions from a point
+// 220 mm behind the tip of the nose on an azimuthal equidistant map (Snyder 1987) about the way the face looks. Columns run to the person's
 // right, rows down. From there a face is seen about at right angles, wherever cameras stood and however it was turned: what
 // they did not see has its full width, and the face's other side is the map read backwards. Thread: any.
 #pragma once
