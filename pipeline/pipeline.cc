@@ -8,6 +8,7 @@
 
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/match/diagnose/pair_diagnosis.h"
+#include "pipeline/mesh/eyes/eyeballs.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/model_quality.h"
@@ -124,9 +125,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
   });
 }
 
-Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, StageContext& context) const {
+Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
     RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_->mesh(cloud, c));
+    if (const auto head = find_head_frame(mesh, {}, c, across(calibration_))) lay_eyeballs(mesh, head->head_from_camera, pair, c);
     return completion_->complete(std::move(mesh), across(calibration_), c);
   });
 }

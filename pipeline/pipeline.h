@@ -41,7 +41,7 @@ class Pipeline {
   Result<MatchSet> match(RectifiedPair& pair, StageContext& context) const;
   Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+  Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
   // Takes the mesh over into the model, once it is known to be a face. Errors: NoFace (a picture was held up; never
   // with Region::All or relief=off), PoorGeometry, Cancelled, OutOfMemory.
   Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;

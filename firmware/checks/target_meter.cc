@@ -72,7 +72,7 @@ Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, d
   const Arena::Mark mark(room.output);  // the pair stays for the target's other parts
   RELIEVO_TRY_ASSIGN(const auto matches, room.pipeline.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, room.pipeline.reconstruct(pair, matches, room.context));
-  RELIEVO_TRY_ASSIGN(const auto mesh, room.pipeline.mesh(cloud, room.context));
+  RELIEVO_TRY_ASSIGN(const auto mesh, room.pipeline.mesh(cloud, pair, room.context));
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
     if (mesh.measured[i] != 0) points.push_back(measure::wide(mesh.vertices_mm[i]));

@@ -87,9 +87,9 @@ Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageCont
 }
 
 Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const {
-  RELIEVO_ASSERT(products.cloud.has_value());
+  RELIEVO_ASSERT(products.cloud.has_value() && products.pair.has_value());
   record.in = products.cloud->points.size();
-  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_->mesh(*products.cloud, context));
+  RELIEVO_TRY_ASSIGN(products.mesh, pipeline_->mesh(*products.cloud, *products.pair, context));
   record.out = products.mesh->triangles.size();
   return {};
 }

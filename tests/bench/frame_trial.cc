@@ -48,7 +48,7 @@ Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::S
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   const double* x = pair.rectified_from_left.m;
   across = {x[0], x[1], x[2]};
-  return stages.mesh(cloud, room.context);
+  return stages.mesh(cloud, pair, room.context);
 }
 
 RigidTransform a_from_b(const Photograph& a, const Photograph& b) {

@@ -49,7 +49,7 @@ Result<FaceMesh> reconstruct(const Scene& scene, const SimRig& rig, const Algori
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify({pictures.left.view(), pictures.right.view(), 0, 0}, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
-  return stages.mesh(cloud, room.context);
+  return stages.mesh(cloud, pair, room.context);
 }
 
 double share_kept(const FaceMesh& mesh, const Scene& rippled, const Scene& smooth) {

@@ -38,7 +38,7 @@ struct Bench : Workspace {
     pair.emplace(need(stages->rectify(frame, context)));
     matches.emplace(need(stages->match(*pair, context)));
     cloud.emplace(need(stages->reconstruct(*pair, *matches, context)));
-    mesh.emplace(need(stages->mesh(*cloud, context)));
+    mesh.emplace(need(stages->mesh(*cloud, *pair, context)));
     kept = output.used();
   }
   [[noreturn]] static void fail(const Error& error) {
@@ -78,7 +78,7 @@ void run(benchmark::State& state, Stage&& stage) {
 void rectify(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->rectify(b.frame, b.context).has_value(); }); }
 void match(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->match(*b.pair, b.context).has_value(); }); }
 void reconstruct(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->reconstruct(*b.pair, *b.matches, b.context).has_value(); }); }
-void mesh(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->mesh(*b.cloud, b.context).has_value(); }); }
+void mesh(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->mesh(*b.cloud, *b.pair, b.context).has_value(); }); }
 void texture(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->texture(FaceMesh(*b.mesh), *b.pair, b.context).has_value(); }); }
 void peer_sgbm_3way(benchmark::State& s) { run(s, [](Bench& b) { return match_like_the_peer(*b.pair); }); }
 

@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
   auto pair = need(stages.rectify({left.view(), right.view(), 0, 0}, c));
   const auto matches = need(stages.match(pair, c));
   const auto cloud = need(stages.reconstruct(pair, matches, c));
-  auto mesh = need(stages.mesh(cloud, c));
+  auto mesh = need(stages.mesh(cloud, pair, c));
   const auto alone = need(pipeline::run_stage(c, [&](pipeline::StageContext& s) { return pipeline::SingleViewTexturer({}).texture(mesh, pair, s); }));
   const auto model = need(stages.texture(std::move(mesh), pair, c));
   print_seams("seams, two-view", test::measure_seams(model.mesh, model.texture, &alone));

@@ -99,7 +99,7 @@ Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
 Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made, Run& run) {
   auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) { return pipeline.reconstruct(*made.pair, *made.matches, c); });
   if (!cloud) return cloud.error();
-  auto mesh = bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, c); });
+  auto mesh = bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
   if (!mesh) return mesh.error();
   auto model = bench.step("texture", [&](pipeline::StageContext& c) { return pipeline.texture(*std::move(mesh), *made.pair, c); });
   if (!model) return model.error();

@@ -16,7 +16,7 @@ relievo::Result<FaceMesh> measure(const StereoFrame& pictures, const char* rig, 
   RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(pictures, context));
   RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
   RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));
-  return pipeline.mesh(cloud, context);
+  return pipeline.mesh(cloud, pair, context);
 }
 
 int main(int argc, char** argv) {

@@ -53,7 +53,7 @@ void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     }
 }
 
-void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh) {
+void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too) {
   const auto cells = [&](std::uint32_t v) {
     const Vec3f& m = mesh.vertices_mm[v];
     const Vec3d p = apply(frame_from_mesh, {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)});
@@ -61,7 +61,7 @@ void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh
                  static_cast<float>(p.z)};
   };
   for (const auto& t : mesh.triangles) {
-    if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
+    if (!completed_too && (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0)) continue;
     const Vec3f a = cells(t[0]);
     if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) || a.y > static_cast<float>(rows_ + 20)) continue;
     add_triangle(a, cells(t[1]), cells(t[2]));

@@ -32,8 +32,8 @@ class FaceRelief {
   // Between cells; NaN where one of the four around has nothing.
   double at(double x_mm, double y_mm) const;
 
-  // Lays the triangles whose three corners were measured into it. The box's left is its right, mirrored.
-  void add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh);
+  // Lays the triangles whose three corners were measured, or all, into it. The box's left is its right, mirrored.
+  void add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too = false);
   // Both halves become their mean, or the one there is.
   void symmetrise();
   // A Gaussian over what is there; cells with nothing stay so.

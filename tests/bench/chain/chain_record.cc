@@ -75,7 +75,7 @@ Result<ChainRecord> record_chain(const ChainPictures& pictures, int threads) {
   RELIEVO_TRY_ASSIGN(const PointCloud cloud,
                      stage([&](StageContext& c) { return stages.reconstruct(pair, matches, c); }));
   record.points = kept(cloud.points);
-  RELIEVO_TRY_ASSIGN(FaceMesh mesh, stage([&](StageContext& c) { return stages.mesh(cloud, c); }));
+  RELIEVO_TRY_ASSIGN(FaceMesh mesh, stage([&](StageContext& c) { return stages.mesh(cloud, pair, c); }));
   RELIEVO_TRY_ASSIGN(const FaceModel model,
                      stage([&](StageContext& c) { return stages.texture(std::move(mesh), pair, c); }));
   record.vertices_mm = kept(model.mesh.vertices_mm), record.triangles = kept(model.mesh.triangles);

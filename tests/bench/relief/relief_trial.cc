@@ -15,7 +15,7 @@ Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pi
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(frame, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
-  RELIEVO_TRY_ASSIGN(auto mesh, stages.mesh(cloud, room.context));
+  RELIEVO_TRY_ASSIGN(auto mesh, stages.mesh(cloud, pair, room.context));
   // What was measured is told of everything, also of what is refused.
   const auto relief = run_stage(room.context, [&](StageContext& c) { return measure_relief(mesh, pair, c); });
   if (relief) verdict.relief = *relief;

@@ -110,7 +110,7 @@ Result<Surface> reconstruct(const sim::PicturePair& pictures, const sim::SimRig&
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify({pictures.left.view(), pictures.right.view()}, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
-  RELIEVO_TRY_ASSIGN(const auto mesh, stages.mesh(cloud, room.context));
+  RELIEVO_TRY_ASSIGN(const auto mesh, stages.mesh(cloud, pair, room.context));
   return measured_surface(mesh);
 }
 

@@ -113,7 +113,7 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   ASSERT_TRUE(matches);
   const auto cloud = pipeline->reconstruct(*pair, *matches, c);
   ASSERT_TRUE(cloud);
-  auto mesh = pipeline->mesh(*cloud, c);
+  auto mesh = pipeline->mesh(*cloud, *pair, c);
   ASSERT_TRUE(mesh);
   const auto model = pipeline->texture(*std::move(mesh), *pair, c);
   ASSERT_TRUE(model);

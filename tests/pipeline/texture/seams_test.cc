@@ -96,7 +96,7 @@ class SeamsOfAFace : public testing::Test {
     EXPECT_TRUE(matches);
     const auto cloud = pipeline->reconstruct(*pair, *matches, c);
     EXPECT_TRUE(cloud);
-    auto mesh = pipeline->mesh(*cloud, c);
+    auto mesh = pipeline->mesh(*cloud, *pair, c);
     EXPECT_TRUE(mesh);
     const auto left_alone = SingleViewTexturer({}).texture(*mesh, *pair, c);
     EXPECT_TRUE(left_alone);
@@ -162,7 +162,7 @@ TEST_F(SeamsOfAFace, ALampMirroredByTheSkinIsNotPaintedOnIt) {
   ASSERT_TRUE(matches);
   const auto cloud = pipeline->reconstruct(*dull, *matches, c);
   ASSERT_TRUE(cloud);
-  const auto mesh = pipeline->mesh(*cloud, c);
+  const auto mesh = pipeline->mesh(*cloud, *dull, c);
   ASSERT_TRUE(mesh);
   mirror_a_lamp(pictures.left, *scene, rig->left);
   mirror_a_lamp(pictures.right, *scene, rig->right);

@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/eyes/lid_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pipeline/mesh/landmarks/face_relief.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// Where an eye is looked for, from the tip of the nose.
+constexpr double kPupilMm = 31.5, kUpMm = 35;
+constexpr double kHalfWidthMm = 24, kHalfHeightMm = 23;
+constexpr double kStepMm = 0.5, kReliefMm = 1, kSmoothMm = 2;
+constexpr double kNoise = 3;     // mean absolute deviations of skin
+constexpr double kShare = 0.5;   // of what the least red two per cent differ by
+constexpr double kGreyest = 30;  // added to the sum of the channels: what is dark has no colour
+constexpr double kLeastChroma = 0.01;
+// What eyes are like: half the width between corners, its middle from where pupils are, both lids' heights;
+// and what a deviation costs, mm2.
+constexpr double kHalfFissureMm = 14, kHalfFissureSigmaMm = 1.5, kFissureCost = 3;
+constexpr double kAsideSigmaMm = 3, kAsideCost = 2;
+constexpr double kUpperMm = 5.5, kLowerMm = 4, kHeightSigmaMm = 2, kHeightCost = 2;
+constexpr double kTiltMm = 1, kTiltSigmaMm = 2, kTiltCost = 1;  // of the outer corner over the inner one
+constexpr double kLeastOpenMm = 3, kLeastHeightMm = 0.5;
+constexpr std::size_t kHighest = 9;
+constexpr double kUnlikeCost = 0.5;  // of an eye's own almond, from the one of both
+constexpr double kLeastShare = 0.2;  // by which more of the almond than of what lies around it is no skin
+constexpr double kAroundMm = 2;
+
+// Of an open eye either the half is that much less red than skin, or the lightest tenth that much lighter
+// than the darkest: sclera beside an iris and lashes. A closed lid that shines is neither.
+constexpr double kWhiteRed = 0.5, kIrisContrast = 1.8;
+constexpr double kRimMm = 1;
+
+struct Rgb {
+  double r = 0, g = 0, b = 0;
+};
+
+Rgb colour_at(const RectifiedPair& pair, double x, double y) {
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const double fx = x - x0, fy = y - y0;
+  Rgb sum;
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const std::uint8_t* p =
+          &pair.left.rgb[3 * (static_cast<std::size_t>(y0 + dy) * static_cast<std::size_t>(pair.width_px) +
+                              static_cast<std::size_t>(x0 + dx))];
+      const double share = (dx != 0 ? fx : 1 - fx) * (dy != 0 ? fy : 1 - fy);
+      sum = {sum.r + share * p[0], sum.g + share * p[1], sum.b + share * p[2]};
+    }
+  return sum;
+}
+
+// The surroundings of an eye, columns away from the nose, rows upwards.
+struct Window {
+  explicit Window(std::pmr::memory_resource* memory)
+      : red(memory), light(memory), unlike_skin(memory), below(memory) {}
+  static constexpr int columns = static_cast<int>(2 * kHalfWidthMm / kStepMm) + 1,
+                       rows = static_cast<int>(2 * kHalfHeightMm / kStepMm) + 1;
+  std::pmr::vector<float> red;    // (R - B) / (R + G + B): 0 for grey; the lamp's colour is in all of it. NaN
+                                  // where nothing is known
+  std::pmr::vector<float> light;  // R + G + B
+  double skin = 0;                // how red that is
+  std::pmr::vector<float> unlike_skin;  // 0.5 surely not, -0.5 surely skin
+  std::pmr::vector<double> below;       // sum of a column's samples up to a row, mm2
+
+  double x_mm(int c) const { return kPupilMm - kHalfWidthMm + c * kStepMm; }
+  double y_mm(int r) const { return kUpMm - kHalfHeightMm + r * kStepMm; }
+  std::size_t index(int c, int r) const { return static_cast<std::size_t>(c * (rows + 1) + r); }
+  double sum_below(int c, double y) const {
+    const double r = std::clamp((y - y_mm(0)) / kStepMm + 0.5, 0.0, rows - 1e-6);
+    const int whole = static_cast<int>(r);
+    const double share = r - whole;
+    return (1 - share) * below[index(c, whole)] + share * below[index(c, whole + 1)];
+  }
+};
+
+double quantile(std::pmr::vector<float> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
+void blur(std::pmr::vector<float>& v, int columns, int rows) {
+  const auto along = [&](int lines, int length, int line_step, int step) {
+    for (int l = 0; l < lines; ++l) {
+      float* p = &v[static_cast<std::size_t>(l * line_step)];
+      float before = p[0];
+      for (int i = 0; i < length; ++i) {
+        const float here = p[i * step], after = p[std::min(i + 1, length - 1) * step];
+        p[i * step] = (before + 2 * here + after) / 4;
+        before = here;
+      }
+    }
+  };
+  along(rows, columns, columns, 1);
+  along(columns, rows, 1, columns);
+}
+
+void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_from_head,
+            const RectifiedPair& pair, double side) {
+  w.red.assign(static_cast<std::size_t>(w.columns * w.rows), std::nanf(""));
+  w.light.assign(w.red.size(), 0);
+  for (int r = 0; r < w.rows; ++r)
+    for (int c = 0; c < w.columns; ++c) {
+      const double x = side * w.x_mm(c), y = w.y_mm(r), z = relief.at(x, y);
+      if (std::isnan(z)) continue;
+      const Vec3d p = apply(pair.rectified_from_left, apply(camera_from_head, Vec3d{x, y, z}));
+      const double u = p.x / p.z * pair.focal_px + pair.left_centre_px.x,
+                   v = p.y / p.z * pair.focal_px + pair.left_centre_px.y;
+      const double apart = kStepMm / 3 * pair.focal_px / p.z;  // of nine places in a sample
+      if (!(u > apart && v > apart && u + apart + 1 < pair.width_px && v + apart + 1 < pair.height_px))
+        continue;
+      Rgb sum;
+      for (const double dv : {-apart, 0.0, apart})
+        for (const double du : {-apart, 0.0, apart}) {
+          const Rgb one = colour_at(pair, u + du, v + dv);
+          sum = {sum.r + one.r / 9, sum.g + one.g / 9, sum.b + one.b / 9};
+        }
+      const std::size_t k = static_cast<std::size_t>(r * w.columns + c);
+      w.light[k] = static_cast<float>(sum.r + sum.g + sum.b);
+      w.red[k] = static_cast<float>((sum.r - sum.b) / (sum.r + sum.g + sum.b + kGreyest));
+    }
+}
+
+// False where there is nothing to tell by.
+bool tell_skin(Window& w, Arena& scratch) {
+  std::pmr::vector<float> known(&scratch);
+  for (const float v : w.red)
+    if (!std::isnan(v)) known.push_back(v);
+  if (known.size() * 2 < w.red.size()) return false;
+  w.skin = quantile(known, 0.5);
+  for (float& v : w.red)
+    if (std::isnan(v)) v = static_cast<float>(w.skin);
+  blur(w.red, w.columns, w.rows);
+  const double least_red = quantile(w.red, 0.02);
+  if (!(w.skin - least_red > kLeastChroma)) return false;
+  for (float& v : known) v = static_cast<float>(std::abs(static_cast<double>(v) - w.skin));
+  const double scale = std::max(kNoise * quantile(known, 0.5), kShare * (w.skin - least_red));
+  w.unlike_skin.reserve(w.red.size());
+  for (const float red : w.red) {
+    const double unlike = (w.skin - static_cast<double>(red)) / scale;
+    w.unlike_skin.push_back(
+        unlike < -0.5 ? 0
+                      : static_cast<float>(std::clamp(unlike, 0.0, 1.0) -
+                                           0.5));  // redder than skin: a lid's margin, or a brown iris
+  }
+  w.below.assign(static_cast<std::size_t>(w.columns * (w.rows + 1)), 0);
+  for (int c = 0; c < w.columns; ++c)
+    for (int r = 0; r < w.rows; ++r)
+      w.below[w.index(c, r + 1)] =
+          w.below[w.index(c, r)] +
+          kStepMm * kStepMm * static_cast<double>(w.unlike_skin[static_cast<std::size_t>(r * w.columns + c)]);
+  return true;
+}
+
+double squared(double v) { return v * v; }
+
+// What an almond's corners and its opening cost, mm2.
+double cost(const Lids& l) {
+  return kFissureCost * squared(((l.outer.x - l.inner.x) / 2 - kHalfFissureMm) / kHalfFissureSigmaMm) +
+         kAsideCost * squared(((l.inner.x + l.outer.x) / 2 - kPupilMm) / kAsideSigmaMm) +
+         kTiltCost * squared((l.outer.y - l.inner.y - kTiltMm) / kTiltSigmaMm) +
+         kHeightCost * (squared((l.upper - kUpperMm) / kHeightSigmaMm) +
+                        squared((l.lower - kLowerMm) / kHeightSigmaMm));
+}
+
+// What lies below a parabola over the line between two corners, mm2.
+double sum_below(const Window& w, const Vec2d& inner, const Vec2d& outer, double height) {
+  double sum = 0;
+  const int first = std::max(0, static_cast<int>(std::ceil((inner.x - w.x_mm(0)) / kStepMm)));
+  for (int c = first; c < w.columns && w.x_mm(c) < outer.x; ++c) {
+    const double along = (w.x_mm(c) - inner.x) / (outer.x - inner.x);
+    sum += w.sum_below(c, inner.y + along * (outer.y - inner.y) + height * 4 * along * (1 - along));
+  }
+  return sum;
+}
+
+double worth(const Window& w, const Lids& l) {
+  if (l.outer.x - l.inner.x < 20 || std::min(l.upper, l.lower) < kLeastHeightMm ||
+      l.upper + l.lower < kLeastOpenMm || std::max(l.upper, l.lower) > static_cast<double>(kHighest))
+    return -1e9;
+  return sum_below(w, l.inner, l.outer, l.upper) - sum_below(w, l.inner, l.outer, -l.lower) - cost(l);
+}
+
+// Whether an eye is seen in the almond, and is open.
+bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
+  std::pmr::vector<float> red(&scratch), light(&scratch);
+  double within = 0, around = 0;
+  int inside = 0, outside = 0;
+  for (int r = 0; r < w.rows; ++r)
+    for (int c = 0; c < w.columns; ++c) {
+      const std::size_t k = static_cast<std::size_t>(r * w.columns + c);
+      const double x = w.x_mm(c), depth = lids.depth({x, w.y_mm(r)});
+      if (depth > kRimMm) red.push_back(w.red[k]), light.push_back(w.light[k]);
+      if (depth > 0) within += static_cast<double>(w.unlike_skin[k]), ++inside;
+      else if (depth > -kAroundMm && x > lids.inner.x && x < lids.outer.x)
+        around += static_cast<double>(w.unlike_skin[k]), ++outside;
+    }
+  if (red.empty() || inside == 0 || outside == 0 || within / inside - around / outside < kLeastShare)
+    return false;
+  return quantile(red, 0.5) < kWhiteRed * w.skin ||
+         quantile(light, 0.9) > kIrisContrast * quantile(light, 0.1);
+}
+
+// Of all almonds the best, within a millimetre or two.
+Lids search(const Window& w) {
+  Lids best;
+  double most = -1e9;
+  // Both lids of an almond with these corners do not depend on one another.
+  const auto consider = [&](const Vec2d& inner, const Vec2d& outer) {
+    std::array<double, kHighest + 1> upper{}, lower{};
+    for (std::size_t h = 1; h <= kHighest; ++h) {
+      upper[h] = sum_below(w, inner, outer, static_cast<double>(h));
+      lower[h] = sum_below(w, inner, outer, -static_cast<double>(h));
+    }
+    for (std::size_t u = 1; u <= kHighest; ++u)
+      for (std::size_t l = 1; l <= kHighest; ++l) {
+        const Lids lids{inner, outer, static_cast<double>(u), static_cast<double>(l)};
+        const double value = upper[u] - lower[l] - cost(lids);
+        if (lids.upper + lids.lower >= kLeastOpenMm && value > most) most = value, best = lids;
+      }
+  };
+  for (int from = -19; from <= -7; from += 2)
+    for (int width = 22; width <= std::min(34, 20 - from); width += 2)
+      for (int up = -12; up <= 12; ++up)
+        for (const double tilt : {-4.0, -2.0, 0.0, 2.0, 4.0})
+          consider({kPupilMm + from, kUpMm + up - tilt / 2},
+                   {kPupilMm + from + width, kUpMm + up + tilt / 2});
+  return best;
+}
+
+// The best near `common`, uphill.
+Lids refine(const Window& w, const Lids& common) {
+  const auto own = [&](const Lids& l) {
+    return worth(w, l) -
+           kUnlikeCost * (squared(l.inner.x - common.inner.x) + squared(l.inner.y - common.inner.y) +
+                          squared(l.outer.x - common.outer.x) + squared(l.outer.y - common.outer.y) +
+                          squared(l.upper - common.upper) + squared(l.lower - common.lower));
+  };
+  Lids best = common;
+  double most = own(best);
+  double step = 1;
+  while (step > 0.2) {
+    const double before = most;
+    const Lids from = best;
+    const auto consider = [&](const Lids& lids) {
+      const double value = own(lids);
+      if (value > most) most = value, best = lids;
+    };
+    for (const double d : {-step, step}) {
+      consider({{from.inner.x + d, from.inner.y}, from.outer, from.upper, from.lower});
+      consider({{from.inner.x, from.inner.y + d}, from.outer, from.upper - d / 2, from.lower + d / 2});
+      consider({from.inner, {from.outer.x + d, from.outer.y}, from.upper, from.lower});
+      consider({from.inner, {from.outer.x, from.outer.y + d}, from.upper - d / 2, from.lower + d / 2});
+      consider({{from.inner.x, from.inner.y + d}, {from.outer.x, from.outer.y + d}, from.upper, from.lower});
+      consider({from.inner, from.outer, from.upper + d, from.lower});
+      consider({from.inner, from.outer, from.upper, from.lower + d});
+    }
+    if (most <= before) step /= 2;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                                             const RectifiedPair& pair, StageContext& context) {
+  Arena& scratch = context.scratch;
+  const Arena::Mark mark(scratch);
+  const double reach = kPupilMm + kHalfWidthMm + kReliefMm;
+  FaceRelief relief({-reach, reach, kUpMm - kHalfHeightMm - 1, kUpMm + kHalfHeightMm + 1, kReliefMm},
+                    &scratch);
+  relief.add(mesh, head_from_camera, true);
+  relief.smooth(kSmoothMm, &scratch);
+  const RigidTransform camera_from_head = inverse(head_from_camera);
+  std::array<Window, 2> windows{Window(&scratch), Window(&scratch)};
+  Window both(&scratch);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Window& w = windows[i];
+    sample(w, relief, camera_from_head, pair, i == 0 ? -1 : 1);
+    if (!tell_skin(w, scratch)) continue;
+    both.below.resize(w.below.size(), 0);
+    for (std::size_t k = 0; k < w.below.size(); ++k) both.below[k] += w.below[k] / 2;
+  }
+  std::array<std::optional<Lids>, 2> eyes;
+  if (both.below.empty()) return eyes;
+  const Lids common = search(both);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (windows[i].below.empty()) continue;
+    Lids lids = refine(windows[i], common);
+    if (!is_eye(windows[i], lids, scratch)) continue;
+    if (i == 0) lids.inner.x *= -1, lids.outer.x *= -1;
+    eyes[i] = lids;
+  }
+  return eyes;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where an open eye lies between its lids, by the left photograph: sclera and most irises are less red than
+// skin is, under any lamp, and the lids' margins are redder. Of all almonds (two parabolas that meet in the
+// corners of the eye) the one is taken that parts the one from the other best; how large eyes are (Farkas
+// 1994) weighs little against it. Thread: any.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/stage.h"
+
+namespace relievo::pipeline {
+
+// In the head's frame (head_frame.h), seen from the front; millimetres.
+struct Lids {
+  Vec2d inner, outer;           // corners of the eye
+  double upper = 0, lower = 0;  // how far the lids' margins lie from the line between the corners, half way
+
+  // How far within the margins, measured upright; negative outside.
+  double depth(const Vec2d& p) const {
+    const double along = (p.x - inner.x) / (outer.x - inner.x), line = inner.y + along * (outer.y - inner.y);
+    const double arc = 4 * along * (1 - along);
+    if (along <= 0 || along >= 1) return -1;
+    return p.y > line ? line + upper * arc - p.y : p.y - line + lower * arc;
+  }
+  Vec2d middle() const { return {(inner.x + outer.x) / 2, (inner.y + outer.y + upper - lower) / 2}; }
+};
+
+// The person's right eye, then the left one; none where an eye is closed, hidden, or the picture has no
+// colours. Memory: scratch. Throws std::bad_alloc.
+std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                                             const RectifiedPair& pair, StageContext& context);
+
+}  // namespace relievo::pipeline

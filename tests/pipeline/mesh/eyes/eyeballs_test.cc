@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Eyes of simulated people, photographed, measured and laid on balls, against the people's own eyes.
+#include "pipeline/mesh/eyes/eyeballs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "hal/sim/head/head_model.h"
+#include "hal/sim/head/head_traits.h"
+#include "hal/sim/render.h"
+#include "pipeline/mesh/eyes/lid_finder.h"
+#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/pipeline.h"
+#include "tests/support/rig_calibration.h"
+#include "tests/support/small_rig.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// A person before the rig, and the face as the mesher leaves it.
+struct Sitter {
+  explicit Sitter(const hal::sim::HeadTraits& traits) : model(hal::sim::make_head(traits, bench.pool)) {
+    const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(0.8));
+    const auto scene = hal::sim::make_head_scene(model, pose, bench.pool);
+    const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, bench.pool);
+    const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
+    StageContext& c = bench.context;
+    pair.emplace(*pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c));
+    const auto matches = pipeline->match(*pair, c);
+    const auto cloud = pipeline->reconstruct(*pair, *matches, c);
+    mesh.emplace(*GridMesher({}).mesh(*cloud, c));
+    head = find_head_frame(*mesh, {}, c)->head_from_camera;
+  }
+  // Of a vertex before an eyeball, to that or the skin, whichever is nearer, mm; none towards the corners of
+  // the eye, which flesh fills.
+  std::optional<double> off(const Vec3f& v) const {
+    const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    const hal::sim::Vec3 h = pose.world_from_head().transposed() * (p - pose.origin_mm());
+    for (const hal::sim::Vec3& centre : model->eye_centres)
+      if (std::abs(h.x - centre.x) < 8)
+        return std::min(std::abs(model->field.distance(h)),
+                        std::abs(length(h - centre) - model->field.eye.radius()));
+    return std::nullopt;
+  }
+
+  test::StageBench bench;
+  hal::sim::HeadPose pose;
+  std::shared_ptr<const hal::sim::HeadModel> model;
+  std::optional<RectifiedPair> pair;
+  std::optional<FaceMesh> mesh;
+  RigidTransform head;
+};
+
+bool same(const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+TEST(Eyeballs, LieWhereThePersonsOwnDo) {
+  for (const std::uint32_t seed : {4U, 7U}) {  // fair skin, dark skin
+    Sitter s(hal::sim::traits_of(seed));
+    const FaceMesh before = *s.mesh;
+    lay_eyeballs(*s.mesh, s.head, *s.pair, s.bench.context);
+    ASSERT_EQ(s.mesh->vertices_mm.size(), before.vertices_mm.size());
+    double then = 0, now = 0;
+    int moved = 0;
+    for (std::size_t v = 0; v < before.vertices_mm.size(); ++v) {
+      if (same(before.vertices_mm[v], s.mesh->vertices_mm[v])) continue;
+      EXPECT_EQ(s.mesh->measured[v], 0);
+      const auto was = s.off(before.vertices_mm[v]), is = s.off(s.mesh->vertices_mm[v]);
+      if (!was || !is) continue;
+      ++moved;
+      then += *was * *was;
+      now += *is * *is;
+    }
+    ASSERT_GT(moved, 300) << seed;
+    EXPECT_LT(std::sqrt(now / moved), 0.4) << seed << ", before: " << std::sqrt(then / moved);
+    EXPECT_LT(now, then) << seed;
+  }
+}
+
+TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
+  hal::sim::HeadTraits traits = hal::sim::traits_of(4);
+  traits.expression.lids_open = 0;
+  Sitter closed(traits);
+  FaceMesh before = *closed.mesh;
+  lay_eyeballs(*closed.mesh, closed.head, *closed.pair, closed.bench.context);
+  EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(),
+                         closed.mesh->vertices_mm.begin(), same));
+
+  Sitter grey(hal::sim::traits_of(4));
+  for (std::size_t k = 0; k < grey.pair->left.rgb.size(); k += 3)
+    grey.pair->left.rgb[k] = grey.pair->left.rgb[k + 2] = grey.pair->left.rgb[k + 1];
+  before = *grey.mesh;
+  lay_eyeballs(*grey.mesh, grey.head, *grey.pair, grey.bench.context);
+  EXPECT_TRUE(
+      std::equal(before.vertices_mm.begin(), before.vertices_mm.end(), grey.mesh->vertices_mm.begin(), same));
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
