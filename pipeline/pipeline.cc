@@ -86,7 +86,7 @@ bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) 
          reconstruct(*pair, *matches, context).has_value();
 }
 
-std::optional<Error> Pipeline::explain(const StereoFrame& frame, Errc failure, StageContext& context) const {
+std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& context) const {
   std::optional<PairFault> fault;
   const Result<void> looked = run_stage(context, [&](StageContext& c) -> Result<void> {
     fault = diagnose_pair(frame, calibration_, volume_, c);
@@ -94,7 +94,7 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, Errc failure, S
   });
   if (!looked || context.stop()) return std::nullopt;
   const bool light = fault && error_of(*fault).code == Errc::NoFace;
-  if (!light && fault != PairFault::SamePicture && failure != Errc::NoFace && matches_swapped(frame, context)) fault = PairFault::Swapped;
+  if (!light && fault != PairFault::SamePicture && matches_swapped(frame, context)) fault = PairFault::Swapped;
   return fault ? std::optional(error_of(*fault)) : std::nullopt;
 }
 
@@ -134,31 +134,35 @@ Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pa
 }
 
 // Before anything that takes a face for granted looks at the surface.
-Result<ReliefFigures> Pipeline::judge_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const {
-  if (region_ == Region::All) return ReliefFigures{};
-  Result<ReliefFigures> relief = measure_relief(mesh, pair, context);
-  if (!relief_) return relief || relief.error().code == Errc::Cancelled ? relief : Result<ReliefFigures>(ReliefFigures{});
-  if (relief && !is_face(*relief, *relief_)) return error_of(*relief, *relief_);
-  return relief;
+Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const {
+  if (region_ == Region::All) return {};
+  RELIEVO_TRY_ASSIGN(const ReliefFigures relief, measure_relief(mesh, pair, context));
+  model.quality.relief = relief;
+  if (!relief_) return {};
+  const ReliefVerdict verdict = judge(relief, *relief_);
+  if (verdict == ReliefVerdict::Picture) return error_of(verdict, relief, *relief_);
+  if (verdict == ReliefVerdict::Unjudged) model.unjudged = error_of(verdict, relief, *relief_);
+  return {};
 }
 
 Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
-    RELIEVO_TRY_ASSIGN(const ReliefFigures relief, judge_relief(mesh, pair, c));
     FaceModel model(&c.output);
+    RELIEVO_TRY(judge_relief(model, mesh, pair, c));
     RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
     const double* x_axis = pair.rectified_from_left.m;
     const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
     const auto head = find_head_frame(mesh, HeadFrameOptions{}, c, across);
-    // Who asks for all that is seen, or not to be told what is no face, gets it also where no head is found in it.
-    const bool need_be_head = region_ != Region::All && relief_ != std::nullopt;
-    if (!head && (need_be_head || head.error().code != Errc::PoorGeometry)) return head.error();
+    if (!head && head.error().code != Errc::PoorGeometry) return head.error();
     const HeadFrame frame = head ? *head : frame_as_seen(mesh, c);
     model.head_from_camera = frame.head_from_camera;
     if (head) {
       RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
       model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
+    } else if (region_ != Region::All && relief_ && !model.unjudged) {
+      model.unjudged = head.error();
     }
+    const ReliefFigures relief = model.quality.relief;
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;
     model.quality.texture_sharpness = texture_sharpness(model.texture, c);

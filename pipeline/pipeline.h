@@ -42,12 +42,12 @@ class Pipeline {
   Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
-  // Takes the mesh over into the model, once it is known to be a face. Errors: NoFace (a picture was held up; never
-  // with Region::All or relief=off), PoorGeometry, Cancelled, OutOfMemory.
+  // Takes the mesh over into the model, which says where it could not be told whether that is a face (FaceModel::unjudged; never
+  // with Region::All or relief=off). Errors: NoFace (a picture was held up; never so either), Cancelled, OutOfMemory.
   Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
 
-  // After `failure`: what is wrong with the pictures, if anything is. May take as long as a match.
-  std::optional<Error> explain(const StereoFrame& frame, Errc failure, StageContext& context) const;
+  // After a failure: what is wrong with the pictures, if anything is. May take as long as a match.
+  std::optional<Error> explain(const StereoFrame& frame, StageContext& context) const;
 
   const StereoCalibration& calibration() const { return calibration_; }
   const AlgorithmSet& algorithms() const { return set_; }
@@ -55,7 +55,7 @@ class Pipeline {
  private:
   Pipeline() = default;
   bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
-  Result<ReliefFigures> judge_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
+  Result<void> judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;
   RectifierOptions volume_;

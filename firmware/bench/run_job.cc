@@ -22,7 +22,7 @@ Result<void> RunJob::work(JobControl& control) {
   pictures_.wipe();
   figures_.begin(set_);
   RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(set_, calibration_));
-  PipelineStages stages(std::move(pipeline), WhenMoved::GoOn);
+  PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
   StageJob job(stages, session_, pool_, clock_);
   for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
     now_.store(stage, std::memory_order_relaxed);
@@ -34,6 +34,7 @@ Result<void> RunJob::work(JobControl& control) {
     figures_.fail(stage, done.error());
     break;
   }
+  if (session_.products().model && session_.products().model->unjudged) figures_.fail(State::Texture, *session_.products().model->unjudged);
   return finish(control);
 }
 

@@ -40,7 +40,7 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
   Result<void> done = run_stage_of(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame) return done;
-  if (std::optional<Error> cause = pipeline_->explain(*products.frame, done.error().code, context)) return *cause;
+  if (std::optional<Error> cause = pipeline_->explain(*products.frame, context)) return *cause;
   return done;
 }
 
@@ -99,6 +99,11 @@ Result<void> PipelineStages::texture(Products& products, pipeline::StageContext&
   record.in = products.mesh->triangles.size();
   RELIEVO_TRY_ASSIGN(products.model, pipeline_->texture(std::move(*products.mesh), *products.pair, context));
   products.mesh.reset();  // it lives on in the model
+  if (products.model->unjudged && when_unjudged_ == WhenUnjudged::Refuse) {
+    const Error why = *products.model->unjudged;
+    products.model.reset();
+    return why;
+  }
   products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
   record.out = products.model->texture.rgb.size() / 3;
   return {};

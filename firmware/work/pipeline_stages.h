@@ -17,12 +17,14 @@
 
 namespace relievo::firmware {
 
+// Cameras that have moved too far to be measured with; a surface of which it is not known whether it is a face.
 enum class WhenMoved : std::uint8_t { Refuse, GoOn };
+enum class WhenUnjudged : std::uint8_t { Refuse, GoOn };
 
 class PipelineStages final : public StageRunner {
  public:
-  explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse)
-      : set_(pipeline.algorithms()), pipeline_(std::move(pipeline)), when_moved_(when_moved) {}
+  explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse, WhenUnjudged when_unjudged = WhenUnjudged::Refuse)
+      : set_(pipeline.algorithms()), pipeline_(std::move(pipeline)), when_moved_(when_moved), when_unjudged_(when_unjudged) {}
   // Of a device that nobody has calibrated yet.
   explicit PipelineStages(const pipeline::AlgorithmSet& set) : set_(set) {}
   const pipeline::AlgorithmSet& algorithms() const { return set_; }
@@ -45,6 +47,7 @@ class PipelineStages final : public StageRunner {
   pipeline::AlgorithmSet set_;
   std::optional<pipeline::Pipeline> pipeline_;
   WhenMoved when_moved_ = WhenMoved::Refuse;
+  WhenUnjudged when_unjudged_ = WhenUnjudged::Refuse;
 };
 
 }  // namespace relievo::firmware

@@ -23,6 +23,8 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Ke
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 
 
+constexpr float kSheetEdgeMm = 5, kSheetEdges = 6;  // what is fitted to a sheet closes holes by itself, and errs where the sheet spans them
+
 bool usable(const CloudPoint& p) {
   return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
          std::isfinite(p.sigma_mm) && std::isfinite(p.left_px.x) && std::isfinite(p.left_px.y);
@@ -42,7 +44,7 @@ std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const P
   return points;
 }
 
-// Half of all edges are shorter; what a hole's bridge is measured by.
+// Half of all edges are shorter.
 float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Triangle>& triangles, Arena& scratch) {
   std::pmr::vector<float> lengths(&scratch);
   lengths.reserve(triangles.size());
@@ -53,9 +55,27 @@ float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Tr
   return *middle;
 }
 
-bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
+bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
   const float longest = longest_mm * longest_mm;
-  if (mesh::squared_distance(a, b) > longest || mesh::squared_distance(b, c) > longest || mesh::squared_distance(c, a) > longest) return false;
+  return mesh::squared_distance(a, b) <= longest && mesh::squared_distance(b, c) <= longest && mesh::squared_distance(c, a) <= longest;
+}
+
+// How far the points would lie from one another, spread evenly over the surface as the camera sees it: a hole's bridge is measured by
+// that. Chosen places come in heaps, so that half of all edges are shorter by far.
+double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Triangle>& triangles, float longest_mm) {
+  double area = 0;
+  std::size_t count = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
+    if (!shorter(a, b, c, longest_mm)) continue;
+    area += static_cast<double>(std::abs(mesh::dot(mesh::cross(mesh::minus(b, a), mesh::minus(c, a)), mesh::unit(mesh::plus(mesh::plus(a, b), c))))) / 2;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(2 * area / static_cast<double>(count)) : 0;  // there are two triangles a point
+}
+
+bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
+  if (!shorter(a, b, c, longest_mm)) return false;
   const Vec3f n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
   const Vec3f sight = mesh::plus(mesh::plus(a, b), c);
   const float towards = -mesh::dot(n, sight);
@@ -78,6 +98,34 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
   return triangles;
 }
 
+// `longest_mm`: of an edge, asked once all triangles are known.
+template <typename Longest>
+Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& options, StageContext& context, Longest&& longest_mm) {
+  const Error stopped{Errc::Cancelled, "meshing was stopped"};
+  RELIEVO_TRY(options.check());
+  if (context.stop()) return stopped;
+  if (cloud.points.size() < 3) return no_surface();
+  std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
+  context.progress.done.store(0.6F, std::memory_order_relaxed);
+  if (context.stop()) return stopped;
+
+  std::pmr::vector<Vec3f> at(&context.scratch);
+  at.reserve(cloud.points.size());
+  for (const CloudPoint& p : cloud.points) at.push_back(p.at_mm);
+  const float longest = longest_mm(at, triangles);
+  const float min_cosine = static_cast<float>(std::cos(options.max_incidence_deg * std::numbers::pi / 180));
+  std::erase_if(triangles, [&](const Triangle& t) { return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine); });
+  keep_one_surface(at, triangles, {options.ear_passes}, &context.scratch);
+  if (context.stop()) return stopped;
+  if (triangles.empty() || area_mm2(at, triangles) < options.min_area_mm2) return no_surface();
+
+  FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) { return PackedVertex{at[v], cloud.points[v].sigma_mm, 1}; });
+  compute_normals(mesh, options.normal_passes, &context.scratch);
+  turn_sigma_perpendicular(mesh);
+  context.progress.done.store(1, std::memory_order_relaxed);
+  return mesh;
+}
+
 }  // namespace
 
 Result<void> DelaunayMesherOptions::check() const {
@@ -93,36 +141,18 @@ Result<void> DelaunayMesherOptions::check() const {
 }
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(options_.check());
-  if (context.stop()) return stopped;
-  if (cloud.points.size() < 3) return no_surface();
-  std::pmr::vector<Triangle> triangles = triangulate(cloud, options_.max_triangles, context.scratch);
-  context.progress.done.store(0.6F, std::memory_order_relaxed);
-  if (context.stop()) return stopped;
-
-  std::pmr::vector<Vec3f> at(&context.scratch);
-  at.reserve(cloud.points.size());
-  for (const CloudPoint& p : cloud.points) at.push_back(p.at_mm);
-  const float usual = usual_edge_mm(at, triangles, context.scratch);
-  const float longest = std::min(static_cast<float>(options_.max_edge_mm), static_cast<float>(options_.max_edge_ratio) * usual);
-  const float min_cosine = static_cast<float>(std::cos(options_.max_incidence_deg * std::numbers::pi / 180));
-  std::erase_if(triangles, [&](const Triangle& t) { return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine); });
-  keep_one_surface(at, triangles, {options_.ear_passes}, &context.scratch);
-  if (context.stop()) return stopped;
-  if (triangles.empty() || area_mm2(at, triangles) < options_.min_area_mm2) return no_surface();
-
-  FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) { return PackedVertex{at[v], cloud.points[v].sigma_mm, 1}; });
-  compute_normals(mesh, options_.normal_passes, &context.scratch);
-  turn_sigma_perpendicular(mesh);
-  context.progress.done.store(1, std::memory_order_relaxed);
-  return mesh;
+  return join(cloud, options_, context, [&](const auto& at, const auto& triangles) {
+    const float most = static_cast<float>(options_.max_edge_mm);
+    return std::min(most, static_cast<float>(options_.max_edge_ratio * even_distance_mm(at, triangles, most)));
+  });
 }
 
 Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context) {
   DelaunayMesherOptions options;
   options.max_triangles = max_triangles;
-  return DelaunayMesher(options).mesh(cloud, context);
+  return join(cloud, options, context, [&](const auto& at, const auto& triangles) {
+    return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, context.scratch));
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <memory_resource>
+#include <optional>
 
+#include "hal/base/result.h"
 #include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
@@ -25,7 +27,7 @@ struct ModelQuality {
   double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
   double texture_sharpness = 0;     // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
   double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
-  ReliefFigures relief;             // all 0 where the whole view was wanted: then it need not be a face
+  ReliefFigures relief;             // all 0 where nothing could be told, or nobody asked
 };
 
 // Head frame: origin at the tip of the nose (pronasale), x to the person's left, y up, z out of the
@@ -38,6 +40,7 @@ struct FaceModel {
   Landmarks landmarks{};
   ModelQuality quality;
   Backdrop backdrop;  // shown behind the face, nothing else
+  std::optional<Error> unjudged;  // why it is not known to be a face; then it may be looked at, not enrolled
 };
 
 }  // namespace relievo::pipeline

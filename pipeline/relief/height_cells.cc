@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -18,6 +19,7 @@ constexpr double kMiddleShare = 0.15;  // of the face's width: surface that is s
 constexpr std::size_t kEnough = 50;
 constexpr double kPlaneBendMm = 3;     // what lies further off the plane pulls no harder
 constexpr int kPlaneRounds = 8;
+constexpr double kMostParts = 40;      // of an edge
 
 struct Sample {
   Vector3d at;                         // rectified frame
@@ -35,6 +37,28 @@ Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::m
     if (p.z > 0) all.push_back({{p.x, p.y, p.z}, static_cast<double>(mesh.sigma_mm[k])});
   }
   return all;
+}
+
+// Of triangles wider than a cell also places in between: where points are scattered, what spans them is the surface that was measured.
+void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, double cell_mm) {
+  for (const auto& t : mesh.triangles) {
+    if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
+    std::array<Vector3d, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f& v = mesh.vertices_mm[t[k]];
+      const Vec3d p = apply(pair.rectified_from_left, Vec3d{v.x, v.y, v.z});
+      corner[k] = {p.x, p.y, p.z};
+    }
+    const double longest = std::max({(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
+    const int parts = static_cast<int>(std::min(kMostParts, 2 * longest / cell_mm));
+    const double sigma = static_cast<double>(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        if (i == parts || j == parts || i + j == 0) continue;  // a corner: it is there
+        const double a = static_cast<double>(i) / parts, b = static_cast<double>(j) / parts;
+        all.push_back({a * corner[0] + b * corner[1] + (1 - a - b) * corner[2], sigma});
+      }
+  }
 }
 
 double median_of(std::pmr::vector<double>& values) {
@@ -113,7 +137,8 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
   HeightCells out(&context.scratch);
   out.cell_mm = cell_mm;
   out.side = 2 * static_cast<int>(std::ceil(radius_mm / cell_mm)) + 1;
-  const Samples all = measured_of(mesh, pair, &context.scratch);
+  Samples all = measured_of(mesh, pair, &context.scratch);
+  add_between(all, mesh, pair, cell_mm);
   if (all.size() < kEnough) return out;
   const Vector3d middle = middle_of(all, pair, &context.scratch);
   const PlaneFrame frame = plane_of(all, middle, radius_mm);

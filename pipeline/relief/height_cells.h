@@ -32,7 +32,7 @@ struct HeightCells {
   double covered = 0;           // share of the lattice's inscribed disc
 };
 
-// Measured vertices within `radius_mm` of the middle of the face, as the pair saw it.
+// Measured surface within `radius_mm` of the middle of the face, as the pair saw it.
 HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm, double cell_mm, StageContext& context);
 
 }  // namespace relievo::pipeline

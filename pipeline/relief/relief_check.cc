@@ -21,6 +21,7 @@ constexpr std::size_t kLeastCells = 200;  // a sixth of the disc
 constexpr double kTrusted = 0.75;       // share of the cells that counts: the nearest
 constexpr double kSmoothMm = 8;         // narrower than a nose, wider than what noise makes hang together
 constexpr double kCurveMm = 12;
+constexpr double kTelling = 0.4;        // of the disc: less of a face may curve as little as a sheet
 constexpr double kFull = 0.8;           // share of a neighbourhood that must have been measured
 
 double percentile(std::pmr::vector<double>& values, double share) {
@@ -111,8 +112,7 @@ Result<void> ReliefOptions::check() const {
 Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
   Arena::Mark mark(context.scratch);
   const HeightCells cells = make_height_cells(mesh, pair, kRadiusMm, kCellMm, context);
-  if (cells.cells.size() < kLeastCells)
-    return Error{Errc::PoorGeometry, "too little of the middle of the face was measured: more light, and nothing before the face"};
+  if (cells.cells.size() < kLeastCells) return ReliefFigures{};
   const SheetFit plane = fit_plane(cells, context);
   RELIEVO_TRY_ASSIGN(const SheetFit sheet, fit_sheet(cells, context));
   ReliefFigures relief;
@@ -125,15 +125,26 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
   return relief;
 }
 
-bool is_face(const ReliefFigures& r, const ReliefOptions& o) {
-  return r.off_sheet_mm >= o.least_off_sheet_mm && r.off_sheet_mm >= o.least_sigmas * r.sigma_mm && r.curvature_sr >= o.least_curvature_sr;
+ReliefVerdict judge(const ReliefFigures& r, const ReliefOptions& o) {
+  if (r.covered == 0) return ReliefVerdict::Unjudged;
+  const bool off_sheet = r.off_sheet_mm >= o.least_off_sheet_mm, beyond_noise = r.off_sheet_mm >= o.least_sigmas * r.sigma_mm;
+  if (off_sheet && beyond_noise && r.curvature_sr >= o.least_curvature_sr) return ReliefVerdict::Face;
+  // Would a face's relief have been seen?
+  const bool quiet = o.least_sigmas * r.sigma_mm <= o.least_off_sheet_mm, whole = r.covered >= kTelling;
+  return quiet && (whole || !off_sheet) ? ReliefVerdict::Picture : ReliefVerdict::Unjudged;
 }
 
-Error error_of(const ReliefFigures& r, const ReliefOptions& o) {
-  char figures[192];
-  std::snprintf(figures, sizeof figures, "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f",
-                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr);
-  return Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}.at(figures);
+Error error_of(ReliefVerdict verdict, const ReliefFigures& r, const ReliefOptions& o) {
+  const Error why = verdict == ReliefVerdict::Picture
+                        ? Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}
+                        : Error{Errc::PoorGeometry, "too little of the middle of the face was measured: more light, and nothing before the face"};
+  if (r.covered == 0) return why;
+  char figures[224];
+  std::snprintf(figures, sizeof figures,
+                "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f; %.0f %% of it measured",
+                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr,
+                100 * r.covered);
+  return Error(why).at(figures);
 }
 
 }  // namespace relievo::pipeline

@@ -14,6 +14,8 @@
 // Memory: scratch only. Thread: any. Deterministic, whatever the number of threads.
 #pragma once
 
+#include <cstdint>
+
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/relief_figures.h"
@@ -36,12 +38,15 @@ void describe(ReliefOptions& o, Field&& field) {
   field("least_sigmas", o.least_sigmas, OptionRange{0, 100}, "the same rms at least, times the stated sigma");
 }
 
-// Of the measured vertices within 60 mm of the middle of the face; of the whole surface's middle where no face
-// was looked for. Errors: PoorGeometry (too little was measured there to tell), Cancelled.
+// Of the measured surface within 60 mm of the middle of the face; of the whole surface's middle where no face
+// was looked for. All 0 where too little was measured there to tell. Errors: Cancelled.
 Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context);
 
-bool is_face(const ReliefFigures& relief, const ReliefOptions& options);
-// NoFace: a sentence for the person, and where() the figures for the technician.
-Error error_of(const ReliefFigures& relief, const ReliefOptions& options);
+// Unjudged: too little was measured, or its noise could hide what a face has. Then nobody is refused for a picture, and nobody
+// is told to be a face.
+enum class ReliefVerdict : std::uint8_t { Face, Picture, Unjudged };
+ReliefVerdict judge(const ReliefFigures& relief, const ReliefOptions& options);
+// What to tell of it, with the figures for the technician as where(). Picture: NoFace. Unjudged: PoorGeometry.
+Error error_of(ReliefVerdict verdict, const ReliefFigures& relief, const ReliefOptions& options);
 
 }  // namespace relievo::pipeline

@@ -8,6 +8,7 @@
 #include "firmware/command/output_folder.h"
 #include "firmware/command/reconstruct/reconstruction.h"
 #include "firmware/version.h"
+#include "hal/base/sentence.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -41,6 +42,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm", q.width_mm,
                 q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
   services.console.say(line);
+  if (reconstruction.model().unjudged) services.console.say("not judged to be a face: " + Sentence(*reconstruction.model().unjudged).text());
   if (!light.empty()) services.console.say(light);
   services.console.say("model and report: " + args.output.string());
   return {};

@@ -20,7 +20,7 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
 
   ThreadPool pool(pool_size());
   const hal::MonotonicClock clock;
-  PipelineStages stages(std::move(pipeline), when_moved);
+  PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
   ReconstructJob job(stages, session_, pool, clock);
   RELIEVO_TRY(session_.open(""));
   session_.products().frame = pictures.frame();

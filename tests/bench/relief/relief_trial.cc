@@ -21,7 +21,7 @@ Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pi
   if (relief) verdict.relief = *relief;
   const auto model = stages.texture(std::move(mesh), pair, room.context);
   if (!model) return model.error();
-  return {};
+  return model->unjudged ? Result<void>(*model->unjudged) : Result<void>{};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "hal/sim/sheet/sheet_shape.h"
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
+#include "pipeline/mesh/delaunay_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_bench.h"
 
@@ -85,7 +86,7 @@ TEST(ReliefCheck, APlaneIsAsFlatAsItsNoise) {
   EXPECT_LT(r.off_plane_mm, 0.2);
   EXPECT_LT(r.off_sheet_mm, 0.15);
   EXPECT_LT(r.curvature_sr, 0.2);
-  EXPECT_FALSE(is_face(r, {})) << name_of(r);
+  EXPECT_EQ(judge(r, {}), ReliefVerdict::Picture) << name_of(r);
 }
 
 // Bends that a hand can hold, in every direction: none leaves the nearest sheet, though all leave the plane.
@@ -99,7 +100,7 @@ TEST(ReliefCheck, NoBentSheetIsAFace) {
           EXPECT_GT(r.off_plane_mm, 0.3) << which << name_of(r);
           EXPECT_LT(r.off_sheet_mm, 0.3) << which << name_of(r);
           EXPECT_LT(r.curvature_sr, 1.25) << which << name_of(r);
-          EXPECT_FALSE(is_face(r, {})) << which << name_of(r);
+          EXPECT_EQ(judge(r, {}), ReliefVerdict::Picture) << which << name_of(r);
         }
 }
 
@@ -110,7 +111,7 @@ TEST(ReliefCheck, AMirroredLampGivesASheetNoFace) {
     if (std::hypot(v.x - 15, v.y + 20) < 12) v.z += 12;
   const ReliefFigures r = relief_of(mesh);
   EXPECT_LT(r.off_sheet_mm, 0.3) << name_of(r);
-  EXPECT_FALSE(is_face(r, {})) << name_of(r);
+  EXPECT_EQ(judge(r, {}), ReliefVerdict::Picture) << name_of(r);
 }
 
 // Gauss: a cap of a sphere curves by its area over the radius squared. Cells whose neighbourhood is cut by the
@@ -141,30 +142,59 @@ TEST(ReliefCheck, HeadsAreFacesTurnedNoisyAndHalfHidden) {
     sim::HeadPose pose;
     pose.yaw_deg = yaw, pose.pitch_deg = yaw / 3;
     const ReliefFigures r = relief_of(head_in(5, pose, 0.3));
-    EXPECT_TRUE(is_face(r, {})) << "turned " << yaw << ": " << name_of(r);
+    EXPECT_EQ(judge(r, {}), ReliefVerdict::Face) << "turned " << yaw << ": " << name_of(r);
   }
   const ReliefFigures noisy = relief_of(head_in(6, {}, 0.9));
-  EXPECT_TRUE(is_face(noisy, {})) << name_of(noisy);
+  EXPECT_EQ(judge(noisy, {}), ReliefVerdict::Face) << name_of(noisy);
   const ReliefFigures half = relief_of(head_in(6, {}, 0.3, -12));
   EXPECT_LT(half.covered, 0.7);
-  EXPECT_TRUE(is_face(half, {})) << name_of(half);
+  EXPECT_EQ(judge(half, {}), ReliefVerdict::Face) << name_of(half);
 }
 
 // Relief that noise could feign is none.
 TEST(ReliefCheck, WhatIsLessThanItsSigmaSaysIsNoFace) {
   const ReliefOptions options;
   ReliefFigures r{1, 0.3, 6, 2, 18, 7};
-  EXPECT_TRUE(is_face(r, options));
+  EXPECT_EQ(judge(r, options), ReliefVerdict::Face);
   r.sigma_mm = 1.6;
-  EXPECT_FALSE(is_face(r, options));
+  EXPECT_EQ(judge(r, options), ReliefVerdict::Unjudged) << "such noise hides a face's relief as well";
   r = {1, 0.3, 6, 0.8, 18, 7};
-  EXPECT_FALSE(is_face(r, options));
+  EXPECT_EQ(judge(r, options), ReliefVerdict::Picture);
   r = {1, 0.3, 6, 2, 18, 1};
-  EXPECT_FALSE(is_face(r, options));
+  EXPECT_EQ(judge(r, options), ReliefVerdict::Picture);
+  r.covered = 0.2;
+  EXPECT_EQ(judge(r, options), ReliefVerdict::Unjudged) << "so little of a face may be curved as little";
+  EXPECT_EQ(judge({}, options), ReliefVerdict::Unjudged);
+}
+
+// Chosen places lie 6 mm apart and more: what spans them is judged.
+TEST(ReliefCheck, ScatteredPointsAreJudgedByTheSurfaceThatSpansThem) {
+  static ThreadPool pool(2);
+  Bench bench;
+  const auto thinned = [](PointCloud cloud) {
+    PointCloud few(std::pmr::get_default_resource());
+    for (std::size_t k = 0; k < cloud.points.size(); k += 97) few.points.push_back(cloud.points[k]);
+    return few;
+  };
+  const auto verdict_of = [&](const PointCloud& cloud) {
+    const auto mesh = run_stage(bench.context, [&](StageContext& c) { return DelaunayMesher({}).mesh(cloud, c); });
+    EXPECT_TRUE(mesh);
+    EXPECT_LT(mesh->vertices_mm.size(), 2000U);
+    const ReliefFigures r = relief_of(*mesh);
+    EXPECT_GT(r.covered, 0.5);
+    return judge(r, {});
+  };
+  PointCloud head = thinned(test::FieldHead(4).cloud({}, pool, 0.2));
+  EXPECT_EQ(verdict_of(head), ReliefVerdict::Face);
+  for (CloudPoint& p : head.points) {  // a picture of it on a screen
+    const float flat = 560 / p.at_mm.z;
+    p.at_mm = {p.at_mm.x * flat, p.at_mm.y * flat, 560 + 0.2F * std::sin(p.at_mm.z * 40)};
+  }
+  EXPECT_EQ(verdict_of(head), ReliefVerdict::Picture);
 }
 
 TEST(ReliefCheck, SaysToThePersonWhatToDoAndToTheTechnicianWhatWasMeasured) {
-  const Error error = error_of({1, 0.1, 0.25, 0.21, 0.5, 0.4}, {});
+  const Error error = error_of(ReliefVerdict::Picture, {1, 0.1, 0.25, 0.21, 0.5, 0.4}, {});
   EXPECT_EQ(error.code, Errc::NoFace);
   EXPECT_NE(error.what.view().find("look into the cameras yourself"), std::string_view::npos);
   for (const char* figure : {"0.25 mm off a plane", "0.21 mm off a bent sheet", "at least 1.2", "sigma 0.10", "0.4 sr"})
@@ -178,8 +208,8 @@ TEST(ReliefCheck, KeepsTheStagesContract) {
   EXPECT_EQ(once.curvature_sr, again.curvature_sr);
 
   const auto empty = measured(empty_mesh());
-  ASSERT_FALSE(empty);
-  EXPECT_EQ(empty.error().code, Errc::PoorGeometry);
+  ASSERT_TRUE(empty);
+  EXPECT_EQ(error_of(judge(*empty, {}), *empty, {}).code, Errc::PoorGeometry);
 
   Bench bench;
   bench.cancelled = true;
