@@ -63,6 +63,9 @@ constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost a mm of protrus
 constexpr double kCostOfOneSide = 2;        // mm: a chin may stand out further than a nose, seen from the neck
 constexpr double kMostOfANose = 16;         // mm: what stands out further is no better nose, but hair
 
+constexpr double kOneNose = 40;             // mm: places of one and the same
+constexpr double kWorthOfTheTip = 1;        // mm of mirror cost
+
 // Points within half a face of `centre`, still in the frame of `points`.
 Points around(const Points& points, const Vector3d& centre, Arena& scratch) {
   Points near(&scratch);
@@ -157,6 +160,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
   double best_score = 1e9;
   Frame frame;
   const NoseCandidates noses = find_nose_candidates(points);
+  std::size_t chosen = noses.count;
   for (std::size_t i = 0; i < noses.count; ++i) {
     Points face = around(points, noses.best[i].at_mm, context.scratch);
     const Frame guess = first_guess(face, noses.best[i].at_mm, across);
@@ -170,8 +174,11 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
     }
     // A nose stands out three times as far as anything else on a head that is mirror-like.
     const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose) + kCostOfOneSide * one_sided;
-    if (score >= best_score) continue;
+    // The bridge of a nose is as good a mirror as its tip, which stands out further and came first.
+    const bool same_nose = chosen < i && (noses.best[i].at_mm - noses.best[chosen].at_mm).norm() < kOneNose;
+    if (score >= best_score - (same_nose ? kWorthOfTheTip : 0)) continue;
     best_score = score;
+    chosen = i;
     best = *plane;
     Frame upright;
     upright.rows.row(0) = plane->normal;
