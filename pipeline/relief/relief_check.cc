@@ -139,11 +139,10 @@ Error error_of(ReliefVerdict verdict, const ReliefFigures& r, const ReliefOption
                         ? Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}
                         : Error{Errc::PoorGeometry, "too little of the middle of the face was measured: more light, and nothing before the face"};
   if (r.covered == 0) return why;
-  char figures[224];
+  char figures[192];
   std::snprintf(figures, sizeof figures,
-                "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f; %.0f %% of it measured",
-                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr,
-                100 * r.covered);
+                "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f",
+                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr);
   return Error(why).at(figures);
 }
 

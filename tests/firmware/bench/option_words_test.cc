@@ -217,7 +217,7 @@ TEST(OptionWords, WhereItWasIsSaidInEveryLanguage) {
     ASSERT_FALSE(checked);
     places.emplace_back(checked.error().where());
   }
-  places.emplace_back(pipeline::error_of(pipeline::ReliefFigures{}, pipeline::ReliefOptions{}).where());
+  places.emplace_back(pipeline::error_of(pipeline::ReliefVerdict::Picture, pipeline::ReliefFigures{1, 0.1, 0.2, 0.2, 0.5, 0.4}, pipeline::ReliefOptions{}).where());
   test::StageBench bench;
   const auto calibration = test::true_calibration(hal::sim::make_rig({}));
   const auto pipeline = pipeline::Pipeline::make({}, calibration);
