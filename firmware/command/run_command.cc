@@ -27,6 +27,12 @@ Result<void> run(const VersionArgs& args, Services& services) { return run_versi
 
 Path store_folder(const Path& named) { return named.empty() ? default_store_folder() : named; }
 
+Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
+  // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.
+  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound) return there.error();
+  return services.open_store(folder, true);
+}
+
 int run_command(const CommandLine& line, Services& services) {
   return std::visit(
       [&](const auto& args) {

@@ -173,12 +173,15 @@ TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
   write_text(here / "file", "no store\n");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"}, "file");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"}, "no.yml");
+  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--store", "store"}, "store", "relievo calibrate");
   refused({"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"}, "no possible name");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
   refused({"subjects", "list", "--store", "nowhere"}, "nowhere");
   refused({"subjects", "show", "Ada", "--store", "nowhere"}, "nowhere");
+  refused({"subjects", "erase", "Ada", "--store", "nowhere"}, "nowhere");
+  refused({"calibration", "activate", "1", "--store", "nowhere"}, "nowhere");
   refused({"calibration", "import", "missing.yml", "--store", "nowhere"}, "missing.yml");
 }
 

@@ -180,6 +180,15 @@ TEST_F(WholeWay, FromAChessboardToAModelThatComesBack) {
   erase();
 }
 
+TEST_F(WholeWay, TheSimulatedRigNeedsNoCalibration) {
+  EXPECT_NE(done({"enrol", "--board", "sim", "--subject", "Ada", "--store", "fresh"}).out.find("stored: Ada"), std::string::npos);
+  // It is kept for the model, and not taken into use.
+  EXPECT_NE(done({"calibration", "list", "--store", "fresh"}).out.find("relievo calibration activate"), std::string::npos);
+  refused({"selftest", "--store", "fresh"}, "fresh", "is in use");
+  done({"calibration", "activate", "1", "--store", "fresh"});
+  EXPECT_NE(done({"selftest", "--store", "fresh"}).out.find("calibration  in order"), std::string::npos);
+}
+
 TEST_F(WholeWay, VersionAndMemoryNeedNothing) {
   EXPECT_EQ(done({"version"}).out.rfind("relievo ", 0), 0U);
   EXPECT_NE(done({"memory"}).out.find("scratch"), std::string::npos);
