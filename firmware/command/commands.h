@@ -22,6 +22,7 @@ Result<void> run_simulate(const SimulateArgs& args, Services& services);
 Result<void> run_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_kiosk(const KioskArgs& args, Services& services);
+Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services);
 Result<void> run_memory(const MemoryArgs& args, Services& services);
 Result<void> run_version(const VersionArgs& args, Services& services);
 

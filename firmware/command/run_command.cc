@@ -20,6 +20,7 @@ Result<void> run(const StaffArgs& args, Services& services) { return run_staff(a
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
 Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
 Result<void> run(const KioskArgs& args, Services& services) { return run_kiosk(args, services); }
+Result<void> run(const AlgorithmsArgs& args, Services& services) { return run_algorithms(args, services); }
 Result<void> run(const MemoryArgs& args, Services& services) { return run_memory(args, services); }
 Result<void> run(const VersionArgs& args, Services& services) { return run_version(args, services); }
 

@@ -130,6 +130,9 @@ TEST_F(BadInput, SettingsThatDoNotExist) {
     words.insert(words.end(), {"--set", setting});
     refused(words, setting == std::string("=") ? "=" : std::string(setting).substr(0, 6));
   }
+  std::vector<std::string> unknown = call;
+  unknown.insert(unknown.end(), {"--set", "foo=1"});
+  refused(unknown, "foo (", "matcher");
   write_text(here / "bad.toml", "[matcher\n");
   std::vector<std::string> words = call;
   words.insert(words.end(), {"--algorithms", "bad.toml"});

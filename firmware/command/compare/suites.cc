@@ -60,7 +60,7 @@ Words selectors() {
   for (const std::string& name : names_of("selector")) {
     if (name.starts_with("file")) continue;  // chooses nothing without its file
     words.push_back({name, {"selector=" + name}});
-    const bool lattice = name == "dense" || name == "grid";
+    const bool lattice = name == "dense" || name == "grid-points";
     if (!lattice) words.back().settings.emplace_back("mesher=delaunay");  // which joins scattered points
   }
   return words;
@@ -84,9 +84,8 @@ Words dissertation() {
   std::string rules;
   for (const std::string_view rule : kRules) {
     if (!has("constraints", rule)) continue;
-    const std::string plus = rules.empty() ? "" : "+";
-    rules.append(plus).append(rule);
-    add("ZMNCC " + (plus.empty() ? "" : plus + " ") + std::string(rule), "zmncc", rules);
+    rules.append(rules.empty() ? "" : "+").append(rule);
+    add("ZMNCC + " + std::string(rule), "zmncc", rules);
   }
   words.push_back({"Relievo", {}});
   return words;

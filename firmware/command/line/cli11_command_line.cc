@@ -41,7 +41,7 @@ bool corner_counts(const std::string& text, int& across, int& down) {
 
 void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
   command.add_option("--algorithms", args.file, "choice and settings of the algorithms")->type_name("FILE.toml");
-  command.add_option("--set", args.settings, "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15")
+  command.add_option("--set", args.settings, "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15 (relievo algorithms)")
       ->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
   command.add_option_function<std::string>(
       "--region", [&args](const std::string& word) { args.whole_view = word == "all"; }, "what to reconstruct")
@@ -224,6 +224,12 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
   command->callback([&] { chosen = args; });
 }
 
+void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args) {
+  CLI::App* command = app.add_subcommand("algorithms", "what --set and --algorithms may choose: kinds, names, options, sources");
+  command->add_option("name", args.name, "of a kind or an algorithm: only that, with its options, defaults and ranges")->type_name("NAME");
+  command->callback([&] { chosen = args; });
+}
+
 struct AllArgs {
   KioskArgs kiosk;
   CalibrateArgs calibrate;
@@ -236,6 +242,7 @@ struct AllArgs {
   StaffArgs staff;
   SimulateArgs simulate;
   SelfTestArgs selftest;
+  AlgorithmsArgs algorithms;
 };
 
 }  // namespace
@@ -255,6 +262,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_staff(app, line.command, args.staff);
   add_simulate(app, line.command, args.simulate);
   add_selftest(app, line.command, args.selftest);
+  add_algorithm_list(app, line.command, args.algorithms);
   app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {

@@ -170,12 +170,15 @@ struct KioskArgs {
   bool write_showpiece = false;   // make the head of the page that invites, instead
   AlgorithmArgs algorithms;
 };
+struct AlgorithmsArgs {
+  std::string name;               // of a kind or an algorithm; empty: all of them
+};
 struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
 using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
-                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs, KioskArgs>;
+                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;
