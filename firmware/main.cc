@@ -80,7 +80,7 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.truth = args.truth;
   options.pose = {args.yaw_deg, args.pitch_deg, args.roll_deg, args.distance_mm, args.right_mm, args.down_mm};
   options.board_in_this_pose = args.board && args.one_pose;
-  if (args.pairs > 0) options.board_poses = args.pairs;
+  options.board_poses = args.pairs;
   if (args.board) {
     const BoardArgs& b = args.printed;
     options.board = {b.corners_across, b.corners_down, b.square_mm, 0.75 * b.square_mm,

@@ -44,12 +44,19 @@ class AlgorithmSet {
   std::map<std::string, std::string, std::less<>> chosen_;
 };
 
+struct AlgorithmDescription {
+  const char* name;
+  const char* sentence;  // what it is
+  const char* source;    // author and year, or "own"
+};
+
 // What may be chosen: for help texts, the technician's page and the documentation.
 struct OptionDescription {
   std::string key;           // "refined.bending", or a kind: "matcher"
   std::string value;         // the default
   std::string sentence;
   std::vector<std::string> names;  // of a kind: what it may be; empty for a number
+  std::vector<AlgorithmDescription> algorithms;  // of a kind: what each of `names` is
   double least = 0, most = 0;      // of a number
   bool text = false;               // any text: a path
   bool several = false;            // of a kind: names may be joined by '+'

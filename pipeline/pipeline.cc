@@ -23,7 +23,7 @@ constexpr double kReachBeyondCrop = 1.15;  // so that the rough surface's own er
 // Said before the first picture is looked at, not after minutes of matching.
 Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& mesher) {
   if (selector.on_lattice() || !mesher.needs_lattice()) return {};
-  return Error{Errc::InvalidInput, "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid"}
+  return Error{Errc::InvalidInput, "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
       .at("selector=" + std::string(selector.name()) + " mesher=" + std::string(mesher.name()));
 }
 

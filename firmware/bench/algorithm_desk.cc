@@ -14,12 +14,10 @@ constexpr std::size_t kMostTyped = 24;
 
 bool contains(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-// Selectors share names with meshers and matchers: their options stand under a name of their own.
-bool belongs(std::string_view option, std::string_view kind, std::string_view name, bool has_points) {
+bool belongs(std::string_view option, std::string_view kind, std::string_view name) {
   const std::string_view section = option.substr(0, option.find('.'));
   if (kind == "relief") return section == "relief" && name == "check";
   if (kind == "triangulator") return section == "face" || section == name;  // what is cut off belongs to the points
-  if (kind == "selector" && has_points) return section == std::string(name) + "-points";
   return section == name;
 }
 
@@ -79,9 +77,8 @@ void AlgorithmDesk::rebuild() {
   for (const std::string& name : kind.names) names_.push_back({name, contains(chosen, name)});
   shown_.clear();
   for (const std::string& name : chosen) {
-    const bool has_points = std::any_of(all_.begin(), all_.end(), [&](const auto& o) { return o.key.starts_with(name + "-points."); });
     for (const auto& option : all_) {
-      const bool mine = option.names.empty() && belongs(option.key, kind.key, name, has_points);
+      const bool mine = option.names.empty() && belongs(option.key, kind.key, name);
       if (mine && std::find(shown_.begin(), shown_.end(), &option) == shown_.end()) shown_.push_back(&option);
     }
   }

@@ -22,10 +22,14 @@ Result<void> run_simulate(const SimulateArgs& args, Services& services);
 Result<void> run_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_kiosk(const KioskArgs& args, Services& services);
+Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services);
 Result<void> run_memory(const MemoryArgs& args, Services& services);
 Result<void> run_version(const VersionArgs& args, Services& services);
 
 // The folder named, or the default one.
 Path store_folder(const Path& named);
+
+// The store in it, to write. Errors: NotFound (there is none, and none is made); as Services::open_store.
+Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services);
 
 }  // namespace relievo::firmware

@@ -20,12 +20,19 @@ Result<void> run(const StaffArgs& args, Services& services) { return run_staff(a
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
 Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
 Result<void> run(const KioskArgs& args, Services& services) { return run_kiosk(args, services); }
+Result<void> run(const AlgorithmsArgs& args, Services& services) { return run_algorithms(args, services); }
 Result<void> run(const MemoryArgs& args, Services& services) { return run_memory(args, services); }
 Result<void> run(const VersionArgs& args, Services& services) { return run_version(args, services); }
 
 }  // namespace
 
 Path store_folder(const Path& named) { return named.empty() ? default_store_folder() : named; }
+
+Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
+  // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.
+  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound) return there.error();
+  return services.open_store(folder, true);
+}
 
 int run_command(const CommandLine& line, Services& services) {
   return std::visit(

@@ -21,7 +21,7 @@
 namespace relievo::firmware {
 
 struct Services {
-  // "sim" or "folder:DIR". Errors: InvalidInput (no such board), the board's own.
+  // "sim", "folder:DIR", "linux" or "linux:FILE". Errors: InvalidInput (no such board), the board's own.
   std::function<Result<std::unique_ptr<hal::Board>>(std::string_view board)> open_board;
   // Errors: the store's own. To write makes the folder; to read needs it.
   std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store;

@@ -25,9 +25,7 @@ Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& c
 
 Result<void> run_staff(const StaffArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
-  // To read needs the store: one that is named wrongly is not made.
-  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound) return there.error();
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, true));
+  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   if (args.verb == StaffArgs::Verb::PlainTouch) {
     RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));
     RELIEVO_TRY(note(*store, folder, services.clock, "staff.plain_touch", "", Literal("the touch screen is taken as it is, by the command line")));

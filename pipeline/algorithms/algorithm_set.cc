@@ -53,19 +53,44 @@ std::vector<std::string> split_names(std::string_view text) {
 
 std::vector<OptionDescription> describe_algorithms() {
   std::vector<OptionDescription> all;
-  for (const Kind& kind : all_kinds()) all.push_back({kind.key, kind.value, kind.sentence, kind.names, 0, 0, false, kind.several});
+  for (const Kind& kind : all_kinds()) {
+    all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, 0, 0, false, kind.several});
+    for (const AlgorithmDescription& algorithm : kind.algorithms) all.back().names.emplace_back(algorithm.name);
+  }
   for (const auto& options : {match_options(), surface_options()}) all.insert(all.end(), options.begin(), options.end());
   return all;
 }
 
+namespace {
+
+// Names what there is instead.
+Error unknown_key(std::string_view key, const std::vector<OptionDescription>& all) {
+  const std::string_view section = key.substr(0, key.find('.'));
+  const std::string begin = std::string(section) + ".";
+  std::vector<std::string> kinds, options;
+  for (const OptionDescription& option : all) {
+    if (!option.names.empty()) kinds.push_back(option.key);
+    else if (option.key.starts_with(begin)) options.push_back(option.key.substr(begin.size()));
+  }
+  const auto place = [key](const std::vector<std::string>& there) { return std::string(key) + " (" + joined(there) + ")"; };
+  const std::size_t room = Error{Errc::NotFound, ""}.where_text.size() - 1;
+  if (!options.empty() && place(options).size() <= room)
+    return Error{Errc::NotFound, "no such option: its algorithm has those in brackets ('relievo algorithms NAME' says what they are)"}.at(place(options));
+  if (!options.empty()) return Error{Errc::NotFound, "no such option: 'relievo algorithms NAME' lists those of its algorithm"}.at(key);
+  return Error{Errc::NotFound, "no such setting: choose a kind, one of those in brackets, or ALGORITHM.OPTION ('relievo algorithms' lists them)"}.at(place(kinds));
+}
+
+}  // namespace
+
 Result<void> AlgorithmSet::set(std::string_view key, std::string_view value) {
-  for (const OptionDescription& option : describe_algorithms())
+  const std::vector<OptionDescription> all = describe_algorithms();
+  for (const OptionDescription& option : all)
     if (option.key == key) {
       RELIEVO_TRY(check_value(option, std::string(value)));
       chosen_[std::string(key)] = std::string(value);
       return {};
     }
-  return Error{Errc::NotFound, "no such setting: a kind (matcher, mesher, ...) or ALGORITHM.OPTION is expected"}.at(key);
+  return unknown_key(key, all);
 }
 
 std::string AlgorithmSet::get(std::string_view key) const {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher, SsdMatcherOptions>("ssd")`,
-// is all that its name on the command line, its options, their documentation and its making need.
+// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher, SsdMatcherOptions>({name, what
+// it is, source})`, is all that its name on the command line, its options, their documentation and its making need.
 #pragma once
 
 #include <locale>
@@ -23,7 +23,7 @@ struct Kind {
   const char* key;
   const char* value;               // the default
   const char* sentence;
-  std::vector<std::string> names;
+  std::vector<AlgorithmDescription> algorithms;
   bool several = false;            // names joined by '+'
 };
 
@@ -49,7 +49,7 @@ void describe_options(std::string_view section, std::vector<OptionDescription>& 
   Options options;
   describe(options, [&](const char* name, auto& value, OptionRange range, const char* sentence) {
     constexpr bool text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
-    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, range.least, range.most, text});
+    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, {}, range.least, range.most, text});
   });
 }
 
@@ -78,15 +78,14 @@ class OptionReader {
 
 template <typename Interface>
 struct Algorithm {
-  const char* name;
-  const char* section;  // of its options: its name, unless another kind has the same
+  AlgorithmDescription about;
   Result<std::unique_ptr<Interface>> (*make)(const AlgorithmSet& set, std::string_view section);
   void (*describe)(std::string_view section, std::vector<OptionDescription>& all);
 };
 
 template <typename Interface, typename Concrete, typename Options>
-constexpr Algorithm<Interface> with_options(const char* name, const char* options_section = nullptr) {
-  return {name, options_section == nullptr ? name : options_section,
+constexpr Algorithm<Interface> with_options(const AlgorithmDescription& about) {
+  return {about,
           [](const AlgorithmSet& set, std::string_view section) -> Result<std::unique_ptr<Interface>> {
             RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
             return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
@@ -95,8 +94,8 @@ constexpr Algorithm<Interface> with_options(const char* name, const char* option
 }
 
 template <typename Interface, typename Concrete>
-constexpr Algorithm<Interface> without_options(const char* name) {
-  return {name, name,
+constexpr Algorithm<Interface> without_options(const AlgorithmDescription& about) {
+  return {about,
           [](const AlgorithmSet&, std::string_view) -> Result<std::unique_ptr<Interface>> {
             return std::unique_ptr<Interface>(std::make_unique<Concrete>());
           },
@@ -106,19 +105,19 @@ constexpr Algorithm<Interface> without_options(const char* name) {
 template <typename Table>
 Kind kind_of(const char* key, const char* value, const char* sentence, const Table& table) {
   Kind kind{key, value, sentence, {}};
-  for (const auto& algorithm : table) kind.names.emplace_back(algorithm.name);
+  for (const auto& algorithm : table) kind.algorithms.push_back(algorithm.about);
   return kind;
 }
 
 template <typename Table>
 void describe_table(const Table& table, std::vector<OptionDescription>& all) {
-  for (const auto& algorithm : table) algorithm.describe(algorithm.section, all);
+  for (const auto& algorithm : table) algorithm.describe(algorithm.about.name, all);
 }
 
 template <typename Interface, typename Table>
 Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set, std::string_view name) {
   for (const Algorithm<Interface>& algorithm : table)
-    if (name == algorithm.name) return algorithm.make(set, algorithm.section);
+    if (name == algorithm.about.name) return algorithm.make(set, algorithm.about.name);
   return Error{Errc::NotFound, "no such algorithm"}.at(name);
 }
 

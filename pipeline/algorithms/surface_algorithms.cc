@@ -25,35 +25,52 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr std::array kTriangulators{
-    without_options<Triangulator, InverseDisparityTriangulator>("inverse-disparity"),
-    without_options<Triangulator, LinearTriangulator>("linear-least-squares"),
-    without_options<Triangulator, OptimalTriangulator>("optimal"),
+    without_options<Triangulator, InverseDisparityTriangulator>(
+        {"inverse-disparity", "depth is focal length times baseline over disparity", "the pinhole camera's geometry"}),
+    without_options<Triangulator, LinearTriangulator>(
+        {"linear-least-squares", "the point nearest to both lines of sight", "Bardsley 2004, ch. 9"}),
+    without_options<Triangulator, OptimalTriangulator>(
+        {"optimal", "the point whose images are nearest to what was seen", "Lindstrom 2010 (niter2)"}),
 };
 
 constexpr std::array kOutlierFilters{
-    with_options<OutlierFilter, LocalOutlierFilter, LocalOutlierFilterOptions>("local"),
-    with_options<OutlierFilter, StatisticalOutlierFilter, StatisticalOutlierFilterOptions>("statistical"),
+    with_options<OutlierFilter, LocalOutlierFilter, LocalOutlierFilterOptions>(
+        {"local", "takes flying points, spikes and islands, by their neighbours", "Bardsley 2004 (NoOutliers); own"}),
+    with_options<OutlierFilter, StatisticalOutlierFilter, StatisticalOutlierFilterOptions>(
+        {"statistical", "a point's mean distance to its neighbours is not much beyond the cloud's", "Rusu et al. 2008"}),
 };
 
 constexpr std::array kMeshers{
-    with_options<Mesher, GridMesher, GridMesherOptions>("grid"),
-    with_options<Mesher, DelaunayMesher, DelaunayMesherOptions>("delaunay"),
-    with_options<Mesher, AdvancingFrontMesher, AdvancingFrontMesherOptions>("advancing-front"),
-    with_options<Mesher, PoissonMesher, PoissonMesherOptions>("poisson"),
-    with_options<Mesher, RbfMesher, RbfMesherOptions>("rbf"),
-    with_options<Mesher, MarchingCubesMesher, MarchingCubesMesherOptions>("marching-cubes"),
-    with_options<Mesher, BezierMesher, BezierMesherOptions>("bezier"),
+    with_options<Mesher, GridMesher, GridMesherOptions>(
+        {"grid", "joins neighbours of the lattice and closes the face to its outline; needs a lattice", "own"}),
+    with_options<Mesher, DelaunayMesher, DelaunayMesherOptions>(
+        {"delaunay", "2.5-D Delaunay triangulation over the left view; takes scattered points", "Bardsley 2004; CGAL"}),
+    with_options<Mesher, AdvancingFrontMesher, AdvancingFrontMesherOptions>(
+        {"advancing-front", "grown over the 3-D Delaunay triangulation, the most plausible triangle first", "Cohen-Steiner and Da 2004; CGAL"}),
+    with_options<Mesher, PoissonMesher, PoissonMesherOptions>(
+        {"poisson", "the surface whose inside's gradient follows the points' normals", "Kazhdan et al. 2006; CGAL"}),
+    with_options<Mesher, RbfMesher, RbfMesherOptions>(
+        {"rbf", "one thin-plate function with greedily chosen centres", "Carr et al. 2001"}),
+    with_options<Mesher, MarchingCubesMesher, MarchingCubesMesherOptions>(
+        {"marching-cubes", "zero surface of implicit moving least squares", "Kolluri 2008; Lorensen and Cline 1987"}),
+    with_options<Mesher, BezierMesher, BezierMesherOptions>(
+        {"bezier", "a C1 net of bicubic patches, fitted by least squares", "Farin 2002; Dierckx 1993"}),
 };
 
 constexpr std::array kCompletions{
-    without_options<Completion, MeasuredOnly>("measured-only"),
-    with_options<Completion, SymmetricCompletion, SymmetricCompletionOptions>("symmetric"),
-    with_options<Completion, GenericHeadCompletion, GenericHeadOptions>("generic-head"),
+    without_options<Completion, MeasuredOnly>(
+        {"measured-only", "nothing is added", "own"}),
+    with_options<Completion, SymmetricCompletion, SymmetricCompletionOptions>(
+        {"symmetric", "what one side hides is mirrored from the other", "own"}),
+    with_options<Completion, GenericHeadCompletion, GenericHeadOptions>(
+        {"generic-head", "the usual head fitted to what was measured stands where nothing was", "own"}),
 };
 
 constexpr std::array kTexturers{
-    with_options<Texturer, TwoViewTexturer, TwoViewTexturerOptions>("two-view"),
-    with_options<Texturer, SingleViewTexturer, SingleViewTexturerOptions>("single-view"),
+    with_options<Texturer, TwoViewTexturer, TwoViewTexturerOptions>(
+        {"two-view", "both photographs, each where it sees the surface straighter", "own"}),
+    with_options<Texturer, SingleViewTexturer, SingleViewTexturerOptions>(
+        {"single-view", "the left photograph alone", "Bardsley 2004"}),
 };
 
 }  // namespace
@@ -64,10 +81,11 @@ std::vector<Kind> surface_kinds() {
       kind_of("outliers", "local", "which points are taken for outliers in space", kOutlierFilters),
       kind_of("mesher", "grid", "how points become a surface", kMeshers),
       kind_of("completion", "measured-only", "what is made of surface that was not seen", kCompletions),
-      {"relief", "check", "whether a picture of a face is told from a face and refused", {"check", "off"}},
+      {"relief", "check", "whether a picture of a face is told from a face and refused",
+       {{"check", "a sheet, however it is bent, is no face", "Gauss 1827; own"}, {"off", "pictures of faces pass", "own"}}},
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
   };
-  kinds[1].names.emplace_back("none");
+  kinds[1].algorithms.push_back({"none", "every point is taken", "own"});
   return kinds;
 }
 

@@ -132,10 +132,10 @@ Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
     RELIEVO_TRY_ASSIGN(auto query,
                        database_->prepare("SELECT revision, record FROM calibration WHERE active = 1"));
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row)
-      return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(
-          database_->where());
-    return record_in(query);
+    if (row) return record_in(query);
+    RELIEVO_TRY_ASSIGN(const std::int64_t kept, database_->integer("SELECT count(*) FROM calibration"));
+    if (kept > 0) return Error{Errc::NotCalibrated, "none of the store's calibrations is in use: activate one, or calibrate"}.at(database_->where());
+    return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(database_->where());
   });
 }
 

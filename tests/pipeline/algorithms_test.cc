@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace relievo::pipeline {
 namespace {
 
@@ -22,6 +24,30 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
       EXPECT_TRUE(make_relief_check(set));
       EXPECT_TRUE(make_texturer(set));
     }
+  }
+}
+
+TEST(Algorithms, EachSaysWhatItIsAndWhereItComesFrom) {
+  for (const OptionDescription& kind : describe_algorithms()) {
+    ASSERT_EQ(kind.algorithms.size(), kind.names.size()) << kind.key;
+    for (std::size_t k = 0; k < kind.names.size(); ++k) {
+      EXPECT_EQ(kind.algorithms[k].name, kind.names[k]);
+      EXPECT_GT(std::string_view(kind.algorithms[k].sentence).size(), 10U) << kind.names[k];
+      EXPECT_GE(std::string_view(kind.algorithms[k].source).size(), 3U) << kind.names[k];
+    }
+  }
+}
+
+// An option is named after its algorithm, and so is found where the algorithm is.
+TEST(Algorithms, OptionsBearTheNameOfTheirAlgorithm) {
+  const auto all = describe_algorithms();
+  for (const OptionDescription& option : all) {
+    if (!option.names.empty()) continue;
+    const std::string section = option.key.substr(0, option.key.find('.'));
+    const bool named = std::any_of(all.begin(), all.end(), [&](const OptionDescription& kind) {
+      return std::find(kind.names.begin(), kind.names.end(), section) != kind.names.end();
+    });
+    EXPECT_TRUE(named || section == "face" || section == "relief") << option.key;
   }
 }
 
@@ -74,6 +100,20 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   ASSERT_FALSE(unknown_key);
   EXPECT_EQ(unknown_key.error().code, Errc::NotFound);
   EXPECT_NE(unknown_key.error().where().find("macher"), std::string_view::npos);
+  EXPECT_NE(unknown_key.error().where().find("matcher"), std::string_view::npos) << "what there is";
+  const auto unknown_option = set.set("zmncc.windw", "3");
+  ASSERT_FALSE(unknown_option);
+  EXPECT_NE(unknown_option.error().where().find("window_px"), std::string_view::npos);
+  for (const OptionDescription& option : describe_algorithms()) {
+    if (!option.names.empty()) continue;
+    const std::string misspelt = option.key.substr(0, option.key.find('.')) + ".misspelt";
+    const auto refused = set.set(misspelt, "1");
+    ASSERT_FALSE(refused);
+    const std::string_view where = refused.error().where();
+    EXPECT_TRUE(where.starts_with(misspelt)) << "cut: " << where;
+    EXPECT_TRUE(where == misspelt || where.find(option.key.substr(option.key.find('.') + 1)) != std::string_view::npos) << option.key;
+    EXPECT_NE(refused.error().what.view().find("relievo algorithms"), std::string_view::npos);
+  }
   const auto unknown_name = set.set("matcher", "magic");
   ASSERT_FALSE(unknown_name);
   EXPECT_NE(unknown_name.error().where().find("refined"), std::string_view::npos);

@@ -130,6 +130,9 @@ TEST_F(BadInput, SettingsThatDoNotExist) {
     words.insert(words.end(), {"--set", setting});
     refused(words, setting == std::string("=") ? "=" : std::string(setting).substr(0, 6));
   }
+  std::vector<std::string> unknown = call;
+  unknown.insert(unknown.end(), {"--set", "foo=1"});
+  refused(unknown, "foo (", "matcher");
   write_text(here / "bad.toml", "[matcher\n");
   std::vector<std::string> words = call;
   words.insert(words.end(), {"--algorithms", "bad.toml"});
@@ -173,12 +176,15 @@ TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
   write_text(here / "file", "no store\n");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"}, "file");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"}, "no.yml");
+  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--store", "store"}, "store", "relievo calibrate");
   refused({"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"}, "no possible name");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
   refused({"subjects", "list", "--store", "nowhere"}, "nowhere");
   refused({"subjects", "show", "Ada", "--store", "nowhere"}, "nowhere");
+  refused({"subjects", "erase", "Ada", "--store", "nowhere"}, "nowhere");
+  refused({"calibration", "activate", "1", "--store", "nowhere"}, "nowhere");
   refused({"calibration", "import", "missing.yml", "--store", "nowhere"}, "missing.yml");
 }
 

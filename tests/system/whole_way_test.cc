@@ -180,6 +180,23 @@ TEST_F(WholeWay, FromAChessboardToAModelThatComesBack) {
   erase();
 }
 
+TEST_F(WholeWay, TheSimulatedRigNeedsNoCalibration) {
+  EXPECT_NE(done({"enrol", "--board", "sim", "--subject", "Ada", "--store", "fresh"}).out.find("stored: Ada"), std::string::npos);
+  // It is kept for the model, and not taken into use.
+  EXPECT_NE(done({"calibration", "list", "--store", "fresh"}).out.find("relievo calibration activate"), std::string::npos);
+  refused({"selftest", "--store", "fresh"}, "fresh", "is in use");
+  done({"calibration", "activate", "1", "--store", "fresh"});
+  EXPECT_NE(done({"selftest", "--store", "fresh"}).out.find("calibration  in order"), std::string::npos);
+}
+
+TEST_F(WholeWay, AlgorithmsAreListedWithOptionsRangesAndSources) {
+  const std::string all = done({"algorithms"}).out;
+  for (const char* word : {"selector: ", "grid-points", "zmncc", "Bardsley 2004", "default refined"}) EXPECT_NE(all.find(word), std::string::npos) << word;
+  const std::string one = done({"algorithms", "zmncc"}).out;
+  for (const char* word : {"matcher = zmncc", "source: ", "zmncc.window_px = 25", "3 to 63"}) EXPECT_NE(one.find(word), std::string::npos) << word;
+  refused({"algorithms", "magic"}, "magic", "relievo algorithms");
+}
+
 TEST_F(WholeWay, VersionAndMemoryNeedNothing) {
   EXPECT_EQ(done({"version"}).out.rfind("relievo ", 0), 0U);
   EXPECT_NE(done({"memory"}).out.find("scratch"), std::string::npos);

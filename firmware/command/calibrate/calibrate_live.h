@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// relievo calibrate --live --board sim|folder:DIR --corners 10x7 --square-mm 20 -o rig.yml
+// relievo calibrate --live --board sim|folder:DIR|linux:FILE --corners 10x7 --square-mm 20 -o rig.yml
 //   [--goal-mm 0.1] [--baseline-mm N]
 //
 // A live calibration without a screen: one line a pair says what was decided and what to do next, then

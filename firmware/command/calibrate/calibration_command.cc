@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <string>
 
 #include "firmware/command/calibrate/calibration_history.h"
@@ -17,11 +18,13 @@ Result<void> list(const CalibrationArgs& args, Services& services) {
   if (all.empty()) services.console.say("no calibration is in the store: 'relievo calibrate' makes one");
   else services.console.say(history_heading());
   for (auto one = all.rbegin(); one != all.rend(); ++one) services.console.say(line_of(*one));
+  if (!all.empty() && std::none_of(all.begin(), all.end(), [](const auto& one) { return one.active; }))
+    services.console.say("none is in use: 'relievo calibration activate NO' takes one");
   return {};
 }
 
 Result<void> activate(const CalibrationArgs& args, Services& services) {
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(store_folder(args.store), services));
   RELIEVO_TRY(store->activate_calibration(static_cast<std::uint32_t>(args.revision)));
   services.console.say("revision " + std::to_string(args.revision) + ", in use from now on");
   return {};

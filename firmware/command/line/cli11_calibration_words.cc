@@ -60,7 +60,7 @@ void add_export(CLI::App& command, CalibrationArgs& args) {
   command.add_option_function<std::string>(
              "--as", [&args](const std::string& word) { args.ros = word == "ros"; },
              "rig: one file as OpenCV writes it; ros: left.yaml and right.yaml (camera_info)")
-      ->check(CLI::IsMember({"rig", "ros"}));
+      ->check(CLI::IsMember({"rig", "ros"}))->default_str("rig");
 }
 
 }  // namespace

@@ -41,11 +41,11 @@ bool corner_counts(const std::string& text, int& across, int& down) {
 
 void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
   command.add_option("--algorithms", args.file, "choice and settings of the algorithms")->type_name("FILE.toml");
-  command.add_option("--set", args.settings, "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15")
+  command.add_option("--set", args.settings, "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15 (relievo algorithms)")
       ->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
   command.add_option_function<std::string>(
       "--region", [&args](const std::string& word) { args.whole_view = word == "all"; }, "what to reconstruct")
-      ->check(CLI::IsMember({"face", "all"}));
+      ->check(CLI::IsMember({"face", "all"}))->default_str("face");
 }
 
 void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
@@ -59,18 +59,19 @@ void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
       "inner corners, across x down")->type_name("10x7");
   auto* square = command.add_option("--square-mm", board.square_mm, "side of a square")->check(within(0.1, 1000));
   if (required) corners->required(), square->required();
+  else corners->default_str(std::to_string(board.corners_across) + "x" + std::to_string(board.corners_down)), square->capture_default_str();
   command.add_option("--marker-mm", board.marker_mm, "side of a ChArUco marker; default seven tenths of a square")->check(within(0.03, 900));
   command.add_option("--marker-bits", board.marker_bits, "of a ChArUco marker, a side")->check(CLI::Range(4, 7))->capture_default_str();
 }
 
-void add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
-  command.add_option_function<std::string>(name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
+CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
+  return command.add_option_function<std::string>(name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
       ->check(CLI::IsMember({"chessboard", "charuco"}));
 }
 
 CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
   CLI::Option* live = command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
-  command.add_option("--board", args.cameras, "of --live: sim, with a hand that follows the advice; folder:DIR; linux or linux:FILE")
+  command.add_option("--board", args.cameras, "of --live; before sim a hand follows the advice; " + std::string(kBoards))
       ->type_name("BOARD")->needs(live);
   command.add_option("--goal-mm", args.goal_mm, "of --live: the depth error at 560 mm to reach, one standard deviation")
       ->check(within(0.001, 100))->capture_default_str()->needs(live);
@@ -82,15 +83,14 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, Cali
   CLI::App* command = app.add_subcommand("calibrate", "calibrate the rig from pictures of a printed board, or make that board");
   CLI::Option* pictures = command->add_option("pictures", args.pictures, "folder with left* and right* pictures")->type_name("DIR");
   add_board_words(*command, args.board, true);
-  add_kind(*command, "--pattern", args.board, "what is printed on it");
+  add_kind(*command, "--pattern", args.board, "what is printed on it")->default_str("chessboard");
   command->add_option("-o,--output", args.output, "the calibration, or the page")->required()->type_name("rig.yml");
   command->add_option("--report", args.report, "a page about it, index.html, with pictures")->type_name("DIR");
   command->add_option("--baseline-mm", args.baseline_mm,
                       "known distance of the cameras, to notice a wrong square size; 0: unknown; default with --store: that of the "
                       "calibration in use")->check(within(0, 10000));
   add_store(*command, args.store);
-  add_kind(*command, "--print-pattern", args.board, "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
-  CLI::Option* print = command->get_option("--print-pattern");
+  CLI::Option* print = add_kind(*command, "--print-pattern", args.board, "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
   for (const char* other : {"pictures", "--pattern", "--report", "--baseline-mm", "--store"}) print->excludes(command->get_option(other));
   CLI::Option* live = add_live(*command, live_args);
   for (CLI::Option* other : {pictures, print, command->get_option("--report")}) live->excludes(other);
@@ -125,7 +125,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   command->add_option("-o,--output", args.output, "folder for the model and the report")->required()->type_name("DIR");
   command->add_option_function<std::string>(
       "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; }, "axes of the model")
-      ->check(CLI::IsMember({"head", "camera"}));
+      ->check(CLI::IsMember({"head", "camera"}))->default_str("head");
   command->add_flag("--despite-drift", args.despite_drift, "go on though the cameras have moved since they were calibrated");
   add_lod(*command, args.lod);
   add_algorithms(*command, args.algorithms);
@@ -134,9 +134,9 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
 
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
-  command->add_option("--board", args.board, "sim, folder:DIR with recorded pairs, or linux, linux:FILE: what FILE says is wired where (default /etc/relievo/board.toml)")->required()->type_name("BOARD");
+  command->add_option("--board", args.board, kBoards)->required()->type_name("BOARD");
   command->add_option("--subject", args.subject, "who it is")->required()->type_name("NAME");
-  command->add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
+  command->add_option("--calibration", args.calibration, "default: the one in the store; of the simulated rig, its own")->type_name("rig.yml");
   add_store(*command, args.store);
   add_algorithms(*command, args.algorithms);
   command->callback([&] { chosen = args; });
@@ -167,17 +167,17 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
 // What is printed, and how well it is seen.
 void add_simulated_board(CLI::App& command, SimulateArgs& args) {
   args.printed = {10, 7, 20};
-  add_kind(command, "--pattern", args.printed, "what is printed on it");
+  add_kind(command, "--pattern", args.printed, "what is printed on it")->default_str("chessboard");
   add_board_words(command, args.printed, false);
   command.add_option("--blur-px", args.blur_px, "of the lens, standard deviation")->check(within(0, 5))->capture_default_str();
   command.add_option("--noise", args.noise, "of the sensor, times the usual")->check(within(0, 20))->capture_default_str();
   const auto share = [&command](const char* name, double& value, const char* what) {
-    command.add_option(name, value, what)->check(within(0, 0.98));
+    command.add_option(name, value, what)->check(within(0, 0.98))->capture_default_str();
   };
   share("--lamp", args.lamp, "share of the light lost from the board's left to its right");
   share("--shadow", args.shadow, "share of the light lost in a shadow over a third of it");
   share("--cover", args.cover, "share of its width that a hand covers");
-  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")->check(within(0, 20));
+  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")->check(within(0, 20))->capture_default_str();
 }
 
 void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
@@ -192,7 +192,7 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
     sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()->type_name("DIR");
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
-    if (board) sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000));
+    if (board) sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000))->capture_default_str();
     sub->add_option("--scale", args.scale, "size of the pictures")->check(within(0.1, 1))->capture_default_str();
     sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
     const auto pose = [&args, sub](const char* name, double& value, double least, double most, const char* what) {
@@ -224,6 +224,12 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
   command->callback([&] { chosen = args; });
 }
 
+void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args) {
+  CLI::App* command = app.add_subcommand("algorithms", "what --set and --algorithms may choose: kinds, names, options, sources");
+  command->add_option("name", args.name, "of a kind or an algorithm: only that, with its options, defaults and ranges")->type_name("NAME");
+  command->callback([&] { chosen = args; });
+}
+
 struct AllArgs {
   KioskArgs kiosk;
   CalibrateArgs calibrate;
@@ -236,6 +242,7 @@ struct AllArgs {
   StaffArgs staff;
   SimulateArgs simulate;
   SelfTestArgs selftest;
+  AlgorithmsArgs algorithms;
 };
 
 }  // namespace
@@ -255,22 +262,24 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_staff(app, line.command, args.staff);
   add_simulate(app, line.command, args.simulate);
   add_selftest(app, line.command, args.selftest);
+  add_algorithm_list(app, line.command, args.algorithms);
   app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) line.command = args.kiosk;
   } catch (const CLI::CallForHelp&) {
-    for (const CLI::App* at = &app; at != nullptr;) {  // help of the innermost command that was named
-      const auto deeper = at->get_subcommands();
-      if (deeper.empty()) std::printf("%s", at->help().c_str());
-      at = deeper.empty() ? nullptr : deeper.front();
-    }
+    std::printf("%s", app.help().c_str());  // of the innermost command that was named
     line.command = NothingArgs{};
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    std::fprintf(stderr, "relievo: %s (relievo --help lists the words)\n", what.c_str());
+    std::string command = app.get_name();
+    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+      at = at->get_subcommands().front();
+      command += " " + at->get_name();
+    }
+    std::fprintf(stderr, "relievo: %s (%s --help lists the words)\n", what.c_str(), command.c_str());
     line.command = NothingArgs{};
     line.exit_code = 2;
   }

@@ -40,9 +40,9 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
       "--disparities",
       [&args](const std::string& text) {
         if (!disparity_range(text, args.least_disparity_px, args.most_disparity_px))
-          throw CLI::ValidationError("--disparities", "wants the least and the first too large, such as 0:256");
+          throw CLI::ValidationError("--disparities", text + " is no range: give the least disparity and, above it, the first that is too large, from -4096 to 4096, such as 0:256");
       },
-      "of --rectified: where a partner is looked for; default 0:256")->type_name("FROM:TO")->needs(rectified);
+      "of --rectified: where a partner is looked for, pixels")->type_name("FROM:TO")->default_str("0:256")->needs(rectified);
   each("--truth", args.truths, "folder that 'relievo simulate face --truth' wrote, or a disparity map: PFM, or PNG whose 0 is unknown", "DIR|FILE");
   command->add_option("--truth-scale", args.truth_scale, "of a PNG: grey values per pixel of disparity")->check(CLI::Range(0.001, 65535.0))->capture_default_str();
   command->add_option("--bad-px", args.limit_px, "a disparity off by more is bad")->check(CLI::Range(0.01, 1000.0))->capture_default_str();

@@ -24,8 +24,8 @@ bool window_size(const std::string& text, int& width, int& height) {
 }  // namespace
 
 void add_kiosk(CLI::App& app, KioskArgs& args) {
-  app.add_option("--board", args.board, "the kiosk's cameras: sim, or folder:DIR")->type_name("BOARD")->capture_default_str();
-  app.add_option("--calibration", args.calibration, "default: the one in the store")->type_name("rig.yml");
+  app.add_option("--board", args.board, "the kiosk's cameras: " + std::string(kBoards))->type_name("BOARD")->capture_default_str();
+  app.add_option("--calibration", args.calibration, "default: the one in the store; of the simulated rig, its own")->type_name("rig.yml");
   add_store(app, args.store);
   app.add_option_function<std::string>(
          "--windowed", [&args](const std::string& size) {

@@ -39,7 +39,7 @@ struct CalibrateArgs {
 // calibrate --live
 struct CalibrateLiveArgs {
   BoardArgs board;
-  std::string cameras;  // "sim", before which a hand holds the board, or "folder:DIR"
+  std::string cameras;  // "sim", before which a hand holds the board, or what Services::open_board takes
   unsigned seed = 1;    // of rig and hand
   double goal_mm = 0.1;
   std::optional<double> baseline_mm{};  // as in CalibrateArgs
@@ -140,7 +140,7 @@ struct SimulateArgs {
   double lamp = 0, shadow = 0, cover = 0, highlight = 0;
   double blur_px = 0.55;
   double noise = 1;               // times the usual
-  int pairs = 0;                  // 0: the rig's own choice
+  int pairs = 14;                 // of the board
   double scale = 1;               // of the picture's width and height
   bool portrait = false;          // cameras turned upright
   bool truth = false;             // write down what is true, beside the pictures
@@ -170,12 +170,15 @@ struct KioskArgs {
   bool write_showpiece = false;   // make the head of the page that invites, instead
   AlgorithmArgs algorithms;
 };
+struct AlgorithmsArgs {
+  std::string name;               // of a kind or an algorithm; empty: all of them
+};
 struct MemoryArgs {};
 struct VersionArgs {};
 struct NothingArgs {};            // help was asked for and printed, or the words were wrong
 
 using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
-                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, MemoryArgs, VersionArgs, KioskArgs>;
+                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;

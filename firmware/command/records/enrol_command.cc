@@ -28,6 +28,13 @@ struct Calibrated {
   std::uint32_t revision = 0;   // 0: of a file, and the store does not know it yet
 };
 
+Result<pipeline::StereoCalibration> in_use(const Path& folder, Services& services) {
+  const auto store = services.open_store(folder, false);
+  if (!store && store.error().code == Errc::NotFound) return Error{Errc::NotCalibrated, "there is no store"};
+  if (!store) return store.error();
+  return (*store)->active_calibration();
+}
+
 // Looked for before anything is made: without one no store appears.
 Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMode& mode, Services& services) {
   Calibrated found;
@@ -38,10 +45,20 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     found.note = args.calibration.filename().string();
     return found;
   }
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), false));
-  RELIEVO_TRY_ASSIGN(found.calibration, store->active_calibration());
-  found.revision = found.calibration.revision;
-  found.name = found.note = "store revision " + std::to_string(found.revision);
+  const Path folder = store_folder(args.store);
+  const Result<pipeline::StereoCalibration> kept = in_use(folder, services);
+  if (kept) {
+    found.calibration = *kept;
+    found.revision = kept->revision;
+    found.name = found.note = "store revision " + std::to_string(found.revision);
+    return found;
+  }
+  if (kept.error().code != Errc::NotCalibrated) return kept.error();
+  if (args.board != "sim")
+    return Error{Errc::NotCalibrated, "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}.at(folder.string());
+  // Nobody has to calibrate what is known exactly; the kiosk does the same.
+  RELIEVO_TRY_ASSIGN(found.calibration, services.simulated_calibration());
+  found.name = found.note = "the simulated rig";
   return found;
 }
 

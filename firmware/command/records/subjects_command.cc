@@ -79,7 +79,8 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
 
 Result<void> run_subjects(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
-  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), args.verb == Verb::Erase));
+  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services) : services.open_store(folder, false));
   if (args.verb == Verb::List) return list(*store, services.console);
   RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
   switch (args.verb) {

@@ -3,6 +3,8 @@
 //
 // SimilarityConstraint ("similarity"): the two views must look alike around a match: its cost (one
 // minus zero-mean correlation) stays under a limit.
+// Its limit is loose by default, for the sake of plain skin. Behind a matcher with a threshold of its own it says something
+// only below that: behind zmncc below 1 - min_score, 0.4 in the suite of the dissertation.
 #pragma once
 
 #include "pipeline/match/match_constraint.h"

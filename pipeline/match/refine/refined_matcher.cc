@@ -154,7 +154,8 @@ Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const 
   set.epipolar_shift = rows.measure_linear(field2);
   set.motion_px = rows.motion().rms_px;
   read_matches(field2, keypoints, rows.motion(), options_.sigma_limit_px, set);
-  if (set.matches.size() < 100)
+  // Of a whole face 100 are hardly any; where few places were asked for, a tenth of them.
+  if (set.matches.size() < std::clamp<std::size_t>(keypoints.points.size() / 10, 1, 100))
     return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
   return set;
 }

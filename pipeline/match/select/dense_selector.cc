@@ -14,7 +14,8 @@ Result<void> DenseSelectorOptions::check() const {
 Result<Keypoints> DenseSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  return lattice_keypoints(pair, options_.step_px, context);
+  RELIEVO_TRY(check_pixels_of_left(pair));
+  return lattice_keypoints(pair, options_.step_px, {0, 0, pair.width_px - 1, pair.height_px - 1}, context);
 }
 
 }  // namespace relievo::pipeline

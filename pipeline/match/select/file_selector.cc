@@ -11,7 +11,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr std::size_t kMostPoints = 1'000'000;
+constexpr std::size_t kMostPoints = 4'000'000;  // more than a picture has pixels
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Result<void> FileSelectorOptions::check() const { return {}; }
 Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (options_.path.empty()) return Error{Errc::InvalidInput, "the selector file needs a file of keypoints"}.at("file-points.path");
+  if (options_.path.empty()) return Error{Errc::InvalidInput, "no file of keypoints is named: --set file-points.path=FILE"}.at("file-points.path");
   RELIEVO_TRY_ASSIGN(const NumberTable table, read_number_table(options_.path, 2, kMostPoints, context.scratch));
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FileSelector ("file"): the keypoints of a text file, one a line: x and y in pixels of the left rectified
+// FileSelector ("file-points"): the keypoints of a text file, one a line: x and y in pixels of the left rectified
 // view, apart by a comma, a semicolon or blanks; further columns are not looked at. Empty lines, lines
 // that begin with # and a first line of names (x,y) are passed over. What lies outside of the face region
 // is left out; the same place is taken once; keypoints are in rows from the top.
@@ -29,7 +29,7 @@ void describe(FileSelectorOptions& o, Field&& field) {
 class FileSelector final : public KeypointSelector {
  public:
   explicit FileSelector(const FileSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "file"; }
+  std::string_view name() const override { return "file-points"; }
   Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
 
  private:

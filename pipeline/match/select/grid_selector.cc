@@ -2,26 +2,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/select/grid_selector.h"
 
+#include <string>
+
 #include "pipeline/match/select/keypoint_choice.h"
 
 namespace relievo::pipeline {
+namespace {
+
+// Its last pixel; `length` 0 reaches to the view's edge.
+int last_of(int first, int length, int view) { return length == 0 ? view - 1 : first + length - 1; }
+
+}  // namespace
 
 Result<void> GridSelectorOptions::check() const {
-  if (step_px < 1 || step_px > 256 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "grid: step_px must lie in 1 .. 256 and max_points in 1 .. 1000000"};
+  if (step_px < 1 || left_px < 0 || top_px < 0 || width_px < 0 || height_px < 0)
+    return Error{Errc::InvalidInput, "grid-points: step_px must be at least 1, and the rectangle's numbers not negative"};
   return {};
 }
 
 Result<Keypoints> GridSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels_of_left(pair));
-  int step = options_.step_px;
-  while (true) {
-    if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-    if (count_lattice(pair, step) <= static_cast<std::size_t>(options_.max_points)) break;
-    ++step;
-  }
-  return lattice_keypoints(pair, step, context);
+  if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
+  const LatticeArea area{options_.left_px, options_.top_px, last_of(options_.left_px, options_.width_px, pair.width_px),
+                         last_of(options_.top_px, options_.height_px, pair.height_px)};
+  if (area.left > area.right || area.top > area.bottom || area.right >= pair.width_px || area.bottom >= pair.height_px)
+    return Error{Errc::InvalidInput, "the rectangle leaves the left rectified view, whose size is in brackets: give a smaller one"}.at(
+        "grid-points (" + std::to_string(pair.width_px) + " x " + std::to_string(pair.height_px) + ")");
+  auto chosen = lattice_keypoints(pair, options_.step_px, area, context);
+  const bool part = options_.left_px + options_.top_px + options_.width_px + options_.height_px > 0;
+  if (part && !chosen && chosen.error().code == Errc::NoFace)
+    return Error{Errc::NoFace, "no place of the rectangle lies in the face region: choose another one, or take the whole view (--region all)"}.at("grid-points");
+  return chosen;
 }
 
 }  // namespace relievo::pipeline

@@ -149,23 +149,19 @@ Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, Stage
   return keypoints;
 }
 
-std::size_t count_lattice(const RectifiedPair& pair, int step_px) {
+Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area, StageContext& context) {
+  const auto each_node = [&](auto&& take) {
+    for (int y = area.top; y <= area.bottom; y += step_px)
+      for (int x = area.left; x <= area.right; x += step_px)
+        if (selectable_at(pair, x, y)) take(x, y);
+  };
   std::size_t count = 0;
-  for (int y = 0; y < pair.height_px; y += step_px)
-    for (int x = 0; x < pair.width_px; x += step_px) count += selectable_at(pair, x, y) ? 1 : 0;
-  return count;
-}
-
-Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, StageContext& context) {
-  RELIEVO_TRY(check_pixels_of_left(pair));
-  const std::size_t count = count_lattice(pair, step_px);
+  each_node([&](int, int) { ++count; });
   if (count == 0) return Error{Errc::NoFace, "the face region is empty: nothing to match"};
   Keypoints keypoints(&context.output);
   keypoints.lattice_step_px = step_px;
   keypoints.points.reserve(count);
-  for (int y = 0; y < pair.height_px; y += step_px)
-    for (int x = 0; x < pair.width_px; x += step_px)
-      if (selectable_at(pair, x, y)) keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
+  each_node([&](int x, int y) { keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1}); });
   return keypoints;
 }
 

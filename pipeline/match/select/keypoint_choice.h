@@ -57,8 +57,12 @@ void choose_spread(Candidates& candidates, double min_distance_px, int max_point
 // Error: TooFewMatches where nothing is.
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context);
 
-// Every step_px pixels in both directions. Error: NoFace.
-Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, StageContext& context);
-std::size_t count_lattice(const RectifiedPair& pair, int step_px);
+// First and last pixels of a rectangle of the left view.
+struct LatticeArea {
+  int left, top, right, bottom;
+};
+
+// Every step_px pixels in both directions, from the area's upper left corner on. Error: NoFace.
+Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area, StageContext& context);
 
 }  // namespace relievo::pipeline

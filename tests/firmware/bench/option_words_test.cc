@@ -81,10 +81,9 @@ std::string section_of(const std::string& option) { return option.substr(0, opti
 pipeline::AlgorithmSet set_for(const std::vector<pipeline::OptionDescription>& all,
                                const std::string& section) {
   pipeline::AlgorithmSet set;
-  const std::string name = section.substr(0, section.find("-points"));
   for (const auto& kind : all) {
-    const bool there = std::find(kind.names.begin(), kind.names.end(), name) != kind.names.end();
-    EXPECT_TRUE(!there || set.set(kind.key, name));
+    const bool there = std::find(kind.names.begin(), kind.names.end(), section) != kind.names.end();
+    EXPECT_TRUE(!there || set.set(kind.key, section));
   }
   return set;
 }

@@ -17,13 +17,14 @@ float between(const std::array<float, 4>& node, float tx, float ty, float step_p
   return top + ty * (node[2] + tx * (node[3] - node[2]) - top);
 }
 
-void fill_lattice(DisparityMap& map, int step) {
+// Nodes stand every `step` pixels from (first_x, first_y) on, which lies within the first step.
+void fill_lattice(DisparityMap& map, int step, int first_x, int first_y) {
   const DisparityMap nodes = map;
   const auto node = [&nodes](int x, int y) { return nodes.holds(x, y) ? nodes.at(x, y) : kNoDisparity; };
   for (int y = 0; y < map.height_px; ++y)
     for (int x = 0; x < map.width_px; ++x) {
-      const int left = x - x % step;
-      const int top = y - y % step;
+      const int left = x - (x - first_x + step) % step;
+      const int top = y - (y - first_y + step) % step;
       const bool last_column = left + step >= map.width_px;
       const bool last_row = top + step >= map.height_px;
       const std::array around{node(left, top), last_column ? node(left, top) : node(left + step, top),
@@ -44,7 +45,10 @@ DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int heig
     const int y = static_cast<int>(std::lround(match.left_px.y));
     if (match.rejected_by == 0 && map.holds(x, y)) map.values[map.index(x, y)] = match.disparity_px;
   }
-  if (set.lattice_step_px > 1) fill_lattice(map, set.lattice_step_px);
+  if (const int step = set.lattice_step_px; step > 1 && !set.matches.empty()) {
+    const pipeline::Vec2f node = set.matches.front().left_px;
+    fill_lattice(map, step, static_cast<int>(std::lround(node.x)) % step, static_cast<int>(std::lround(node.y)) % step);
+  }
   return map;
 }
 

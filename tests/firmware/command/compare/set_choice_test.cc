@@ -36,6 +36,23 @@ TEST(SetChoice, AllSetsStartFromTheSettingsForAll) {
   for (const NamedSet& set : *sets) EXPECT_EQ(set.set.get("dense.step_px"), "3");
 }
 
+// A limit that the matcher has already held to would make a rule of figure 7 that says nothing.
+TEST(SetChoice, TheDissertationsSimilarityAsksForMoreThanItsMatcher) {
+  for (const char* suite : {"dissertation", "dissertation-face"}) {
+    CompareArgs args;
+    args.suites = {suite};
+    const auto sets = choose_sets(args);
+    ASSERT_TRUE(sets);
+    int judged = 0;
+    for (const NamedSet& set : *sets) {
+      if (set.set.get("matcher") != "zmncc" || set.set.get("constraints").find("similarity") == std::string::npos) continue;
+      ++judged;
+      EXPECT_LT(std::stod(set.set.get("similarity.max_cost")), 1 - std::stod(set.set.get("zmncc.min_score"))) << set.name;
+    }
+    EXPECT_GE(judged, 3) << suite;
+  }
+}
+
 // Scattered places make hardly a face of one, and the page is to say how good they are.
 TEST(SetChoice, NobodyIsRefusedAsAPictureUnlessAskedFor) {
   CompareArgs args;

@@ -154,6 +154,38 @@ TEST(CommandLine, HelpIsNoError) {
   EXPECT_EQ(line.exit_code, 0);
 }
 
+TEST(CommandLine, HelpNamesTheProgramTheBoardsAndTheDefaults) {
+  const auto help_of = [](std::vector<const char*> words) {
+    words.push_back("--help");
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(parse(words).exit_code, 0);
+    return testing::internal::GetCapturedStdout();
+  };
+  const auto says = [&](const std::vector<const char*>& words, const std::string& what) {
+    const std::string help = help_of(words);
+    EXPECT_NE(help.find(what), std::string::npos) << what << " is not in\n" << help;
+  };
+  says({}, "Usage: relievo ");
+  says({"enrol"}, "Usage: relievo enrol ");
+  says({"simulate", "board"}, "Usage: relievo simulate board ");
+  says({}, "linux:FILE");
+  says({"enrol"}, "linux:FILE");
+  says({"calibrate"}, "linux:FILE");
+  for (const char* named : {"=10x7", "=20\n", "=chessboard", "=0.55", "=14"}) says({"simulate", "board"}, named);
+  says({"compare"}, "=0:256");
+  says({"reconstruct"}, "=face");
+}
+
+TEST(CommandLine, AWrongRangeIsNamedWithTheRightOneAndItsHelp) {
+  for (const char* range : {"50:10", "9", "0:9999", "a:b"}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(parse({"compare", "l.png", "r.png", "--rectified", "--disparities", range, "-o", "out"}).exit_code, 2);
+    const std::string said = testing::internal::GetCapturedStderr();
+    for (const std::string& part : {std::string("--disparities"), std::string(range), std::string("such as 0:256"), std::string("relievo compare --help")})
+      EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+}
+
 TEST(CommandLine, WithoutACommandItIsTheKiosk) {
   const auto plain = parse({});
   ASSERT_TRUE(std::holds_alternative<KioskArgs>(plain.command));

@@ -116,6 +116,43 @@ TEST_P(MatchConstraints, BearNothingAndTooLittleMemory) {
 INSTANTIATE_TEST_SUITE_P(All, MatchConstraints, testing::ValuesIn(test::names_of("constraints")),
                          [](const auto& chosen) { return test::test_name(chosen.param); });
 
+// What one view shows elsewhere, ZMNCC finds a place for all the same. Its own threshold has spared the default limit
+// any work; a limit of its own takes what was found there, and hardly anything else.
+TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
+  const BumpScene scene{.width_px = 260, .height_px = 180};
+  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  RectifiedPair pair(&bench.output);
+  pair = scene.render(&bench.output);
+  const RectifiedPair other = BumpScene{.width_px = 260, .height_px = 180, .seed = 99}.render(&bench.output);
+  for (std::size_t k = 0; k < pair.right.grey.size() / 2; ++k) pair.right.grey[k] = other.right.grey[k];  // its upper half
+  AlgorithmSet set;
+  ASSERT_TRUE(set.set("matcher", "zmncc"));
+  const auto matcher = make_matcher(set);
+  auto found = run_stage(bench.context, [&](StageContext& c) { return (*matcher)->match(pair, test::lattice(pair, 4, &bench.output), c); });
+  ASSERT_TRUE(found);
+  std::vector<Match> matches(found->matches.begin(), found->matches.end());
+  const auto reject = [&](const char* limit) {
+    std::vector<Match> judged = matches;
+    constraint("similarity", "similarity.max_cost", limit)->judge(pair, judged, 4, 4, bench.context);
+    double bad = 0, bad_out = 0, good = 0, good_out = 0;
+    for (const Match& m : judged) {
+      const bool in_both = std::abs(m.left_px.y - 90) <= 13;  // the window lies across the seam
+      if (in_both || !scene.judged(m.left_px.x, m.left_px.y)) continue;
+      const bool wrong = std::abs(static_cast<double>(m.disparity_px) - scene.disparity(m.left_px.x, m.left_px.y)) > 1;
+      (wrong ? bad : good) += 1;
+      if (m.rejected_by != 0) (wrong ? bad_out : good_out) += 1;
+    }
+    EXPECT_GT(bad, 50);
+    EXPECT_GT(good, 300);
+    return std::pair(bad_out / bad, good_out / good);
+  };
+  const auto [bad_by_default, good_by_default] = reject("0.95");
+  EXPECT_EQ(bad_by_default + good_by_default, 0);
+  const auto [bad_taken, good_taken] = reject("0.4");
+  EXPECT_GT(bad_taken, 0.5);
+  EXPECT_LT(good_taken, 0.05);
+}
+
 TEST(OrderingConstraint, TheLargestOrderedSetStays) {
   StageBench bench(1024, 1 << 20, 1);
   RectifiedPair pair(std::pmr::get_default_resource());

@@ -118,6 +118,18 @@ TEST(RefinedMatcher, RefusesAPlainWall) {
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
 
+TEST(RefinedMatcher, AFewPlacesAreMatchedAsWellAsMany) {
+  const BumpScene scene;
+  StageBench bench;
+  const RectifiedPair pair = scene.render(&bench.output);
+  Keypoints keypoints(&bench.output);
+  for (int k = 0; k < 5; ++k) keypoints.points.push_back({{100.5F + 30 * static_cast<float>(k), 80.25F + 20 * static_cast<float>(k)}, 1});
+  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  ASSERT_TRUE(matches);
+  ASSERT_EQ(matches->matches.size(), 5U);
+  for (const Match& m : matches->matches) EXPECT_NEAR(m.disparity_px, scene.disparity(m.left_px.x, m.left_px.y), 0.25);
+}
+
 TEST(RefinedMatcher, RefusesUnrelatedViews) {
   StageBench bench;
   RectifiedPair pair = BumpScene{.seed = 21}.render(&bench.output);

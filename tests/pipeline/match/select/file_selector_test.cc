@@ -19,7 +19,7 @@ class FilePoints : public testing::Test {
     return choose((here_ / "points.csv").string());
   }
   Result<Keypoints> choose(const std::string& path) {
-    return bench_.select(*test::make_selector("file", {{"file-points.path", path}}), SelectionBench::rendered());
+    return bench_.select(*test::make_selector("file-points", {{"file-points.path", path}}), SelectionBench::rendered());
   }
   void refused(const std::string& text, const std::string& place) {
     const auto chosen = read(text);
@@ -63,6 +63,18 @@ TEST_F(FilePoints, HostileLinesAreNamed) {
   refused("", "points.csv");
   refused("# nothing\n\n", "points.csv");
   refused("x,y\n", "points.csv");
+}
+
+TEST_F(FilePoints, OnePointOrMoreThanThePictureHasPixels) {
+  const auto one = read("7,8");
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->points.size(), 1U);
+  std::string text;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 400; ++x) text += std::to_string(x / 2) + (x % 2 != 0 && x < 398 ? ".5" : "") + " " + std::to_string(y) + "\n";
+  const auto many = read(text);
+  ASSERT_TRUE(many) << many.error().what.view();
+  EXPECT_EQ(many->points.size(), 399U * 160U);  // the last column stands there twice
 }
 
 TEST_F(FilePoints, WhatIsNoFileIsRefused) {

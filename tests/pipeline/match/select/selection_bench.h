@@ -31,7 +31,7 @@ inline std::unique_ptr<pipeline::KeypointSelector> make_selector(const std::stri
   return *std::move(made);
 }
 
-// The selector `file` needs one.
+// The selector `file-points` needs one.
 class PointFile {
  public:
   PointFile() {

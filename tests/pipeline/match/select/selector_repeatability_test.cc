@@ -33,7 +33,7 @@ struct Figures {
 
 Figures figures_of(const std::string& name) {
   StageBench bench(std::size_t{32} << 20, std::size_t{96} << 20);
-  const auto selector = test::make_selector(name, {{name == "grid" ? "grid-points.max_points" : name + ".max_points", "1500"}});
+  const auto selector = test::make_selector(name, {{name + ".max_points", "1500"}});
   const auto& pair = rendered();
   RectifiedPair swapped(&bench.output);
   swapped = pair;

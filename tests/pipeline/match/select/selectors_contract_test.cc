@@ -58,7 +58,7 @@ TEST_P(SelectorContract, PointsStandInRowsFromTheTopEachOnce) {
 
 TEST_P(SelectorContract, NoMoreThanAskedFor) {
   SelectionBench bench;
-  const std::string key = (GetParam() == "grid" ? "grid-points" : GetParam()) + ".max_points";
+  const std::string key = GetParam() + ".max_points";
   AlgorithmSet set;
   if (!set.set(key, "40")) return;  // it says where its points are, not how many
   const auto chosen = bench.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionBench::rendered());
@@ -91,7 +91,7 @@ TEST_P(SelectorContract, APlainWallHasPointsOnlyWhereTheyDoNotDependOnIt) {
   SelectionBench bench;
   const auto chosen = bench.select(*selector(), bench.plain());
   if (chosen) {
-    EXPECT_TRUE(selector()->on_lattice() || GetParam() == "random" || GetParam() == "file");
+    EXPECT_TRUE(selector()->on_lattice() || GetParam() == "random" || GetParam() == "file-points");
     return;
   }
   EXPECT_EQ(chosen.error().code, Errc::TooFewMatches);

@@ -254,17 +254,46 @@ TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
   EXPECT_LT(chi, 37.7);  // 15 degrees of freedom: one seed of a thousand would exceed it
 }
 
-TEST(Grid, TheStepGrowsUntilTheCountFits) {
+TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
   SelectionBench bench;
   const auto& pair = SelectionBench::rendered();  // 200 x 160
-  const auto eight = bench.select(*make_selector("grid"), pair);
-  ASSERT_TRUE(eight);
-  EXPECT_EQ(eight->lattice_step_px, 8);
-  EXPECT_EQ(eight->points.size(), 25U * 20U);
-  const auto fewer = bench.select(*make_selector("grid", {{"grid-points.max_points", "300"}}), pair);
-  ASSERT_TRUE(fewer);
-  EXPECT_EQ(fewer->lattice_step_px, 11);  // 19 x 15; 10 would be 20 x 16 = 320
-  EXPECT_EQ(fewer->points.size(), 19U * 15U);
+  const auto whole = bench.select(*make_selector("grid-points"), pair);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->lattice_step_px, 8);
+  EXPECT_EQ(whole->points.size(), 25U * 20U);
+  const auto part = bench.select(*make_selector("grid-points", {{"grid-points.step_px", "7"}, {"grid-points.left_px", "31"}, {"grid-points.top_px", "12"}, {"grid-points.width_px", "22"}, {"grid-points.height_px", "14"}}), pair);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->lattice_step_px, 7);
+  ASSERT_EQ(part->points.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(part->points[k].at_px.x, 31.0F + 7.0F * static_cast<float>(k % 4));
+    EXPECT_EQ(part->points[k].at_px.y, 12.0F + 7.0F * static_cast<float>(k / 4));
+  }
+  // Down to the view's edge, and what lies beyond it.
+  const auto corner = bench.select(*make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
+  ASSERT_TRUE(corner);
+  EXPECT_EQ(corner->points.size(), 2U);
+  for (const char* option : {"grid-points.left_px", "grid-points.top_px", "grid-points.width_px", "grid-points.height_px"}) {
+    const auto beyond = bench.select(*make_selector("grid-points", {{option, "201"}}), pair);
+    ASSERT_FALSE(beyond) << option;
+    EXPECT_EQ(beyond.error().code, Errc::InvalidInput);
+    EXPECT_EQ(beyond.error().where(), "grid-points (200 x 160)");
+  }
+}
+
+TEST(GridPoints, ARectangleBesideTheFaceSaysSo) {
+  SelectionBench bench;
+  RectifiedPair pair(&bench.output);
+  pair = SelectionBench::rendered();
+  pair.region.assign(pair.left.grey.size(), 0);
+  for (std::size_t k = 0; k < 200U * 40U; ++k) pair.region[k] = 1;  // its upper quarter
+  const auto beside = bench.select(*make_selector("grid-points", {{"grid-points.top_px", "40"}}), pair);
+  ASSERT_FALSE(beside);
+  EXPECT_EQ(beside.error().code, Errc::NoFace);
+  EXPECT_NE(beside.error().what.view().find("rectangle"), std::string_view::npos);
+  const auto across = bench.select(*make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
+  ASSERT_TRUE(across);
+  EXPECT_EQ(across->points.size(), 25U);
 }
 
 TEST(Pipeline, AScatteredSelectorWithAMesherForLatticesIsRefusedAtOnce) {
@@ -273,7 +302,7 @@ TEST(Pipeline, AScatteredSelectorWithAMesherForLatticesIsRefusedAtOnce) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("selector", name) && set.set("mesher", "grid"));
     const auto made = Pipeline::make(set, calibration, {}, Region::All);
-    if (name == "dense" || name == "grid") {
+    if (name == "dense" || name == "grid-points") {
       EXPECT_TRUE(made);
       continue;
     }

@@ -95,11 +95,11 @@ TEST(SharedScore, JudgesTwoMapsWhereBothGive) {
   EXPECT_EQ(s.bad_other, 0);
 }
 
-pipeline::MatchSet matches_on_lattice(int step, float disparity) {
+pipeline::MatchSet matches_on_lattice(int step, float disparity, int first_x = 0, int first_y = 0) {
   pipeline::MatchSet set(std::pmr::get_default_resource());
   set.lattice_step_px = step;
-  for (int y = 0; y < kHeight; y += step)
-    for (int x = 0; x < kWidth; x += step)
+  for (int y = first_y; y < kHeight; y += step)
+    for (int x = first_x; x < kWidth; x += step)
       set.matches.push_back({.left_px = {static_cast<float>(x), static_cast<float>(y)}, .disparity_px = disparity + 0.1F * static_cast<float>(x)});
   return set;
 }
@@ -107,6 +107,9 @@ pipeline::MatchSet matches_on_lattice(int step, float disparity) {
 TEST(DisparityMapOfMatches, FillsBetweenTheNodesOfALatticeAndOnlyThere) {
   const DisparityMap slope = disparity_map(matches_on_lattice(4, 5), kWidth, kHeight);
   for (int x = 0; x < kWidth - 4; ++x) EXPECT_NEAR(slope.at(x, 9), 5 + 0.1 * x, 1e-4) << x;
+  const DisparityMap part = disparity_map(matches_on_lattice(4, 5, 50, 11), kWidth, kHeight);
+  for (int x = 0; x < 48; ++x) EXPECT_FALSE(part.known(x, 13)) << x;
+  for (int x = 50; x < kWidth - 4; ++x) EXPECT_NEAR(part.at(x, 13), 5 + 0.1 * x, 1e-4) << x;
   pipeline::MatchSet scattered = matches_on_lattice(4, 5);
   scattered.lattice_step_px = 0;
   const DisparityMap points = disparity_map(scattered, kWidth, kHeight);

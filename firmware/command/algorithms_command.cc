@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `relievo algorithms`: what may be chosen, from the description that choices are read by.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/command/commands.h"
+#include "pipeline/algorithms.h"
+
+namespace relievo::firmware {
+namespace {
+
+using Options = std::vector<pipeline::OptionDescription>;
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size() + 1), ' ');
+  return text;
+}
+
+std::string range_of(const pipeline::OptionDescription& option) {
+  if (option.text) return "text";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g to %.10g", option.least, option.most);
+  return text;
+}
+
+bool is_kind(const pipeline::OptionDescription& option) { return !option.names.empty(); }
+
+bool say_options(const Options& all, std::string_view section, Console& console) {
+  bool any = false;
+  for (const auto& option : all) {
+    if (is_kind(option) || option.key.substr(0, option.key.find('.')) != section) continue;
+    console.say("  " + padded(option.key + " = " + option.value, 36) + padded(range_of(option), 18) + option.sentence);
+    any = true;
+  }
+  return any;
+}
+
+bool say_algorithms(const Options& all, std::string_view name, Console& console) {
+  bool any = false;
+  for (const auto& kind : all)
+    for (const auto& algorithm : kind.algorithms) {
+      if (algorithm.name != name) continue;
+      console.say(kind.key + " = " + algorithm.name + (kind.value == name ? " (the default)" : "") + ": " + algorithm.sentence);
+      console.say("  source: " + std::string(algorithm.source));
+      any = true;
+    }
+  return any;
+}
+
+bool say_kind(const Options& all, std::string_view key, Console& console) {
+  const auto kind = std::find_if(all.begin(), all.end(), [key](const auto& option) { return is_kind(option) && option.key == key; });
+  if (kind == all.end()) return false;
+  console.say(kind->key + ": " + kind->sentence + "; default " + kind->value);
+  for (const auto& algorithm : kind->algorithms)
+    console.say("  " + padded(algorithm.name, 22) + algorithm.sentence + " [" + algorithm.source + "]");
+  return true;
+}
+
+void say_overview(const Options& all, Console& console) {
+  for (const auto& option : all)
+    if (say_kind(all, option.key, console)) console.say("");
+  console.say("Choose with --set KIND=NAME, set with --set NAME.OPTION=VALUE; 'relievo algorithms NAME' lists a NAME's options,");
+  console.say("'relievo algorithms face' those of the part of the surface that is kept, whatever is chosen.");
+}
+
+}  // namespace
+
+Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services) {
+  const Options all = pipeline::describe_algorithms();
+  if (args.name.empty()) {
+    say_overview(all, services.console);
+    return {};
+  }
+  // A word may be a kind, an algorithm of two kinds, or only settings.
+  const bool kind = say_kind(all, args.name, services.console);
+  const bool algorithm = say_algorithms(all, args.name, services.console);
+  const bool options = say_options(all, args.name, services.console);
+  if (kind || algorithm || options) return {};
+  return Error{Errc::NotFound, "no such kind or algorithm: 'relievo algorithms' lists them"}.at(args.name);
+}
+
+}  // namespace relievo::firmware
