@@ -29,7 +29,7 @@ Bench::Bench(Parts parts)
     : parts_(std::move(parts)), session_(parts_.appliance.session()), shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
       run_(session_, parts_.pool, parts_.board.clock()), watch_(parts_.appliance.grabber(), session_, parts_.board),
       calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool, std::move(parts_.show_boards)),
-      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, std::move(parts_.in_use)}), recording_(parts_.errands, parts_.board) {
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, parts_.board.media(), std::move(parts_.in_use)}), recording_(parts_.errands, parts_.board) {
   algorithms_.begin(parts_.stages.algorithms());
 }
 
@@ -97,6 +97,8 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Rows:
     case BenchAct::Square:
     case BenchAct::Charuco:
+    case BenchAct::ExportCalibration:
+    case BenchAct::ImportCalibration:
     case BenchAct::Activate: return calibrations_.act(order);
     case BenchAct::Record: return record();
     case BenchAct::StopRecording: return recording_.stop();

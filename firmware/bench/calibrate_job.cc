@@ -119,7 +119,6 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
       const pipeline::BoardOutline& outline = (*state.wanted)[i];
       for (std::size_t k = 0; k < outline.size(); ++k) drawing.line(outline[k], outline[(k + 1) % outline.size()], kWanted);
     }
-    feeds_[i].publish({});
   }
   ui::BenchCalibration now;
   now.advice = static_cast<ui::BoardAdvice>(state.advice);
@@ -133,15 +132,13 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   now.error_mm = static_cast<float>(state.error_mm);
   now.goal_mm = static_cast<float>(state.goal_mm);
   const std::lock_guard lock(mutex_);
+  for (LiveFeed& feed : feeds_) feed.publish({});
   figures_ = now;
 }
 
 ui::BenchCalibration CalibrateJob::newest() {
-  ui::BenchCalibration now;
-  {
-    const std::lock_guard lock(mutex_);
-    now = figures_;
-  }
+  const std::lock_guard lock(mutex_);
+  ui::BenchCalibration now = figures_;
   for (std::size_t i = 0; i < 2; ++i) {
     const LivePicture live = feeds_[i].newest();
     now.pictures[i] = {live.picture, live.number};

@@ -40,7 +40,7 @@ class CalibrateJob final : public Job {
   Result<void> run(JobControl& control) override;
   void finish() { finish_.store(true, std::memory_order_relaxed); }
 
-  // The live part of the view: pictures, advice, bars.
+  // The live part of the view: pictures, advice, bars, all of one pair.
   ui::BenchCalibration newest();
   const Result<void>& outcome() const { return outcome_; }
   const std::optional<pipeline::CalibratorOutput>& result() const { return result_; }
@@ -59,7 +59,7 @@ class CalibrateJob final : public Job {
   std::array<LiveFeed, 2> feeds_;
   std::atomic<bool> finish_{false};
   std::mutex mutex_;
-  ui::BenchCalibration figures_;  // without pictures and texts
+  ui::BenchCalibration figures_;  // without pictures and texts; with those of the feeds, under the mutex
   std::optional<pipeline::CalibratorOutput> result_;
   Result<void> outcome_;
 };

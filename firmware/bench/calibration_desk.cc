@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "firmware/bench/calibration_stick.h"
 #include "firmware/command/calibrate/calibration_history.h"
 #include "firmware/command/wall_time.h"
 #include "hal/base/sentence.h"
@@ -34,6 +36,8 @@ void CalibrationDesk::act(ui::BenchOrder order) {
   if (order.act == ui::BenchAct::Square) board_.square_mm = std::clamp(std::round(10 * board_.square_mm + step) / 10, kLeastSquareMm, kMostSquareMm);
   if (order.act == ui::BenchAct::Charuco) board_.charuco = !board_.charuco;
   if (order.act == ui::BenchAct::StoreCalibration) store();
+  if (order.act == ui::BenchAct::ExportCalibration) export_in_use();
+  if (order.act == ui::BenchAct::ImportCalibration) import_one();
   if (order.act == ui::BenchAct::Activate) activate(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
 }
 
@@ -64,6 +68,7 @@ void CalibrationDesk::ended() {
 }
 
 void CalibrationDesk::load_history() {
+  exported_.clear();
   const auto rows = std::make_shared<std::vector<Row>>();
   parts_.errands.send(
       JobPlace::Keeper,
@@ -123,6 +128,30 @@ void CalibrationDesk::activate(std::size_t row) {
   });
 }
 
+void CalibrationDesk::export_in_use() {
+  const pipeline::StereoCalibration* in_use = parts_.stages.calibration();
+  if (busy_ || in_use == nullptr) return;
+  busy_ = true;
+  exported_.clear();
+  char name[24];
+  std::snprintf(name, sizeof name, "%04u", static_cast<unsigned>(in_use->revision));  // so that their names have their order
+  const std::string folder = name;
+  parts_.errands.send(
+      JobPlace::Keeper, [this, calibration = *in_use, folder](JobControl&) { return export_calibration(calibration, folder, parts_.media); },
+      [this, folder](const std::optional<Error>& error) {
+        busy_ = false;
+        problem_ = error ? Sentence(*error).packed() : "";
+        if (!error) exported_ = std::string(kCalibrationsFolder) + "/" + folder;
+      });
+}
+
+void CalibrationDesk::import_one() {
+  adopt([this]() -> Result<std::uint32_t> {
+    RELIEVO_TRY_ASSIGN(const StickCalibration found, import_calibration(parts_.media));
+    return parts_.store.save_calibration(found.calibration, "imported from " + found.file);
+  });
+}
+
 ui::BenchCalibration CalibrationDesk::view() {
   ui::BenchCalibration view = parts_.job.newest();
   view.columns = board_.corners_across;
@@ -134,6 +163,7 @@ ui::BenchCalibration CalibrationDesk::view() {
   view.stored = stored_;
   view.reasons = reasons_;
   view.problem = problem_;
+  view.exported = exported_;
   if (ended_) {
     const pipeline::CalibrationQuality& q = parts_.job.result()->quality;
     view.verdict = verdict_of(q.verdict);
@@ -153,6 +183,7 @@ void CalibrationDesk::forget() {
   parts_.job.wipe();
   running_ = ended_ = stored_ = busy_ = false;
   history_.clear();
+  exported_.clear();
 }
 
 }  // namespace relievo::firmware

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CalibrationDesk: the technician's page on calibrations: which board is shown, the live calibration with its
-// verdict, what is stored and which of it is in use. A refused calibration cannot be stored.
+// verdict, what is stored and which of it is in use; calibrations to a stick and from it. A refused calibration cannot be stored.
 //
 //   idle --begin()--> running (the machine's state Calibrate) --ended--> verdict --store()--> history
 //
@@ -27,6 +27,7 @@ class CalibrationDesk {
     PipelineStages& stages;   // replaced when another calibration comes into use
     storage::Store& store;
     Errands& errands;
+    hal::RemovableMedia& media;
     std::function<void(const pipeline::StereoCalibration&)> in_use;  // told when one did
   };
   explicit CalibrationDesk(Parts parts) : parts_(std::move(parts)) {}
@@ -49,13 +50,16 @@ class CalibrationDesk {
   };
   void store();
   void activate(std::size_t row);
+  // By stick (calibration_stick.h).
+  void export_in_use();
+  void import_one();
   // Makes it the one in use, once the keeper has done `first`, which names it.
   void adopt(std::function<Result<std::uint32_t>()> first);
 
   Parts parts_;
   BoardArgs board_{10, 7, 20};
   bool running_ = false, ended_ = false, stored_ = false;
-  std::string problem_;
+  std::string problem_, exported_;  // the folder on the stick
   std::vector<std::string> reasons_;
   std::vector<Row> history_;
   bool busy_ = false;  // the keeper is at it

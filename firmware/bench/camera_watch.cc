@@ -60,16 +60,13 @@ void CameraWatchJob::set_light() {
 }
 
 // Pictures of another size than the calibrated one have no relief; they are watched all the same.
-void CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now) {
+bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now) {
   now.relief_shown = shows_relief();
-  if (!now.relief_shown) return;
+  if (!now.relief_shown) return false;
   const Result<ImageView> relief = relief_.look(frame, control);
-  if (relief) {
-    (void)feeds_[2].fill(*relief);
-    feeds_[2].publish({});
-  } else if (relief.error().code != Errc::Cancelled) {
-    now.problem = relief.error().what.view();
-  }
+  if (relief) (void)feeds_[2].fill(*relief);
+  else if (relief.error().code != Errc::Cancelled) now.problem = relief.error().what.view();
+  return relief.has_value();
 }
 
 Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl& control) {
@@ -82,9 +79,8 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
     now.camera[i].clipped = static_cast<float>(light.clipped);
     now.camera[i].focus = static_cast<float>(focus_[i].share_of_best(light));
     (void)feeds_[i].fill(view);
-    feeds_[i].publish({});
   }
-  draw_relief(frame, control, now);
+  const bool relief = draw_relief(frame, control, now);
   const GrabCounts& counts = grabber_.counts();
   count(counts.left, now.camera[0]);
   count(counts.right, now.camera[1]);
@@ -98,16 +94,14 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   if (last_pair_ && at > *last_pair_) now.pairs_per_second = 1 / std::chrono::duration<float>(at - *last_pair_).count();
   last_pair_ = at;
   const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < (relief ? 3U : 2U); ++i) feeds_[i].publish({});
   figures_ = now;
   return {};
 }
 
 ui::BenchCameras CameraWatchJob::newest() {
-  ui::BenchCameras now;
-  {
-    const std::lock_guard lock(mutex_);
-    now = figures_;
-  }
+  const std::lock_guard lock(mutex_);
+  ui::BenchCameras now = figures_;
   for (std::size_t i = 0; i < 2; ++i) {
     const LivePicture live = feeds_[i].newest();
     now.camera[i].picture = {live.picture, live.number};

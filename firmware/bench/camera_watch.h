@@ -40,7 +40,7 @@ class CameraWatchJob final : public Job {
  private:
   Result<void> watch(JobControl& control);
   Result<void> look(const pipeline::StereoFrame& frame, JobControl& control);
-  void draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now);
+  bool draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now);
   void set_light();
 
   StereoGrabber& grabber_;
@@ -54,7 +54,7 @@ class CameraWatchJob final : public Job {
   hal::Exposure light_;
   std::optional<hal::Instant> last_pair_;
   std::mutex mutex_;
-  ui::BenchCameras figures_;  // without pictures and texts
+  ui::BenchCameras figures_;  // without pictures and texts; with those of the feeds, under the mutex
   Result<void> outcome_;
 };
 

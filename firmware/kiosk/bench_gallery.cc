@@ -178,12 +178,13 @@ struct Lent {
   BenchView view;
   ui::ServiceView staff;
   std::string_view note;   // said against the calibration
+  bool edges = false;
 };
 
 // What is lent to the pages, for as long as they are looked at.
 struct Lender {
   std::deque<Lent> lent;
-  void add(std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}}); }
+  void add(std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}, false}); }
 };
 
 void add_stages(Lender& all, const ui::ViewState& review) {
@@ -216,6 +217,8 @@ void add_results(Lender& all, const ui::ViewState& review) {
   static const AlgorithmDesk chosen = edited(false), typing = edited(true);
   BenchView view = ready(review);
   all.add("bench_model", StaffPage::Model, view);
+  all.add("bench_model_edges", StaffPage::Model, view);
+  all.lent.back().edges = true;
   view.rows = {ui::BenchTable::Matches, kHeads, kCells, 1, 17101, 171004};
   all.add("bench_table", StaffPage::Tables, view);
   view.rows = {ui::BenchTable::Calibration, kCalibrationHeads, kCalibrationCells, 0, 1, 10};
@@ -284,6 +287,7 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
     exhibit.view.screen = ui::Screen::Technician;
     exhibit.view.calibration_note = one.note;
     exhibit.view.service = &one.staff;
+    exhibit.visit.look.edges = one.edges;
     exhibit.service.show(one.page);
     exhibits.push_back(exhibit);
   }

@@ -86,6 +86,8 @@ class Dots {
   std::vector<Dot> cells_;
 };
 
+Rgb clay(double lit) { return {60 + 170 * lit, 64 + 174 * lit, 72 + 180 * lit}; }
+
 }  // namespace
 
 Rgb near_far_colour(double share) {
@@ -167,9 +169,31 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
     const auto& n = mesh.normals[i];
     const pipeline::Vec3d p = apply(pair.rectified_from_left, pipeline::Vec3d{v.x, v.y, v.z});
     const double lit = std::max(0.0, -0.45 * n.x - 0.35 * n.y - 0.82 * n.z);
-    Rgb colour{60 + 170 * lit, 64 + 174 * lit, 72 + 180 * lit};
+    Rgb colour = clay(lit);
     if (coloured) colour = {1.0 * skin->vertex_rgb[3 * i], 1.0 * skin->vertex_rgb[3 * i + 1], 1.0 * skin->vertex_rgb[3 * i + 2]};
     return Corner{window.x(pair.focal_px * p.x / p.z + pair.left_centre_px.x), window.y(pair.focal_px * p.y / p.z + pair.left_centre_px.y), p.z, colour};
+  };
+  for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
+}
+
+void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera, double turned_deg, double across_mm, StageCanvas& canvas) {
+  constexpr double kPi = 3.14159265358979323846;
+  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()), std::numeric_limits<float>::max());
+  const double side = canvas.side(), c = std::cos(turned_deg * kPi / 180), s = std::sin(turned_deg * kPi / 180);
+  const pipeline::Rotation turn{{c, 0, s, 0, 1, 0, -s, 0, c}};
+  const auto turned = [&](const pipeline::Vec3f& v) { return apply(turn, apply(head_from_camera, pipeline::Vec3d{v.x, v.y, v.z})); };
+  Range x, y;
+  for (const auto& v : mesh.vertices_mm) {
+    const pipeline::Vec3d p = turned(v);
+    x.add(p.x), y.add(p.y);
+  }
+  const double middle_x = (x.low + x.high) / 2, middle_y = (y.low + y.high) / 2;
+  const auto corner = [&](std::uint32_t i) {
+    const pipeline::Vec3d p = turned(mesh.vertices_mm[i]);
+    const pipeline::Vec3f& n = mesh.normals[i];
+    const pipeline::Vec3d m = apply(turn, apply(head_from_camera.rotation, pipeline::Vec3d{n.x, n.y, n.z}));
+    const double lit = std::max(0.0, -0.45 * m.x + 0.35 * m.y + 0.82 * m.z);
+    return Corner{side * (0.5 + (p.x - middle_x) / across_mm), side * (0.5 - (p.y - middle_y) / across_mm), -p.z, clay(lit)};
   };
   for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
 }

@@ -64,5 +64,8 @@ void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet&
 void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas);
 // With the skin's colours where they are known, else as clay.
 void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas);
+// As clay, in parallel projection: the head as somebody before it sees it (pipeline/mesh/landmarks/head_frame.h), turned
+// by so many degrees towards its own left; the surface in the middle of the canvas, which is `across_mm` wide.
+void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera, double turned_deg, double across_mm, StageCanvas& canvas);
 
 }  // namespace relievo::firmware

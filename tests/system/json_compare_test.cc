@@ -93,6 +93,34 @@ TEST_F(Compare, AMatrixOfSetsAsPageAndFigures) {
   for (const char* never : {"nan", "inf "}) EXPECT_EQ(page.text().find(never), std::string::npos) << never;
 }
 
+TEST_F(Compare, ThePageSaysFirstThatNoTruthIsKnownAndExplainsOnlyWhatItHas) {
+  const auto text = [this](const std::string& folder) {
+    const std::string html = read_text(here / (folder + "/index.html"));
+    const tests::HtmlReader page(html);
+    EXPECT_EQ(page.error(), "");
+    return page.text();
+  };
+  const auto has = [](const std::string& page, const char* words) { return page.find(words) != std::string::npos; };
+  const Said said = done(words({"-o", "untold"}));
+  EXPECT_TRUE(said.out.find("no truth is known") < said.out.find("matched")) << said.out;
+  const std::string untold = text("untold");
+  EXPECT_LT(untold.find("No truth is known."), untold.find("Left-right")) << "before any figure is explained";
+  for (const char* words : {"A pixel is bad", "seen by both", "Photo:", "Surfaces", "best figure"}) EXPECT_FALSE(has(untold, words)) << words;
+  done(words({"--truth", "truth.pfm", "-o", "told"}));
+  const std::string told = text("told");
+  EXPECT_FALSE(has(told, "No truth is known"));
+  EXPECT_TRUE(has(told, "A pixel is bad"));
+}
+
+TEST_F(Compare, SetsWithTheSameMatchesAreDrawnOnce) {
+  done(words({"--set-of", "one: mesher=grid", "--set-of", "two: mesher=delaunay", "--set-of", "other: constraints=none", "-o", "out"}));
+  const std::string html = read_text(here / "out/index.html");
+  std::size_t drawn = 0;
+  for (std::size_t at = html.find(": disparities\""); at != std::string::npos; at = html.find(": disparities\"", at + 1)) ++drawn;
+  EXPECT_EQ(drawn, 2U);
+  EXPECT_NE(html.find("one, two: disparities"), std::string::npos);
+}
+
 TEST_F(Compare, AKeptMapIsATruthToItself) {
   done(words({"--keep-maps", "--set-of", "the one: constraints=none", "-o", "first"}));
   ASSERT_EQ(listing(here / "first"), "1-1_" + here.path().filename().string() + "_the_one.pfm\ncompare.json\nindex.html\n");

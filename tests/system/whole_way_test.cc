@@ -47,6 +47,25 @@ class WholeWay : public RelievoProcess {
     const Said compared = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--truth", "face", "-o", "compared"});
     EXPECT_NE(compared.out.find("interior median"), std::string::npos);
     expect_files("compared", {"compare.json", "model.ply"});
+    compare_surfaces();
+  }
+
+  // Each mesher's own, with what it took; one map for what they share, and how many windows a correlation is of.
+  void compare_surfaces() {
+    const Said said = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--set-of", "grid: mesher=grid", "--set-of",
+                            "delaunay: mesher=delaunay", "-o", "surfaces"});
+    EXPECT_NE(said.out.find("mesh "), std::string::npos) << said.out;
+    const std::string html = read_text(here / "surfaces/index.html");
+    std::vector<std::string> pictures;
+    for (const char* set : {"grid", "delaunay"}) {
+      const std::size_t at = html.find(std::string(set) + ": its surface");
+      ASSERT_NE(at, std::string::npos) << set;
+      const std::size_t from = html.find("base64,", at);
+      pictures.push_back(html.substr(from, html.find('"', from) - from));
+    }
+    EXPECT_GT(pictures[0].size(), 10000U);
+    EXPECT_NE(pictures[0], pictures[1]) << "two surfaces";
+    for (const char* words : {"ms to mesh", "grid, delaunay: disparities", " windows</small>"}) EXPECT_NE(html.find(words), std::string::npos) << words;
   }
 
   void enrol() {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -188,6 +189,37 @@ TEST_F(RendererTest, AModelStandsInTheMiddleOfWhatIsFree) {
     draw();
     EXPECT_NEAR(middle_of_lit(), 39.5F, 1.5F) << middle_mm;
   }
+}
+
+// Points, edges, surface, texture and light: each does its own in whatever state the others are; the last two where
+// there is a surface, or its edges, to be seen by them.
+TEST_F(RendererTest, EverySwitchOfAModelIsItsOwn) {
+  pipeline::FaceModel model = square_at(0);
+  model.texture.width_px = model.texture.height_px = 1;
+  model.texture.rgb.assign({200, 40, 40});
+  model.texture.uv.assign(6, {0.5F, 0.5F});
+  list.face = &model;
+  list.face_version = 1;
+  add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
+  const auto shown = [this](unsigned state) {
+    FaceLook& look = list.face_look;
+    look.points = (state & 1U) != 0;
+    look.edges = (state & 2U) != 0;
+    look.fill = (state & 4U) != 0;
+    look.textured = (state & 8U) != 0;
+    look.lit = (state & 16U) != 0;
+    draw();
+    return rgb;
+  };
+  for (unsigned state = 0; state < 32; ++state) {
+    const std::vector<std::uint8_t> one = shown(state);
+    for (unsigned which = 0; which < 5; ++which) {
+      const bool seen = which < 3 || (state & 6U) != 0;
+      EXPECT_EQ(one != shown(state ^ (1U << which)), seen) << "state " << state << ", switch " << which;
+    }
+  }
+  const std::vector<std::uint8_t> nothing = shown(24);
+  EXPECT_TRUE(std::all_of(nothing.begin(), nothing.end(), [&](std::uint8_t v) { return v == nothing.front(); })) << "nothing is switched on that could be seen";
 }
 
 }  // namespace

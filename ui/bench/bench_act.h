@@ -34,6 +34,8 @@ enum class BenchAct : std::uint8_t {
   BeginCalibration, StopCalibration, CancelCalibration, StoreCalibration,
   Columns, Rows, Square, Charuco,  // of the board: one more or less; a tenth of a millimetre times the value; other kind
   Activate,                        // a stored calibration: its row
+  ExportCalibration,               // the one in use, to the stick
+  ImportCalibration,               // from the stick: stored, and in use
   Record, StopRecording            // the test capture, on the stick
 };
 

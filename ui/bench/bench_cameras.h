@@ -64,6 +64,7 @@ struct BenchCalibration {
   BenchVerdict verdict = BenchVerdict::None;
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
   std::span<const std::string> reasons;   // why it is good, doubted or refused, most important first: packed (hal/base/sentence.h)
+  std::string_view exported;              // the folder on the stick; empty: none was
   std::string_view problem;               // what went wrong: packed
   std::array<BenchCalibrationRow, kCalibrationRows> history{};
   std::size_t history_count = 0;

@@ -60,7 +60,7 @@ struct FaceLook {
   float light_deg = -35;    // where the light stands, from the left
   bool textured = true;
   bool fill = true, lit = true;        // the surface itself; shaded by the light
-  bool edges = false, points = false;  // the triangles' sides; the measured points
+  bool edges = false, points = false;  // the triangles' sides, as fine as the screen shows (edge_level.h); the measured points
   bool backdrop = false;               // what the photograph showed around it stands behind, and its rim fades into that
   bool operator==(const FaceLook&) const = default;
 };

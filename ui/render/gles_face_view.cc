@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ui/render/edge_level.h"
 #include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
 
@@ -21,6 +22,8 @@ constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind th
 constexpr float kFadeMm = 6;           // of the rim, into what stands behind
 constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
+constexpr float kEdgePx = 9;           // of the screen: sides shorter than this would run into a grey
+constexpr float kEdgeWidthPx = 1.1F;
 
 struct Corner {
   float x, y, z, nx, ny, nz, u, v, within;
@@ -143,12 +146,14 @@ class GlesFaceView final : public FaceView {
     if (same && colour_ != 0) return colour_;
     if (version != version_) upload(*subject.model);
     if (look.points && version != points_version_) upload_points(subject);
+    if (look.edges) upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
     GLint bound = 0;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
     version_ = version;
     look_ = look;
     covered_ = covered;
+    times_ = times;
     render();
     glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
     return colour_;
@@ -158,13 +163,14 @@ class GlesFaceView final : public FaceView {
     glDeleteBuffers(1, &buffer_);
     glDeleteBuffers(1, &point_buffer_);
     glDeleteBuffers(1, &backdrop_buffer_);
+    glDeleteBuffers(1, &edge_buffer_);
     glDeleteTextures(1, &texture_);
     glDeleteTextures(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);
     glDeleteFramebuffers(1, &frame_);
-    buffer_ = point_buffer_ = backdrop_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
-    version_ = points_version_ = 0;
-    count_ = point_count_ = backdrop_count_ = width_ = height_ = 0;
+    buffer_ = point_buffer_ = backdrop_buffer_ = edge_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
+    version_ = points_version_ = edges_version_ = 0;
+    count_ = point_count_ = backdrop_count_ = edge_count_ = width_ = height_ = 0;
   }
 
  private:
@@ -215,6 +221,24 @@ class GlesFaceView final : public FaceView {
     points_version_ = subject.version;
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots.size() * sizeof(Dot)), dots.data(), GL_STATIC_DRAW);
+  }
+
+  // Indices of corners, so that sides have normals and texels. A level holds for a range of zooms.
+  void upload_edges(const Subject& subject, float least_mm) {
+    const float level_mm = std::exp2(std::round(2 * std::log2(least_mm)) / 2);
+    if (edges_version_ == subject.version && edge_level_mm_ == level_mm) return;
+    edges_version_ = subject.version;
+    edge_level_mm_ = level_mm;
+    const pipeline::FaceMesh& mesh = subject.model->mesh;
+    std::vector<std::uint32_t> corner(mesh.vertices_mm.size(), 0), indices;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) corner[mesh.triangles[i][k]] = static_cast<std::uint32_t>(3 * i + k);
+    for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
+    edge_count_ = static_cast<int>(indices.size());
+    if (edge_buffer_ == 0) glGenBuffers(1, &edge_buffer_);
+    glBindVertexArray(array_);  // which keeps the buffer of indices
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
   }
 
   void make_frame(int w, int h) {
@@ -273,7 +297,7 @@ class GlesFaceView final : public FaceView {
     glUniform1f(glGetUniformLocation(program_, "textured"), look_.textured && textured_ ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
-    glUniform1f(glGetUniformLocation(program_, "edges"), look_.edges ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "edges"), 0);
     glUniform1f(glGetUniformLocation(program_, "fading"), shows_backdrop() ? 1.0F : 0.0F);
     glUniform1i(glGetUniformLocation(program_, "picture"), 0);
   }
@@ -295,7 +319,8 @@ class GlesFaceView final : public FaceView {
     glBindTexture(GL_TEXTURE_2D, texture_);
     glBindVertexArray(array_);
     point_at_corners();
-    if (look_.fill || look_.edges) glDrawArrays(GL_TRIANGLES, 0, count_);
+    if (look_.fill) glDrawArrays(GL_TRIANGLES, 0, count_);
+    if (look_.edges) draw_edges();
     if (look_.points) draw_points(t);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -323,6 +348,13 @@ class GlesFaceView final : public FaceView {
     glDepthMask(GL_TRUE);
   }
 
+  void draw_edges() const {
+    glUniform1f(glGetUniformLocation(program_, "edges"), 1);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
+    glLineWidth(kEdgeWidthPx * static_cast<float>(times_));
+    glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
+  }
+
   void draw_points(const Turned& t) const {
     glUseProgram(point_program_);
     glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
@@ -335,11 +367,13 @@ class GlesFaceView final : public FaceView {
     glDrawArrays(GL_POINTS, 0, point_count_);
   }
 
-  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
-  std::uint32_t version_ = 0, points_version_ = 0;
+  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+  std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
   float covered_ = 0, middle_mm_ = 0;   // where the middle of the model is, upwards, as it looks ahead
-  int count_ = 0, point_count_ = 0, backdrop_count_ = 0, width_ = 0, height_ = 0;
+  float edge_level_mm_ = 0;
+  int count_ = 0, point_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0, height_ = 0;
+  int times_ = 1;                       // pixels of the frame for one of the screen
   bool textured_ = false;
 };
 

@@ -158,22 +158,22 @@ layout(location = 2) in vec2 uv;
 layout(location = 3) in float within_in;
 uniform mat4 clip_from_head;
 uniform mat3 turned;
-out vec3 normal; out vec2 texel; out vec3 seen_from; out vec3 sides; out float within;
+out vec3 normal; out vec2 texel; out vec3 seen_from; out float within;
 uniform vec3 eye;
+uniform float edges;
 void main() {
-  int corner = gl_VertexID % 3;  // three vertices a triangle: how far from each of its sides
-  sides = vec3(corner == 0 ? 1.0 : 0.0, corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0);
   normal = turned * normal_in;
   seen_from = eye - turned * position;
   texel = uv;
   within = within_in;
   gl_Position = clip_from_head * vec4(position, 1.0);
+  gl_Position.z -= edges * 0.0015 * gl_Position.w;  // sides are chords, which lie a little behind what is round
 }
 )";
 
 const char* const kFace = R"(#version 300 es
 precision highp float;
-in vec3 normal; in vec2 texel; in vec3 seen_from; in vec3 sides; in float within;
+in vec3 normal; in vec2 texel; in vec3 seen_from; in float within;
 uniform sampler2D picture;
 uniform vec3 light;
 uniform float textured, lit, filled, edges, fading;
@@ -192,16 +192,12 @@ void main() {
     skin = texture(picture, texel).rgb;
     clay = vec3(0.62, 0.65, 0.70);
   }
-  vec3 step_a_pixel = max(fwidth(sides), vec3(1e-6));
-  vec3 near_side = sides / step_a_pixel;
-  float on_edge = edges * (1.0 - smoothstep(0.4, 1.4, min(min(near_side.x, near_side.y), near_side.z)));
-  // Triangles of a few pixels are no black surface.
-  if (filled > 0.5) on_edge *= clamp(0.1 / max(max(step_a_pixel.x, step_a_pixel.y), step_a_pixel.z), 0.15, 1.0);
-  if (filled < 0.5 && on_edge < 0.35) discard;
   vec3 surface = mix(clay, skin, textured);
-  vec3 line = filled < 0.5 ? mix(vec3(0.45, 0.80, 1.0), surface, textured) : vec3(0.05, 0.13, 0.22);
+  // Sides are dark on the surface; without it they have the skin's colour, or a light one in clay's place.
+  if (edges > 0.5) surface = filled > 0.5 ? vec3(0.05, 0.13, 0.22) : mix(clay * vec3(0.56, 0.98, 1.16), skin, textured);
   float there = mix(1.0, smoothstep(0.0, 1.0, within), fading);
-  colour = vec4(mix(surface, line, filled < 0.5 ? 1.0 : 0.6 * on_edge) * there, there);
+  if (edges > 0.5 && filled > 0.5) there *= 0.7;
+  colour = vec4(surface * there, there);
 }
 )";
 

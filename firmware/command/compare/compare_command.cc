@@ -39,7 +39,9 @@ std::string line_of(const Comparison& c, const Run& run) {
   } else {
     std::snprintf(figures, sizeof figures, "%zu of %zu matched, match %.0f ms", run.matches.accepted, run.matches.keypoints, run.match_ms);
   }
-  return name + figures + (run.failure.empty() ? "" : "; failed: " + run.failure);
+  char meshed[40] = "";
+  if (run.surface) std::snprintf(meshed, sizeof meshed, ", mesh %.0f ms", run.surface->mesh_ms);
+  return name + figures + meshed + (run.failure.empty() ? "" : "; failed: " + run.failure);
 }
 
 // "2-1_d2_refined.pfm": numbers of pair and set, and their names as far as files may be called so.
@@ -73,7 +75,7 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
       return files ? Result<void>{} : files.error().at(args.output.string());
     };
   services.console.say(std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") + std::to_string(pairs.size()) +
-                       (pairs.size() == 1 ? " pair" : " pairs"));
+                       (pairs.size() == 1 ? " pair" : " pairs") + (args.truths.empty() ? "; no truth is known: nothing below says how wrong a set is" : ""));
   compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px, keep_model);
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
 

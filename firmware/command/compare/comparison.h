@@ -54,6 +54,13 @@ struct SelectorFigures {
   std::vector<pipeline::Vec2f> places_px;      // of the left view
 };
 
+// What a mesher made, as it looks: from in front and from the side, PNG.
+struct SurfaceLook {
+  std::size_t vertices = 0, measured = 0, triangles = 0;
+  double mesh_ms = 0;
+  std::vector<std::byte> front, side;
+};
+
 struct Run {
   std::size_t set = 0, pair = 0;     // indices
   std::string failure;               // empty: it worked; else at what and why
@@ -71,6 +78,7 @@ struct Run {
   std::optional<PhotoFigures> photo;           // of models
   std::optional<double> epipolar_px;           // rms disagreement of the rows, where the matcher measures it
   std::optional<measure::Measurement> model;
+  std::optional<SurfaceLook> surface;          // of models
 };
 
 struct PairFacts {

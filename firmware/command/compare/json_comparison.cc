@@ -69,6 +69,8 @@ Json run_json(const Comparison& c, const Run& run) {
   if (run.epipolar_px) json["epipolar_residual_px"] = *run.epipolar_px;
   if (run.selector) json["selector"] = selector_json(*run.selector);
   if (run.score) json["disparity"] = score_json(*run.score);
+  if (run.surface)
+    json["surface"] = {{"vertices", run.surface->vertices}, {"measured_vertices", run.surface->measured}, {"triangles", run.surface->triangles}, {"mesh_ms", run.surface->mesh_ms}};
   if (run.model) json["model"] = model_json(*run.model);
   return json;
 }

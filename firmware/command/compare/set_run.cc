@@ -10,6 +10,7 @@
 #include "firmware/command/compare/measure/rule_figures.h"
 #include "firmware/command/compare/measure/selector_figures.h"
 #include "firmware/command/compare/measure/self_agreement.h"
+#include "firmware/command/compare/page/surface_look.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {
@@ -159,6 +160,9 @@ Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFact
   const pipeline::RectifiedPair& pair = *made.pair;
   std::optional<DisparityMap> model;
   if (made.model) {
+    RELIEVO_TRY_ASSIGN(run.surface, surface_look(*made.model));
+    for (const StageCost& stage : run.stages)
+      if (stage.name == "mesh") run.surface->mesh_ms = stage.ms;
     model = model_view(*made.pair, made.model->mesh);
     RELIEVO_TRY(bench.beside([&](pipeline::StageContext& c) -> Result<void> {
       run.photo = photo_figures(*made.pair, *model, c);

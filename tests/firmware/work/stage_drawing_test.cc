@@ -122,5 +122,38 @@ TEST(StageDrawing, OfPointsFewAndFarBetweenNoneIsLostAndNothingElseIsTouched) {
   EXPECT_LT(touched, 4 * 36U);
 }
 
+// A square before the head, 100 mm wide, facing forward, and a smaller one behind it.
+TEST(StageDrawing, AHeadStandsInTheMiddleAtItsScaleAndTurns) {
+  pipeline::FaceMesh mesh(std::pmr::get_default_resource());
+  const auto square = [&mesh](float half_mm, float z_mm) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    for (const auto& [x, y] : {std::pair{-1.0F, -1.0F}, {1.0F, -1.0F}, {1.0F, 1.0F}, {-1.0F, 1.0F}}) {
+      mesh.vertices_mm.push_back({30 + half_mm * x, half_mm * y, z_mm});
+      mesh.normals.push_back({0, 0, 1});
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  square(50, 0);
+  square(10, -100);
+  const auto columns = [&mesh](double turned_deg) {
+    std::vector<std::uint8_t> rgb(std::size_t{3} * kSide * kSide), empty = rgb;
+    StageCanvas blank(empty.data(), kSide), canvas(rgb.data(), kSide);
+    draw_head(mesh, {{{1, 0, 0, 0, 1, 0, 0, 0, 1}}, {0, 0, 0}}, turned_deg, 200, canvas);
+    std::vector<int> held;
+    for (int x = 0; x < kSide; ++x) {
+      const std::size_t at = 3 * (std::size_t{kSide} * (kSide / 2) + static_cast<std::size_t>(x));
+      if (rgb[at] != empty[at]) held.push_back(x);
+    }
+    return held;
+  };
+  const std::vector<int> front = columns(0);
+  EXPECT_NEAR(static_cast<double>(front.size()), 200, 2) << "100 of 200 mm";
+  EXPECT_NEAR(0.5 * (front.front() + front.back()), kSide / 2, 1);
+  EXPECT_GT(columns(50).size(), 0U);
+  EXPECT_NE(columns(50), front);
+  EXPECT_EQ(columns(50).size(), columns(-50).size());
+}
+
 }  // namespace
 }  // namespace relievo::firmware

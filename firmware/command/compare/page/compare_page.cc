@@ -55,11 +55,13 @@ using pipeline::report::figure;
 
 constexpr std::string_view kStyle = R"css(
 .sets { font-size: 14px; margin-top: 6px; }
-.sets thead th { padding-right: 14px; } .sets thead th.value { white-space: normal; min-width: 66px; } .sets thead small { font-size: 12px; }
-.sets td, .sets tbody th { padding: 6px 14px 6px 0; } .sets tbody th { font-weight: 600; white-space: nowrap; }
+.sets thead th { padding-right: 10px; } .sets thead th.value { white-space: normal; } .sets thead small { font-size: 12px; }
+.sets td, .sets tbody th { padding: 6px 10px 6px 0; } .sets tbody th { font-weight: 600; } .sets td small { font-size: 12px; }
+.sets th:last-child, .sets td:last-child { padding-right: 0; } .sets td.value { white-space: normal; }
+.reading p + p { margin-top: 6px; }
 .sets .best { font-weight: 700; color: var(--good); }
 .sets .failed, .failed { color: var(--bad); }
-.sets .bars { width: 26%; min-width: 150px; } .sets .bars svg { display: block; width: 100%; height: 16px; margin-top: 4px; }
+.sets .bars { width: 22%; min-width: 80px; } .sets .bars svg { display: block; width: 100%; height: 16px; margin-top: 4px; }
 .topic { font-size: 16px; margin: 34px 0 8px; padding-top: 14px; border-top: 1px solid var(--line); }
 .note { color: var(--soft); font-size: 13px; margin-top: 8px; }
 .set { margin-top: 22px; break-inside: avoid; }
@@ -69,31 +71,48 @@ constexpr std::string_view kStyle = R"css(
 .swatches svg { width: 12px; height: 12px; display: inline-block; vertical-align: -1px; margin-right: 5px; outline: 1px solid #b9c1c8; }
 .legends > div > svg { display: block; width: 100%; }
 image { image-rendering: auto; }
+@media screen and (max-width: 1060px) { .sets, .sets thead th { font-size: 12px; } .sets small, .sets thead small, .sets td small { font-size: 11px; } .sets td, .sets thead th, .sets tbody th { padding-right: 6px; } }
 @media screen and (max-width: 760px) { .three { grid-template-columns: minmax(0, 1fr); } }
 @media print { .sets { font-size: 8pt; } .topic { margin: 14pt 0 4pt; } .set { margin-top: 9pt; } .three { gap: 4pt 8pt; } }
 )css";
 
 std::string facts_of(const PairFacts& pair) {
   if (pair.width_px == 0) return "nothing could be rectified";
-  return std::to_string(pair.width_px) + " × " + std::to_string(pair.height_px) + " px, " + (pair.rectified ? "rectified already" : "rectified") +
-         ", disparities of " + figure(pair.least_px, 0) + " to " + figure(pair.most_px, 0) + " px" + (pair.truth ? ", the truth is known" : ", no truth is known");
+  return std::string(pair.truth ? "The truth is known" : "No truth is known") + ". " + std::to_string(pair.width_px) + " × " + std::to_string(pair.height_px) + " px, " +
+         (pair.rectified ? "rectified already" : "rectified") + ", disparities of " + figure(pair.least_px, 0) + " to " + figure(pair.most_px, 0) + " px";
 }
 
 Result<std::string> pair_section(const Comparison& c, std::size_t pair) {
   std::string out = "<section>\n<h2>" + escaped(c.pairs[pair].name) + "</h2>\n<p class=\"lead\">" + facts_of(c.pairs[pair]) + "</p>\n";
-  out += sections::figures(c, pair) + sections::shared_pixels(c, pair);
+  out += sections::figures(c, pair) + sections::surfaces(c, pair) + sections::shared_pixels(c, pair);
   RELIEVO_TRY_ASSIGN(const std::string maps, sections::maps(c, pair));
   out += maps + sections::histograms(c, pair) + sections::costs(c, pair) + sections::rules(c, pair);
   RELIEVO_TRY_ASSIGN(const std::string selectors, sections::selectors(c, pair));
   return out + selectors + "</section>\n";
 }
 
+// Only what this page has; what it cannot say comes first.
 std::string reading(const Comparison& c) {
-  return "<section class=\"reading\">\n<h2>How to read this</h2>\n<p>A pixel is bad where its disparity is off by more than " +
-         pipeline::report::number(c.limit_px, 2) +
-         " px, or where there is none though the truth is known: a set cannot hide behind holes. Pixels that only the left view sees count "
-         "as well; “seen by both” leaves them out. The best figure of a column is green and bold. Times are of one run, on the threads this machine has: "
-         "compare them within this page only.</p>\n</section>\n";
+  const auto any = [&c](auto&& test) { return std::any_of(c.runs.begin(), c.runs.end(), test); };
+  const auto unknown = static_cast<std::size_t>(std::count_if(c.pairs.begin(), c.pairs.end(), [](const PairFacts& pair) { return !pair.truth; }));
+  std::string out;
+  if (unknown > 0)
+    out += "<p><strong>No truth is known" + (unknown == c.pairs.size() ? std::string() : " of " + counted(static_cast<int>(unknown), "pair", "pairs")) +
+           ".</strong> Nothing here says how wrong a set is, only how well it agrees with its own two pictures. An error that both pictures share (a wrong "
+           "calibration, movement along the rows) shows in no figure.</p>\n";
+  if (any([](const Run& run) { return run.score.has_value(); }))
+    out += "<p>A pixel is bad where its disparity is off by more than " + pipeline::report::number(c.limit_px, 2) +
+           " px, or where there is none though the truth is known: a set cannot hide behind holes. Pixels that only the left view sees count "
+           "as well; “seen by both” leaves them out.</p>\n";
+  if (any([](const Run& run) { return run.left_right.has_value(); }))
+    out += "<p>Left-right: the pair is matched once more with the right view as the first; how far the two disparities of a place differ.</p>\n";
+  if (any([](const Run& run) { return run.photo.has_value(); }))
+    out += "<p>Photo: the right view is predicted from the left one through the model and correlated with what the camera saw, in windows; below it how many windows the "
+           "model fills: a small model has it easier.</p>\n";
+  if (any([](const Run& run) { return run.epipolar_px.has_value(); })) out += "<p>Rows: how far matches lie off their row, rms.</p>\n";
+  if (c.sets.size() > 1) out += "<p>The best figure of a column is green and bold, where the sets differ.</p>\n";
+  return "<section class=\"reading\">\n<h2>How to read this</h2>\n" + out +
+         "<p>Times are of one run, on the threads this machine has: compare them within this page only.</p>\n</section>\n";
 }
 
 }  // namespace

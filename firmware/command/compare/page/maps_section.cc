@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/command/compare/page/maps.h"
 #include "firmware/command/compare/page/sections.h"
@@ -66,9 +67,15 @@ std::string rule_legend(const Run& run) {
   return out.empty() ? "Nothing was rejected." : "<span>Rejected matches, by rule</span><ul class=\"swatches\">" + out + "</ul>";
 }
 
-Result<std::string> row_of(const Comparison& c, const Run& run, const Reach& reach, const Window& window) {
+// Sets that differ in what comes after matching have the same matches: they are drawn once.
+bool same_matches(const Run& a, const Run& b) {
+  const auto same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return a.rejected_by == b.rejected_by && std::equal(a.map.values.begin(), a.map.values.end(), b.map.values.begin(), b.map.values.end(), same);
+}
+
+// Of sets with the same matches; `run` is the first of them.
+Result<std::string> row_of(const Comparison& c, const Run& run, const std::string& name, const Reach& reach, const Window& window) {
   const PairFacts& pair = c.pairs[run.pair];
-  const std::string name = name_of(c, run);
   const bool scattered = run.selector.has_value();
   const DisparityMap shown = scattered ? thickened(run.map, kDotPx) : run.map;
   RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(shown, reach, window, kWidthPx));
@@ -107,9 +114,17 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
     out += drawn(window, truth, "the true disparities", "Truth", "what every set is judged by");
   }
   out += "</div>\n";
-  for (const Run* run : runs_of(c, index)) {
-    if (run->map.values.empty()) continue;
-    RELIEVO_TRY_ASSIGN(const std::string row, row_of(c, *run, reach, window));
+  std::vector<const Run*> left = runs_of(c, index);
+  std::erase_if(left, [](const Run* run) { return run->map.values.empty(); });
+  while (!left.empty()) {
+    const Run& first = *left.front();
+    std::string names;
+    std::erase_if(left, [&](const Run* run) {
+      const bool same = same_matches(first, *run);
+      if (same) names += (names.empty() ? "" : ", ") + name_of(c, *run);
+      return same;
+    });
+    RELIEVO_TRY_ASSIGN(const std::string row, row_of(c, first, names, reach, window));
     out += row;
   }
   return out;

@@ -14,6 +14,7 @@
 namespace relievo::firmware::compare::sections {
 
 std::string figures(const Comparison& c, std::size_t pair);           // one row a set: what matters
+std::string surfaces(const Comparison& c, std::size_t pair);          // every model, and what its mesh took
 Result<std::string> maps(const Comparison& c, std::size_t pair);      // disparities, errors, rejected matches
 std::string histograms(const Comparison& c, std::size_t pair);
 std::string shared_pixels(const Comparison& c, std::size_t pair);     // every two sets where both give one

@@ -158,6 +158,8 @@ void history(BenchFrame& b) {
     const std::string_view value = row.active ? std::string_view(b.tr("in use")) : row.depth_error_mm > 0 ? b.page.number(static_cast<double>(row.depth_error_mm), 3, "mm") : std::string_view("–");
     b.page.row(b.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain, row.active ? Action{} : bench(BenchAct::Activate, static_cast<std::int32_t>(i)));
   }
+  if (b.view.calibrated) b.page.row("calibration export", b.tr("Export to the stick"), {}, Mood::Plain, bench(BenchAct::ExportCalibration));
+  b.page.row("calibration import", b.tr("Import from the stick"), {}, Mood::Plain, bench(BenchAct::ImportCalibration));
 }
 
 void board(BenchFrame& b) {
@@ -191,6 +193,8 @@ void at_rest(BenchFrame& b) {
 void bench_calibrate_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
+  if (!b.view.calibration.exported.empty())
+    page.status("calibration exported", page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(b.view.calibration.exported)), Mood::Good);
   b.problem(b.view.calibration.problem.empty() ? page.view.calibration_note : b.view.calibration.problem);
   if (b.view.calibration.running) running(b);
   else at_rest(b);
