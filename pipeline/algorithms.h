@@ -38,6 +38,8 @@ class AlgorithmSet {
   std::string get(std::string_view key) const;
   // Every choice, sorted, one "key = value" a line: for reports and the store.
   std::string to_text() const;
+  // Such a text. Errors: those of set(); InvalidInput for a line that is no "key = value".
+  static Result<AlgorithmSet> from_text(std::string_view text);
 
  private:
   friend class OptionReader;

@@ -169,7 +169,7 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   rig().tap("apply");
   ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
   EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
-  const auto kept = set_from_text(*rig().store->setting("algorithms"));
+  const auto kept = pipeline::AlgorithmSet::from_text(*rig().store->setting("algorithms"));
   ASSERT_TRUE(kept.has_value());
   EXPECT_EQ(kept->get("constraints"), "similarity+uniqueness");
   rig().tap("reset");
