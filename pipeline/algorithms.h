@@ -55,6 +55,7 @@ struct OptionDescription {
   double least = 0, most = 0;      // of a number
   bool text = false;               // any text: a path
   bool several = false;            // of a kind: names may be joined by '+'
+  std::string kind = {};           // of an option: the kind it belongs to
 };
 std::vector<OptionDescription> describe_algorithms();
 

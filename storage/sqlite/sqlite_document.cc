@@ -234,11 +234,9 @@ Result<Document> Document::open(std::span<const std::byte> bytes) {
 Result<Document::Picture> Document::picture(bool left) const {
   auto data = inside_->part(left ? "left" : "right");
   if (!data) return of_bytes(data.error());
-  Picture picture{*std::move(data), {}};
-  const auto view = picture_from(picture.bytes);
+  const auto view = picture_from(*data);
   if (!view) return damaged();
-  picture.view = *view;
-  return picture;
+  return Picture{*std::move(data), *view};
 }
 
 Result<pipeline::RectifiedPair> Document::pair(std::pmr::memory_resource* memory) const {
