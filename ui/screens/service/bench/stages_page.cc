@@ -157,8 +157,10 @@ void saved_list(BenchFrame& b) {
   } else {
     b.page.begin_panel("saved");
     b.page.section(b.tr("Saved on the stick, the newest first"));
+    b.page.tree.open(b.page.box(Flow::Column, space::kS, 0, space::kXs));
     for (std::size_t i = 0; i < b.view.saved.names.size(); ++i)
       b.page.small_button(b.id("saved", i), b.left_to_right(b.breakable(b.view.saved.names[i])), icon::kShape, ButtonLook::Quiet, bench(BenchAct::Load, static_cast<std::int32_t>(i)));
+    b.page.tree.close();
     b.page.tree.close();
   }
   const float grow = b.open_buttons();
