@@ -3,6 +3,7 @@
 #include "firmware/session.h"
 
 #include <memory>
+#include <utility>
 
 #include <string.h>
 
@@ -46,6 +47,18 @@ void EnrolmentSession::rework() {
   wipe_products();
   make_products();
   products_->frame = frame;
+}
+
+void EnrolmentSession::begins(State stage) { stage_begins_.at(static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match)) = output_.used(); }
+
+void EnrolmentSession::rework(State from) {
+  if (from <= State::Match) return rework();
+  Products& made = products();
+  if (from == State::Texture && made.model) made.mesh = std::move(made.model->mesh);  // it was taken over unchanged
+  made.model.reset();
+  if (from <= State::Mesh) made.mesh.reset();
+  if (from <= State::Reconstruct) made.cloud.reset();
+  output_.wipe(stage_begins_.at(static_cast<std::size_t>(from) - static_cast<std::size_t>(State::Match)));
 }
 
 void EnrolmentSession::close() {

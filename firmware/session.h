@@ -7,7 +7,7 @@
 //   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
 //                             |   ^
 //                             +---+ retake(): pictures and products go, the subject stays
-//                                   rework(): only the products go
+//                                   rework(): only products go
 //
 // Thread: main opens and closes, and only while no job runs; a running job has the products.
 #pragma once
@@ -20,6 +20,7 @@
 #include "firmware/boot_memory.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/capture/stereo_slot.h"
+#include "firmware/machine/transition.h"
 #include "firmware/work/stage_pictures.h"
 #include "hal/base/arena.h"
 #include "pipeline/calibrate/drift.h"
@@ -58,6 +59,10 @@ class EnrolmentSession {
   void retake();
   // The products go, the pictures they were made of stay: all stages can run once more. Also on the worker.
   void rework();
+  // The products of this stage and of those after it go: they can run once more. Also on the worker.
+  void rework(State from);
+  // What comes into output() from now on is this stage's. Thread: worker.
+  void begins(State stage);
   void close();
   bool is_open() const { return products_ != nullptr; }
 
@@ -100,6 +105,7 @@ class EnrolmentSession {
   StereoSlot spare_slot_;
   const StereoSlot* holds_ = nullptr;  // the capture
   Arena output_;
+  std::array<std::size_t, 4> stage_begins_{};  // in output_: Match, Reconstruct, Mesh, Texture
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;
   Products* products_ = nullptr;  // at the front of output_

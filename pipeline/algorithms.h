@@ -38,6 +38,8 @@ class AlgorithmSet {
   std::string get(std::string_view key) const;
   // Every choice, sorted, one "key = value" a line: for reports and the store.
   std::string to_text() const;
+  // Such a text. Errors: those of set(); InvalidInput for a line that is no "key = value".
+  static Result<AlgorithmSet> from_text(std::string_view text);
 
  private:
   friend class OptionReader;
@@ -60,6 +62,7 @@ struct OptionDescription {
   double least = 0, most = 0;      // of a number
   bool text = false;               // any text: a path
   bool several = false;            // of a kind: names may be joined by '+'
+  std::string kind = {};           // of an option: the kind it belongs to
 };
 std::vector<OptionDescription> describe_algorithms();
 

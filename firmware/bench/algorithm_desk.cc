@@ -31,27 +31,7 @@ std::string joined(const std::vector<std::string>& order, const std::vector<std:
   return text.empty() ? "none" : text;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
-
-Result<pipeline::AlgorithmSet> set_from_text(std::string_view text) {
-  pipeline::AlgorithmSet set;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.empty()) continue;
-    const std::size_t sign = line.find('=');
-    if (sign == std::string_view::npos) return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
-    RELIEVO_TRY(set.set(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1))));
-  }
-  return set;
-}
 
 AlgorithmDesk::AlgorithmDesk() : all_(pipeline::describe_algorithms()) {
   for (const auto& one : all_) {

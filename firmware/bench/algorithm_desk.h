@@ -6,8 +6,7 @@
 //
 //   kind --choose_name()--> name --edit()--> option --type() ... use()--> set()
 //
-// Indices that do not exist change nothing. Thread: main. Errors of set_from_text(): AlgorithmSet's, and
-// InvalidInput for a line that is no "key = value".
+// Indices that do not exist change nothing. Thread: main. Errors: none.
 #pragma once
 
 #include <string>
@@ -48,9 +47,7 @@ class AlgorithmDesk {
   std::vector<ui::BenchOption> options_;
 };
 
-// Where the store keeps the set that visitors are measured with.
+// Where the store keeps the set that visitors are measured with, as AlgorithmSet::to_text().
 inline constexpr const char* kAlgorithmsSetting = "algorithms";
-// A set as it is written down in a setting: AlgorithmSet::to_text(), line by line.
-Result<pipeline::AlgorithmSet> set_from_text(std::string_view text);
 
 }  // namespace relievo::firmware

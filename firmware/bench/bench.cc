@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/bench/bench.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "firmware/bench/show/touched_point.h"
+#include "firmware/work/first_change.h"
 #include "hal/base/sentence.h"
 
 namespace relievo::firmware {
@@ -68,7 +70,7 @@ void Bench::act(ui::BenchOrder order) {
   switch (order.act) {
     case BenchAct::None: break;
     case BenchAct::Capture: return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
-    case BenchAct::Run: return run();
+    case BenchAct::Run: return run(order.argument);
     case BenchAct::Stop: return stop();
     case BenchAct::ShowStage:
       if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchStage::Count)) stage_ = static_cast<ui::BenchStage>(order.argument);
@@ -102,6 +104,12 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Activate: return calibrations_.act(order);
     case BenchAct::Record: return record();
     case BenchAct::StopRecording: return recording_.stop();
+    case BenchAct::Save: return save();
+    case BenchAct::ListSaved:
+      problem_.clear();
+      return recording_.list();
+    case BenchAct::LeaveSaved: return recording_.hide();
+    case BenchAct::Load: return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
     case BenchAct::ChooseKind:
     case BenchAct::ChooseName:
     case BenchAct::EditOption:
@@ -122,7 +130,7 @@ void Bench::wait_for_cameras(Next what) {
 
 void Bench::choose(ui::BenchOrder order) {
   algorithms_.act(order);
-  changed_ = difference_of(run_.figures().set()) != difference_of(algorithms_.set());
+  changed_ = first_change(run_.making().set, algorithms_.set()) != State::Review;
   applied_ = false;
 }
 
@@ -140,8 +148,8 @@ void Bench::record() {
   hal::RecordedPair as_taken;
   as_taken.exposure_us = light.time.count();
   as_taken.gain = light.gain;
-  as_taken.left_serial = shot_.serials().left;
-  as_taken.right_serial = shot_.serials().right;
+  as_taken.left_serial = loaded_ ? calibration()->cameras.left : shot_.serials().left;
+  as_taken.right_serial = loaded_ ? calibration()->cameras.right : shot_.serials().right;
   recording_.record(*made->frame, std::move(as_taken));
 }
 
@@ -156,10 +164,12 @@ void Bench::begin_next() {
   run_.pictures().wipe();
   run_.figures().forget();
   phase_ = BenchPhase::Empty;
+  loaded_ = false;
   if (session_.is_open()) session_.retake();
   else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
   if (what == Next::Shot) shoot();
-  else calibrate();
+  else if (what == Next::Calibration) calibrate();
+  else take_over();
 }
 
 void Bench::shoot() {
@@ -181,16 +191,55 @@ void Bench::calibrate() {
       });
 }
 
-void Bench::run() {
-  if (!at_rest() || !session_.is_open() || !session_.products().frame || !is_calibrated()) return;
+// What a loaded reconstruction was made with, else what is in use.
+const pipeline::StereoCalibration* Bench::calibration() const { return loaded_ ? &run_.making().calibration : parts_.stages.calibration(); }
+
+// Nothing is done again that the algorithms have not changed, but for what is asked for by its stage.
+void Bench::run(std::int64_t latest) {
+  if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated())) return;
+  const State changed = first_change(run_.making().set, algorithms_.set());
+  State first = changed == State::Review ? State::Match : changed;
+  if (latest >= 1 && latest <= 4) first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
+  run_.order(algorithms_.set(), *calibration(), first, loaded_ && run_.making().whole_view);
+  send_run();
+}
+
+void Bench::send_run() {
   problem_.clear();
   point_ = {};
   tables_.forget();
   changed_ = false;
-  run_.order(algorithms_.set(), *parts_.stages.calibration());
   phase_ = BenchPhase::Running;
   parts_.errands.send(
       JobPlace::Worker, [this](JobControl& control) { return run_.run(control); }, [this](const std::optional<Error>& error) { run_done(error); });
+}
+
+void Bench::save() {
+  const Products* made = products();
+  if (made == nullptr || !made->frame) return;
+  recording_.save([this] { return make_document(session_.products(), run_.making()); });
+}
+
+// What is in the session stays until a whole document has been read.
+void Bench::load(std::size_t row) {
+  recording_.load(
+      row,
+      [this](std::shared_ptr<const SavedBytes> saved) {
+        const auto document = storage::Document::open(saved->bytes());
+        auto making = document ? making_of(*document) : Result<Making>(document.error());
+        if (!making) return say(making.error());
+        saved_ = std::move(saved);
+        saved_making_ = *std::move(making);
+        wait_for_cameras(Next::Loaded);
+      },
+      [this](const Error& error) { say(error); });
+}
+
+void Bench::take_over() {
+  algorithms_.begin(saved_making_->set);
+  run_.order(std::exchange(saved_, nullptr), *std::exchange(saved_making_, std::nullopt));
+  loaded_ = true;
+  send_run();
 }
 
 void Bench::stop() {
@@ -201,7 +250,7 @@ void Bench::stop() {
 void Bench::shot_done(const std::optional<Error>& error) {
   phase_ = BenchPhase::Failed;
   if (error) return say(*error);
-  run();
+  run(1);
 }
 
 void Bench::run_done(const std::optional<Error>& error) {
@@ -263,6 +312,9 @@ void Bench::leave() {
   watch_.show_relief(false);
   watching_ = by_hand_ = changed_ = applied_ = applying_ = false;
   next_ = Next::None;
+  saved_.reset();
+  saved_making_.reset();
+  loaded_ = false;
   watch_.wipe();
   run_.pictures().wipe();
   run_.figures().forget();

@@ -6,12 +6,15 @@
 // technician leaves or is away too long. Its jobs run on the appliance's threads; the screen never waits.
 //
 //   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state --> Empty
+//   any but Capturing and Running --Load--> Running --> Ready or Failed: what was saved, with its calibration and algorithms
 //
 // It borrows the session from the appliance and sends its work as errands (firmware/service/errands.h); it
 // listens only in the states Technician and Calibrate, and forgets everything in any other. Thread: main. Errors: none are returned; the view has them as a sentence.
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware/appliance.h"
@@ -54,7 +57,7 @@ class Bench {
   const ui::BenchView& view();
 
  private:
-  enum class Next : std::uint8_t { None, Shot, Calibration };  // waits for the capture thread
+  enum class Next : std::uint8_t { None, Shot, Calibration, Loaded };  // waits for the capture thread
   bool at_rest() const { return phase_ == ui::BenchPhase::Ready || phase_ == ui::BenchPhase::Failed; }
   Products* products();
   BenchTables::Source source();
@@ -63,7 +66,12 @@ class Bench {
   void begin_next();
   void shoot();
   void calibrate();
-  void run();
+  void run(std::int64_t latest);
+  void send_run();
+  void save();
+  void load(std::size_t row);
+  void take_over();
+  const pipeline::StereoCalibration* calibration() const;
   void stop();
   void shot_done(const std::optional<Error>& error);
   void run_done(const std::optional<Error>& error);
@@ -93,6 +101,9 @@ class Bench {
   ui::BenchStage stage_ = ui::BenchStage::Rectified;
   ui::BenchPoint point_;
   Next next_ = Next::None;
+  std::shared_ptr<const SavedBytes> saved_;   // read from the stick, to be loaded
+  std::optional<Making> saved_making_;
+  bool loaded_ = false;                       // what is in the session was, with a calibration of its own
   bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false, left_ = true;
   std::string problem_;
   std::uint32_t model_number_ = 0;

@@ -8,17 +8,18 @@ namespace relievo::firmware {
 
 Products* Bench::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
 
-BenchTables::Source Bench::source() { return {products(), run_.figures(), parts_.stages.calibration()}; }
+BenchTables::Source Bench::source() { return {products(), run_.figures(), calibration()}; }
 
 void Bench::look() {
   view_ = {};
   view_.phase = phase_;
-  view_.calibrated = parts_.stages.calibration() != nullptr;
+  view_.calibrated = calibration() != nullptr;
   view_.problem = problem_;
   view_.stage = stage_;
   view_.point = point_;
   view_.by_hand = by_hand_;
   view_.recording = recording_.view();
+  view_.saved = recording_.saved();
   view_.applied = applied_;
   view_.choice = algorithms_.view();
   view_.calibration = calibrations_.view();

@@ -20,23 +20,99 @@ std::string name_at(std::chrono::system_clock::time_point when) {
 
 }  // namespace
 
+std::shared_ptr<ExportTrace> RecordingDesk::begin(bool reading) {
+  if (running_) return nullptr;
+  running_ = true;
+  reading_ = reading;
+  outcome_ = ui::Outcome::None;
+  where_.clear();
+  return std::make_shared<ExportTrace>();
+}
+
+void RecordingDesk::ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where) {
+  running_ = false;
+  outcome_ = error ? outcome_of_export(*error, trace) : ui::Outcome::Done;
+  if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
+}
+
+std::string RecordingDesk::name_now() const { return name_at(board_.clock().wall_now()); }
+
 void RecordingDesk::record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) {
-  if (running_) return;
+  const std::shared_ptr<ExportTrace> trace = begin(false);
+  if (trace == nullptr) return;
   as_taken.left_ns = 0;
   as_taken.right_ns = frame.skew_ns;
   const auto copy = std::make_shared<const CaptureCopy>(frame, std::move(as_taken));
-  const auto trace = std::make_shared<ExportTrace>();
-  const std::string name = name_at(board_.clock().wall_now());
-  running_ = true;
-  outcome_ = ui::Outcome::None;
-  where_.clear();
+  const std::string name = name_now();
   errands_.send(
       JobPlace::Keeper, [this, copy, trace, name](JobControl& control) { return record_capture(copy->pair(), name, board_.media(), control, *trace); },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
+        if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
+      });
+}
+
+void RecordingDesk::save(std::function<Result<std::vector<std::byte>>()> make) {
+  if (begin(false) == nullptr) return;
+  const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  errands_.send(
+      JobPlace::Worker,
+      [document, make = std::move(make)](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(auto bytes, make());
+        *document = std::make_shared<const SavedBytes>(std::move(bytes));
+        return {};
+      },
+      [this, document, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) ended(error, {}, {});
+        else write(std::move(*document));
+      });
+}
+
+void RecordingDesk::write(std::shared_ptr<const SavedBytes> document) {
+  const auto trace = std::make_shared<ExportTrace>();
+  const std::string name = name_now();
+  errands_.send(
+      JobPlace::Keeper, [this, document = std::move(document), trace, name](JobControl& control) { return save_reconstruction(*document, name, board_.media(), control, *trace); },
+      [this, trace, name, visit = visit_](const std::optional<Error>& error) {
+        if (visit == visit_) ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
+      });
+}
+
+void RecordingDesk::list() {
+  if (begin(true) == nullptr) return;
+  const auto names = std::make_shared<std::vector<std::string>>();
+  errands_.send(
+      JobPlace::Keeper,
+      [this, names](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(board_.media(), ui::kSavedRows));
+        return {};
+      },
+      [this, names, visit = visit_](const std::optional<Error>& error) {
         if (visit != visit_) return;
         running_ = false;
-        outcome_ = error ? outcome_of_export(*error, *trace) : ui::Outcome::Done;
-        if (!error || outcome_ == ui::Outcome::StickHeld) where_ = std::string(kCapturesFolder) + "/" + name;
+        if (error) outcome_ = outcome_of_export(*error, {});
+        else names_ = std::move(*names);
+      });
+}
+
+void RecordingDesk::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read, std::function<void(const Error&)> refused) {
+  if (!names_ || row >= names_->size() || running_) return;
+  const std::string name = names_->at(row);
+  (void)begin(true);
+  hide();
+  const auto saved = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  errands_.send(
+      JobPlace::Keeper,
+      [this, name, saved](JobControl& control) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*saved, read_saved(name, board_.media(), control));
+        return {};
+      },
+      [this, saved, read = std::move(read), refused = std::move(refused), visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        running_ = false;
+        if (!error) return read(std::move(*saved));
+        if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing) outcome_ = outcome_of_export(*error, {});
+        else refused(*error);
       });
 }
 
@@ -52,11 +128,12 @@ void RecordingDesk::capture_gone() {
 void RecordingDesk::forget() {
   ++visit_;
   running_ = false;
+  names_.reset();
   capture_gone();
 }
 
 ui::BenchRecording RecordingDesk::view() const {
-  return {running_, running_ ? errands_.progress(JobPlace::Keeper) : 0, outcome_, where_};
+  return {running_, reading_, running_ ? errands_.progress(JobPlace::Keeper) : 0, outcome_, where_};
 }
 
 }  // namespace relievo::firmware

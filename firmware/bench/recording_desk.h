@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RecordingDesk: the button that puts the test capture on the stick (record_capture.h), how far it is, how it
-// ended, and where it lies. One at a time; who leaves ends it, and nothing half written stays.
-// Thread: main; the stick is the keeper's. Errors: none are returned, view() has them.
+// RecordingDesk: the buttons that put the test capture (record_capture.h) or all of the reconstruction
+// (saved_reconstruction.h) on the stick, and bring a saved one back; how far it is, how it ended, and where it lies.
+// One at a time; who leaves ends it, and nothing half written stays.
+// Thread: main; the stick is the keeper's. Errors: none are returned, view() has them, but what is wrong with a
+// document goes to `refused`.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware/bench/record_capture.h"
+#include "firmware/bench/saved_reconstruction.h"
 #include "firmware/service/errands.h"
 #include "ui/bench/bench_view.h"
 
@@ -20,18 +26,33 @@ class RecordingDesk {
   RecordingDesk(Errands& errands, hal::Board& board) : errands_(errands), board_(board) {}
   // `as_taken`: exposure and serial numbers.
   void record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken);
+  // `make` runs on the worker: the document of what is in the session.
+  void save(std::function<Result<std::vector<std::byte>>()> make);
+  // Those on the stick; shown from then on, until hide().
+  void list();
+  void hide() { names_.reset(); }
+  // `read` hears the bytes of a whole document.
+  void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read, std::function<void(const Error&)> refused);
   void stop();
   // There is another capture now.
   void capture_gone();
   void forget();
   ui::BenchRecording view() const;
+  ui::BenchSaved saved() const { return names_ ? ui::BenchSaved{true, *names_} : ui::BenchSaved{}; }
 
  private:
+  // What runs from now on; null: something else does.
+  std::shared_ptr<ExportTrace> begin(bool reading);
+  void write(std::shared_ptr<const SavedBytes> document);
+  void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
+  std::string name_now() const;
+
   Errands& errands_;
   hal::Board& board_;
   std::string where_;
   ui::Outcome outcome_ = ui::Outcome::None;
-  bool running_ = false;
+  bool running_ = false, reading_ = false;
+  std::optional<std::vector<std::string>> names_;   // on the stick, while they are shown
   std::uint32_t visit_ = 0;   // what a visit to the pages before this one asked for is not told here
 };
 

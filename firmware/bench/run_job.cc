@@ -2,13 +2,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/bench/run_job.h"
 
+#include <string.h>
+
+#include <algorithm>
+#include <utility>
+
 #include "firmware/work/pipeline_stages.h"
+#include "hal/raw/raw_image.h"
 
 namespace relievo::firmware {
 
-void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration) {
-  set_ = set;
-  calibration_ = calibration;
+void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first, bool whole_view) {
+  making_.set = set;
+  making_.calibration = calibration;
+  making_.whole_view = whole_view;
+  making_.records.resize(std::min(making_.records.size(), static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
+  first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
+  document_.reset();
+  now_.store(first_, std::memory_order_relaxed);
+}
+
+void RunJob::order(std::shared_ptr<const SavedBytes> document, Making making) {
+  document_ = std::move(document);
+  making_ = std::move(making);
   now_.store(State::Match, std::memory_order_relaxed);
 }
 
@@ -18,23 +34,51 @@ Result<void> RunJob::run(JobControl& control) {
 }
 
 Result<void> RunJob::work(JobControl& control) {
-  session_.rework();
   pictures_.wipe();
-  figures_.begin(set_);
-  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(set_, calibration_));
+  figures_.begin(making_.set);
+  if (document_ != nullptr) return load(control);
+  session_.rework(first_);
+  for (const StageRecord& record : making_.records) figures_.add(record);
+  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {}, making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
   PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
   StageJob job(stages, session_, pool_, clock_);
   for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
+    if (stage < first_) continue;
     now_.store(stage, std::memory_order_relaxed);
     job.choose(stage);
     const Result<void> done = job.run(control);
     if (!done && done.error().code == Errc::Cancelled) return done;
     figures_.add(job.record());
-    if (done) continue;
+    if (done) {
+      making_.records.push_back(job.record());
+      continue;
+    }
     figures_.fail(stage, done.error());
     break;
   }
   if (session_.products().model && session_.products().model->unjudged) figures_.fail(State::Texture, *session_.products().model->unjudged);
+  return finish(control);
+}
+
+Result<void> RunJob::load(JobControl& control) {
+  const std::shared_ptr<const SavedBytes> bytes = std::exchange(document_, nullptr);
+  std::vector<StageRecord> records = std::exchange(making_.records, {});  // none is done before all are read
+  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(bytes->bytes()));
+  pipeline::StereoFrame frame;
+  frame.skew_ns = document.head().skew_ns;
+  for (const bool left : {true, false}) {
+    RELIEVO_TRY_ASSIGN(storage::Document::Picture picture, document.picture(left));
+    const hal::RawImage raw = hal::raw_of(picture.view);
+    const Result<ImageView> kept = left ? session_.slot().keep_left(raw) : session_.slot().keep_right(raw);
+    explicit_bzero(picture.bytes.data(), picture.bytes.size());
+    if (!kept) return kept.error();
+    (left ? frame.left : frame.right) = *kept;
+  }
+  session_.took(frame);
+  RELIEVO_TRY_ASSIGN(const State left_to_do, load_products(document, State::Review, session_, control));
+  making_.records = std::move(records);
+  for (const StageRecord& record : making_.records) figures_.add(record);
+  if (left_to_do != State::Review) figures_.fail(left_to_do, {Errc::NotFound, "this stage had not been done when it was saved: calculate again"});
   return finish(control);
 }
 

@@ -1,45 +1,53 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RunJob: all stages of the pipeline on the test capture that lies in the session, with the algorithms that
-// were chosen; then the pictures and figures of what came out. A stage that gives up leaves what the stages
+// RunJob: all stages of the pipeline, or the last of them, on the test capture that lies in the session, with the
+// algorithms that were chosen, or a saved reconstruction into the session; then the pictures and figures of what came out. A stage that gives up leaves what the stages
 // before it made, and its reason in the result: for a technician that is an answer, not an error.
 // TestShotJob takes the capture. Both keep their outcome until the next run.
-// Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory.
+// Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory; the document's.
 // Thread: order() and outcome() main, while the job does not run; run() worker (TestShotJob: capture).
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 
+#include "firmware/bench/saved_reconstruction.h"
 #include "firmware/bench/show/bench_figures.h"
 #include "firmware/bench/show/bench_pictures.h"
 #include "firmware/work/jobs.h"
-#include "pipeline/algorithms.h"
-#include "pipeline/model/calibration.h"
+#include "firmware/work/session_document.h"
 
 namespace relievo::firmware {
 
 class RunJob final : public Job {
  public:
   RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock) : session_(session), pool_(pool), clock_(clock) {}
-  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration);
+  // The stages from `first` on; those before it are done, and stay.
+  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first, bool whole_view = false);
+  // No stage, but what was saved of all of them; `making` is making_of(it).
+  void order(std::shared_ptr<const SavedBytes> document, Making making);
   Result<void> run(JobControl& control) override;
 
   State stage() const { return now_.load(std::memory_order_relaxed); }  // any thread
   const Result<void>& outcome() const { return outcome_; }
   BenchPictures& pictures() { return pictures_; }
   BenchFigures& figures() { return figures_; }
+  // Of what is in the session.
+  const Making& making() const { return making_; }
 
  private:
   Result<void> work(JobControl& control);
+  Result<void> load(JobControl& control);
   Result<void> finish(JobControl& control);
 
   EnrolmentSession& session_;
   ThreadPool& pool_;
   const hal::Clock& clock_;
-  pipeline::AlgorithmSet set_;
-  pipeline::StereoCalibration calibration_;
+  Making making_;
+  State first_ = State::Match;
+  std::shared_ptr<const SavedBytes> document_;   // to be loaded
   BenchPictures pictures_;
   BenchFigures figures_;
   std::atomic<State> now_{State::Match};

@@ -201,11 +201,19 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view.point = touched();
   all.add("bench_rectified", StaffPage::Stages, view);
   view.can_record = true;
-  view.recording = {true, 0.6F, ui::Outcome::None, {}};
+  view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
   all.add("bench_recording", StaffPage::Stages, view);
-  view.recording = {false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  view.recording = {false, false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
   all.add("bench_recorded", StaffPage::Stages, view);
+  view.recording = {true, true, 0.3F, ui::Outcome::None, {}};
+  all.add("bench_loading", StaffPage::Stages, view);
   view.recording = {};
+  static const std::vector<std::string> saved{"2026-03-12_09-14-07.relievo", "2026-03-11_16-40-52.relievo"};
+  view.saved = {true, saved};
+  all.add("bench_saved", StaffPage::Stages, view);
+  view.saved = {true, {}};
+  all.add("bench_none_saved", StaffPage::Stages, view);
+  view.saved = {};
   for (const auto& [name, stage] : {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches}, std::pair{"bench_surface", BenchStage::Mesh}}) {
     lend(review, stage, view);
     all.add(name, StaffPage::Stages, view);

@@ -67,7 +67,7 @@ Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
   const Result<std::string> kept = store_->setting(kAlgorithmsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty()) return choose_algorithms(args.algorithms);
-  return set_from_text(*kept);
+  return pipeline::AlgorithmSet::from_text(*kept);
 }
 
 // Without a calibration everything is made that needs none: the rest comes with the first one (make_bench).

@@ -104,6 +104,7 @@ Result<void> StageJob::run(JobControl& control) {
   record_ = {};
   record_.name = name_of(stage_);
   Arena& output = session_.output();
+  session_.begins(stage_);
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{output, scratch.arena(), pool_, control.progress, control.cancelled};
   const hal::Instant begin = clock_.now();

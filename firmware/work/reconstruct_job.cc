@@ -8,6 +8,7 @@ Result<void> ReconstructJob::run(JobControl& control) {
   records_.clear();
   const hal::Instant begin = clock_.now();
   for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
+    if (stage < first_) continue;
     now_.store(stage, std::memory_order_relaxed);
     stage_.choose(stage);
     RELIEVO_TRY(stage_.run(control));

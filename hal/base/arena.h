@@ -41,9 +41,10 @@ class Arena final : public std::pmr::memory_resource {
     Arena& arena_;
     std::size_t used_;
   };
-  void wipe() {
-    explicit_bzero(block_.data(), high_water_);  // not optimised away
-    reset();
+  // All of it, or what was taken since `used` bytes were.
+  void wipe(std::size_t used = 0) {
+    if (used < high_water_) explicit_bzero(block_.data() + used, high_water_ - used);  // not optimised away
+    used_ = used;
   }
 
  private:

@@ -8,6 +8,12 @@
 namespace relievo::pipeline {
 namespace {
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
 std::vector<Kind> all_kinds() {
   std::vector<Kind> all = match_kinds();
   for (Kind& kind : surface_kinds()) all.push_back(std::move(kind));
@@ -98,6 +104,20 @@ std::string AlgorithmSet::get(std::string_view key) const {
   for (const OptionDescription& option : describe_algorithms())
     if (option.key == key) return option.value;
   return {};
+}
+
+Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text) {
+  AlgorithmSet set;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty()) continue;
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos) return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
+    RELIEVO_TRY(set.set(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1))));
+  }
+  return set;
 }
 
 std::string AlgorithmSet::to_text() const {

@@ -43,13 +43,13 @@ std::string option_text(const Value& value) {
   return out.str();
 }
 
-// Adds the options of one algorithm, as they are by default.
+// Adds the options of one algorithm of this kind, as they are by default.
 template <typename Options>
-void describe_options(std::string_view section, std::vector<OptionDescription>& all) {
+void describe_options(std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) {
   Options options;
   describe(options, [&](const char* name, auto& value, OptionRange range, const char* sentence) {
     constexpr bool text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
-    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, {}, range.least, range.most, text});
+    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, {}, range.least, range.most, text, false, std::string(kind)});
   });
 }
 
@@ -80,7 +80,7 @@ template <typename Interface>
 struct Algorithm {
   AlgorithmDescription about;
   Result<std::unique_ptr<Interface>> (*make)(const AlgorithmSet& set, std::string_view section);
-  void (*describe)(std::string_view section, std::vector<OptionDescription>& all);
+  void (*describe)(std::string_view kind, std::string_view section, std::vector<OptionDescription>& all);
 };
 
 template <typename Interface, typename Concrete, typename Options>
@@ -90,7 +90,7 @@ constexpr Algorithm<Interface> with_options(const AlgorithmDescription& about) {
             RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
             return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
           },
-          [](std::string_view section, std::vector<OptionDescription>& all) { describe_options<Options>(section, all); }};
+          [](std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) { describe_options<Options>(kind, section, all); }};
 }
 
 template <typename Interface, typename Concrete>
@@ -99,7 +99,7 @@ constexpr Algorithm<Interface> without_options(const AlgorithmDescription& about
           [](const AlgorithmSet&, std::string_view) -> Result<std::unique_ptr<Interface>> {
             return std::unique_ptr<Interface>(std::make_unique<Concrete>());
           },
-          [](std::string_view, std::vector<OptionDescription>&) {}};
+          [](std::string_view, std::string_view, std::vector<OptionDescription>&) {}};
 }
 
 template <typename Table>
@@ -110,8 +110,8 @@ Kind kind_of(const char* key, const char* value, const char* sentence, const Tab
 }
 
 template <typename Table>
-void describe_table(const Table& table, std::vector<OptionDescription>& all) {
-  for (const auto& algorithm : table) algorithm.describe(algorithm.about.name, all);
+void describe_table(std::string_view kind, const Table& table, std::vector<OptionDescription>& all) {
+  for (const auto& algorithm : table) algorithm.describe(kind, algorithm.about.name, all);
 }
 
 template <typename Interface, typename Table>

@@ -108,10 +108,10 @@ std::vector<Kind> match_kinds() {
 
 std::vector<OptionDescription> match_options() {
   std::vector<OptionDescription> all;
-  describe_table(kPreprocessors, all);
-  describe_table(kSelectors, all);
-  describe_table(kMatchers, all);
-  describe_table(kConstraints, all);
+  describe_table("preprocessor", kPreprocessors, all);
+  describe_table("selector", kSelectors, all);
+  describe_table("matcher", kMatchers, all);
+  describe_table("constraints", kConstraints, all);
   return all;
 }
 

@@ -91,13 +91,13 @@ std::vector<Kind> surface_kinds() {
 
 std::vector<OptionDescription> surface_options() {
   std::vector<OptionDescription> all;
-  describe_table(kTriangulators, all);
-  describe_options<FaceCropOptions>("face", all);
-  describe_table(kOutlierFilters, all);
-  describe_table(kMeshers, all);
-  describe_table(kCompletions, all);
-  describe_options<ReliefOptions>("relief", all);
-  describe_table(kTexturers, all);
+  describe_table("triangulator", kTriangulators, all);
+  describe_options<FaceCropOptions>("triangulator", "face", all);
+  describe_table("outliers", kOutlierFilters, all);
+  describe_table("mesher", kMeshers, all);
+  describe_table("completion", kCompletions, all);
+  describe_options<ReliefOptions>("relief", "relief", all);
+  describe_table("texturer", kTexturers, all);
   return all;
 }
 

@@ -33,6 +33,8 @@ class PendingFile {
   Result<void> publish();  // after finish()
 
   const std::filesystem::path& target() const { return target_; }
+  // Where its bytes are until publish().
+  const std::filesystem::path& temporary() const { return temporary_; }
 
  private:
   PendingFile(std::filesystem::path target, std::filesystem::path temporary, int fd)

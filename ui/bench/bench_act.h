@@ -12,7 +12,7 @@ namespace relievo::ui {
 enum class BenchAct : std::uint8_t {
   None,          // the page was opened
   Capture,       // a new test capture, and all stages of it
-  Run,           // all stages once more, with the algorithms as they are chosen now
+  Run,           // again, with the algorithms as they are chosen now: from the first stage they change (0), or at the latest from stage 1 .. 4
   Stop,
   ShowStage,     // BenchStage
   Point,         // touched in the left picture: x << 12 | y, 4096ths of the picture
@@ -36,7 +36,10 @@ enum class BenchAct : std::uint8_t {
   Activate,                        // a stored calibration: its row
   ExportCalibration,               // the one in use, to the stick
   ImportCalibration,               // from the stick: stored, and in use
-  Record, StopRecording            // the test capture, on the stick
+  Record, StopRecording,           // the test capture, on the stick
+  Save,                            // all of the reconstruction, on the stick
+  ListSaved, LeaveSaved,           // those that are on it
+  Load                             // one of them: its row; what was captured goes when it is read
 };
 
 // What a wish of the staff's side (ui/service.h) says, once it has come to the workbench.

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "pipeline/model/face_model.h"
@@ -21,17 +23,24 @@ namespace relievo::ui {
 // The pages that have something under way only while they are open.
 enum class BenchPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
 
-// The test capture on its way to the stick.
+// The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
 struct BenchRecording {
   bool running = false;
+  bool reading = false;                   // what runs
   float progress = 0;
   Outcome outcome = Outcome::None;
   std::string_view where;                 // the folder on the stick; empty: nothing is there
 };
 
+inline constexpr std::size_t kSavedRows = 6;
+struct BenchSaved {
+  bool listed = false;                    // shown in place of the capture
+  std::span<const std::string> names;     // the newest first, kSavedRows at most
+};
+
 struct BenchView {
   BenchPhase phase = BenchPhase::Empty;
-  bool calibrated = true;                 // without a calibration there is no test capture
+  bool calibrated = true;                 // without a calibration there is no test capture, unless it was loaded with its own
   float progress = 0;
   std::uint8_t working_on = 0;            // while phase is Running: Match, Reconstruct, Mesh, Texture
   std::string_view problem;               // packed (hal/base/sentence.h)
@@ -42,6 +51,7 @@ struct BenchView {
   bool by_hand = false;                   // touches make a match
   bool can_record = false;                // there is a capture, and nobody is at work on it
   BenchRecording recording;
+  BenchSaved saved;
   BenchResult result, kept;               // the present one, and the one put aside
   bool applied = false;                   // visitors are measured with the chosen algorithms now
   const pipeline::FaceModel* model = nullptr;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/command/line/algorithm_choice.h"
 
+#include <utility>
+
 #include "firmware/command/line/settings_file.h"
 
 namespace relievo::firmware {
@@ -20,8 +22,8 @@ Result<void> apply(pipeline::AlgorithmSet& set, const std::vector<std::string>& 
 
 }  // namespace
 
-Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args) {
-  pipeline::AlgorithmSet set;
+Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipeline::AlgorithmSet start) {
+  pipeline::AlgorithmSet set = std::move(start);
   if (!args.file.empty()) {
     RELIEVO_TRY_ASSIGN(const auto settings, read_settings_file(args.file));
     RELIEVO_TRY(apply(set, settings));

@@ -119,9 +119,14 @@ void add_lod(CLI::App& command, int& triangles) {
 
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
   CLI::App* command = app.add_subcommand("reconstruct", "a pair of pictures to a textured model");
-  command->add_option("left", args.left)->required()->type_name("LEFT");
-  command->add_option("right", args.right)->required()->type_name("RIGHT");
-  command->add_option("--calibration", args.calibration)->required()->type_name("rig.yml");
+  command->add_option("left", args.left)->type_name("LEFT");
+  command->add_option("right", args.right)->type_name("RIGHT");
+  command->add_option("--calibration", args.calibration)->type_name("rig.yml");
+  CLI::Option* load = command->add_option("--load", args.load, "no pictures: a saved reconstruction, with its calibration and settings")->type_name("FILE");
+  command->add_option("--from", args.from, "of a saved one: the first stage to be done again; default: the first that --set changes")
+      ->check(CLI::IsMember({"match", "reconstruct", "mesh", "texture"}))->needs(load);
+  command->add_option("--save", args.save, "save all of it in one file: pictures, calibration, settings, every stage. It holds the person's face: keep it as you keep that")
+      ->type_name("FILE");
   command->add_option("-o,--output", args.output, "folder for the model and the report")->required()->type_name("DIR");
   command->add_option_function<std::string>(
       "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; }, "axes of the model")
@@ -129,7 +134,14 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   command->add_flag("--despite-drift", args.despite_drift, "go on though the cameras have moved since they were calibrated");
   add_lod(*command, args.lod);
   add_algorithms(*command, args.algorithms);
-  command->callback([&] { chosen = args; });
+  const char* const instead[] = {"left", "right", "--calibration"};
+  for (const char* other : instead) load->excludes(command->get_option(other));
+  load->excludes(command->get_option("--region"));
+  command->callback([&chosen, &args, command, load, instead] {
+    for (const char* other : instead)
+      if (load->count() == 0 && command->get_option(other)->count() == 0) throw CLI::RequiredError(other);
+    chosen = args;
+  });
 }
 
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {

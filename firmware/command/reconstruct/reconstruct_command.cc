@@ -15,8 +15,9 @@ namespace relievo::firmware {
 
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   Reconstruction reconstruction;
-  RELIEVO_TRY(reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console,
-                                 args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse));
+  const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
+  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms, services.console, when_moved)
+                                : reconstruction.load(args.load, args.from, args.algorithms, services.console, when_moved));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, reconstruction.draw_images());
@@ -31,9 +32,12 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
     RELIEVO_TRY_ASSIGN(light, write_light_model(reconstruction.model(), args.lod, folder.path(), options.frame, args.output));
   }
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(reconstruction.report()), args.output));
+  if (!args.save.empty()) RELIEVO_TRY(reconstruction.save(args.save));
   RELIEVO_TRY(folder.commit());
 
-  for (const StageRecord& stage : reconstruction.report().stages) services.console.say(line_of(stage));
+  int number = static_cast<int>(State::Match);
+  for (const StageRecord& stage : reconstruction.report().stages)
+    services.console.say(line_of(stage) + (number++ < static_cast<int>(reconstruction.begun_with()) ? "  (as saved)" : ""));
   services.console.say(line_of(*reconstruction.report().drift));
   for (const std::string& advice : {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
     if (!advice.empty()) services.console.say(advice);
@@ -45,6 +49,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   if (reconstruction.model().unjudged) services.console.say("not judged to be a face: " + Sentence(*reconstruction.model().unjudged).text());
   if (!light.empty()) services.console.say(light);
   services.console.say("model and report: " + args.output.string());
+  if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "firmware/work/pipeline_stages.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
+#include "hal/sim/replay/folder_media.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
@@ -35,6 +37,8 @@ class BenchRig {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     hal::SimBoardOptions options;
     options.simulation.rig = test::small_rig(kScale);
+    std::filesystem::create_directory(stick());
+    options.media_folder = stick();
     board = *hal::make_sim_board(options);
     const auto file = folder.path() / "rig.yml";
     EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(test::small_rig(kScale))).has_value());
@@ -99,9 +103,13 @@ class BenchRig {
     }
     turn();
   }
+  // After what was written the stick was let go.
+  void plug_in() { dynamic_cast<hal::FolderMedia&>(board->media()).plug(stick()); }
   bool shows(std::string_view id) const { return screen->tree().find(id) != nullptr; }
   std::string_view focused() const { return screen->focus(); }
   const ui::BenchView& now() { return bench->view(); }
+
+  std::filesystem::path stick() const { return folder.path() / "stick"; }
 
   ::relievo::test::TemporaryFolder folder;
   hal::MonotonicClock clock;

@@ -6,8 +6,11 @@
 #include "tests/firmware/bench/bench_rig.h"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
+
+#include "storage/model_blob.h"
 
 namespace relievo::firmware {
 namespace {
@@ -169,12 +172,74 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   rig().tap("apply");
   ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
   EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
-  const auto kept = set_from_text(*rig().store->setting("algorithms"));
+  const auto kept = pipeline::AlgorithmSet::from_text(*rig().store->setting("algorithms"));
   ASSERT_TRUE(kept.has_value());
   EXPECT_EQ(kept->get("constraints"), "similarity+uniqueness");
   rig().tap("reset");
   rig().tap("apply");
   ASSERT_TRUE(rig().until([] { return rig().stages->algorithms().get("matcher") == "refined"; }));
+}
+
+TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEveryStage) {
+  capture();
+  const auto model = [] { return *storage::encode_model(*products().model); };
+  const auto as_saved = model();
+  const ui::BenchResult figures = rig().now().result;
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
+  const std::filesystem::path file = rig().stick() / rig().now().recording.where;
+  ASSERT_TRUE(std::filesystem::exists(file)) << rig().now().recording.where;
+
+  // Something else lies there now.
+  rig().open(StaffPage::Algorithms);
+  rig().tap(kind("mesher"));
+  rig().tap(name("delaunay"));
+  const float matching = rig().now().result.seconds[0];
+  again();
+  EXPECT_NE(model(), as_saved);
+  EXPECT_EQ(rig().now().result.seconds[0], matching) << "the mesher has no part in the matches: they are not made again";
+  EXPECT_EQ(rig().now().result.accepted, figures.accepted);
+
+  rig().plug_in();
+  rig().open(StaffPage::Stages);
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("leave saved");
+  EXPECT_TRUE(rig().shows("capture"));
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("saved 0");
+  ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
+  ASSERT_TRUE(rig().until(finished));
+  ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+  EXPECT_EQ(model(), as_saved);
+  EXPECT_EQ(rig().now().result.algorithms, "") << "its algorithms came with it";
+  EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "grid");
+  EXPECT_EQ(rig().now().result.seconds, figures.seconds);
+  EXPECT_EQ(rig().now().result.made, figures.made);
+  EXPECT_EQ(rig().now().result.photo_correlation, figures.photo_correlation);
+  for (std::size_t i = 0; i < ui::kBenchStages; ++i) {
+    rig().tap("stage " + std::to_string(i));
+    EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
+  }
+  for (const int stage : {7, 6, 5, 4, 0}) {  // texture, surface, points, disparities, pictures
+    rig().tap("stage " + std::to_string(stage));
+    rig().tap("run from");
+    ASSERT_TRUE(rig().until(finished));
+    ASSERT_EQ(rig().now().result.failure, "");
+    EXPECT_EQ(model(), as_saved) << stage;
+  }
+
+  // What is damaged is refused, and what is there stays.
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("saved 0");
+  ASSERT_TRUE(rig().until([] { return !rig().now().problem.empty(); }));
+  EXPECT_NE(rig().now().problem.find("damaged"), std::string_view::npos);
+  EXPECT_EQ(rig().now().phase, BenchPhase::Ready);
+  EXPECT_EQ(model(), as_saved);
 }
 
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {

@@ -40,17 +40,19 @@ class StaffRecordTest : public StaffHands {
     tap("capture");
     ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << bench().problem;
   }
-  Outcome record() {
-    tap("record");
+  Outcome record() { return use_stick("record"); }
+  Outcome use_stick(const char* button) {
+    tap(button);
     until([this] { return bench().recording.outcome != Outcome::None; });
     kiosk->turn();
     EXPECT_NE(find("record"), nullptr) << "the way on";
     return bench().recording.outcome;
   }
-  static std::vector<std::string> recordings_on(const Path& root) {
+  static std::vector<std::string> recordings_on(const Path& root) { return names_on(root, "captures"); }
+  static std::vector<std::string> names_on(const Path& root, const char* inside) {
     std::vector<std::string> names;
     std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "captures", none)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(root / inside, none)) names.push_back(entry.path().filename().string());
     return names;
   }
   // By the board that folder:DIR is.
@@ -102,6 +104,34 @@ TEST_F(StaffRecordTest, AStickThatIsPulledOutHasNoHalfRecording) {
   const auto names = recordings_on(stick());
   ASSERT_EQ(names.size(), 1U) << "what the pulled stick had kept is cleared away";
   is_replayed_bit_for_bit(stick() / "captures" / names.front());
+}
+
+// Of noise, in which no face is found: what there is of it.
+TEST_F(StaffRecordTest, AReconstructionThatFailedIsSavedAndLoadedAsFarAsItCame) {
+  capture();
+  faulty.fail(FaultyStick::Fault::Pulled);
+  EXPECT_EQ(use_stick("save"), Outcome::StickGone);
+  for (const std::string& name : names_on(stick().string() + " in a hand", "reconstructions")) EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a document";
+  faulty.fail(FaultyStick::Fault::None);
+  faulty.plug_in_again();
+  EXPECT_EQ(use_stick("save"), Outcome::Done);
+  const auto names = names_on(stick(), "reconstructions");
+  ASSERT_EQ(names.size(), 1U) << "what the pulled stick had kept is cleared away";
+  EXPECT_TRUE(says("reconstructions/" + names.front())) << "where it lies";
+  EXPECT_EQ(use_stick("list saved"), Outcome::NoStick) << "it was let go";
+
+  faulty.plug_in_again();
+  tap("capture");
+  ASSERT_TRUE(until([this] { return find("list saved") != nullptr && bench().can_record; }));
+  tap("stage 0");   // the pictures: there is nothing else
+  const std::uint32_t before = bench().shown[0].version;
+  tap("list saved");
+  ASSERT_TRUE(until([this] { return find("saved 0") != nullptr; }));
+  tap("saved 0");
+  ASSERT_TRUE(until([this, before] { return bench().can_record && bench().shown[0].version != before; })) << bench().problem;
+  EXPECT_FALSE(bench().result.failure.empty());
+  EXPECT_EQ(record(), Outcome::Done);
+  is_replayed_bit_for_bit(stick() / "captures" / recordings_on(stick()).front());
 }
 
 TEST_F(StaffRecordTest, AStickThatGivesBackOtherBitsIsFoundOut) {

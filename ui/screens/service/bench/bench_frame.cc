@@ -28,6 +28,17 @@ const char* work_of(const Words& tr, std::size_t stage) {
   return stage == 2 ? tr("Surface") : tr("Texture");
 }
 
+namespace {
+
+// Which of the four stages makes what is shown: 1 .. 4.
+std::int32_t work_before(BenchStage stage) {
+  if (stage == BenchStage::Cloud) return 2;
+  if (stage == BenchStage::Mesh) return 3;
+  return stage == BenchStage::Texture ? 4 : 1;
+}
+
+}  // namespace
+
 std::string_view BenchFrame::id(std::string_view what, std::size_t number) const {
   char text[64];
   const int length = std::snprintf(text, sizeof text, "%.*s %zu", static_cast<int>(what.size()), what.data(), number);
@@ -205,18 +216,30 @@ bool BenchFrame::capture_state() {
   return false;
 }
 
-void BenchFrame::capture_buttons(bool with_run, bool with_record) {
-  if (!view.calibrated) return;
+void BenchFrame::stick_buttons() {
+  const float grow = open_buttons();
+  if (view.recording.running) {
+    page.small_button("stop recording", view.recording.reading ? tr("Stop") : tr("Stop recording"), icon::kClose, ButtonLook::Main, bench(BenchAct::StopRecording), grow);
+  } else {
+    if (view.can_record) page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Record), grow);
+    if (view.can_record) page.small_button("save", tr("Save on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Save), grow);
+    page.small_button("list saved", tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::ListSaved), grow);
+  }
+  page.tree.close();
+}
+
+void BenchFrame::capture_buttons(bool with_run, bool with_stick) {
   const bool busy = view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running;
+  if (with_stick && !busy) stick_buttons();
+  if (!view.calibrated) return;
   const float grow = open_buttons();
   if (busy) {
     page.small_button("stop", tr("Stop"), icon::kClose, ButtonLook::Main, bench(BenchAct::Stop), grow);
   } else {
     const bool there = view.result.there;
     page.small_button("capture", tr("New test capture"), icon::kCamera, there ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::Capture), grow);
-    if (with_record && view.recording.running) page.small_button("stop recording", tr("Stop recording"), icon::kClose, ButtonLook::Main, bench(BenchAct::StopRecording), grow);
-    else if (with_record && view.can_record) page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Record), grow);
     if (with_run && there) page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, bench(BenchAct::Run), grow);
+    if (with_stick && there) page.small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet, bench(BenchAct::Run, work_before(view.stage)), grow);
   }
   page.tree.close();
 }

@@ -59,12 +59,14 @@ class BenchFrame {
   // In their place while there is no calibration: what to do first.
   void uncalibrated();
   // The buttons under the pages of the test capture.
-  void capture_buttons(bool with_run, bool with_record = false);
+  // `with_stick`: also those between the reconstruction and the stick.
+  void capture_buttons(bool with_run, bool with_stick = false);
   void problem(std::string_view words);   // packed (hal/base/sentence.h); empty: nothing is shown
   void failure();                         // of the present result's stages
 
  private:
   void alert(std::string_view words);
+  void stick_buttons();
 };
 
 const char* title_of(const Words& tr, BenchStage stage);

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reconstructions as documents (storage/document) on a stick: reconstructions/NAME.relievo, each whole or not there. What
+// was written is read back and compared before it gets its name; then the stick is let go.
+// Thread: keeper; between two pieces it looks whether it is to stop. Errors: MediaMissing (no stick), MediaFull,
+// Disconnected (pulled out meanwhile), Cancelled, IoFailed (outcome_of_export() says what it means), NotFound; the document's.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware/service/export_records.h"
+#include "firmware/work/job_thread.h"
+#include "hal/removable_media.h"
+
+namespace relievo::firmware {
+
+// A document in memory, wiped with it: it holds a face.
+class SavedBytes {
+ public:
+  explicit SavedBytes(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+  ~SavedBytes();
+  SavedBytes(const SavedBytes&) = delete;
+  SavedBytes& operator=(const SavedBytes&) = delete;
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+inline constexpr const char* kSavedFolder = "reconstructions";  // on the stick
+inline constexpr const char* kSavedEnding = ".relievo";
+
+Result<void> save_reconstruction(const SavedBytes& document, const std::string& name, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
+// Their file names, the newest first, so many at most.
+Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most);
+Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media, JobControl& control);
+
+}  // namespace relievo::firmware

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/work/session_document.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+
+#include "firmware/version.h"
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture};
+
+std::size_t done(const Products& made) { return made.model ? 4 : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0; }
+
+template <typename Product>
+const Product* pointer(const std::optional<Product>& product) {
+  return product ? &*product : nullptr;
+}
+
+Result<void> load_stage(const storage::Document& document, State stage, EnrolmentSession& session) {
+  Products& made = session.products();
+  Arena& memory = session.output();
+  session.begins(stage);
+  if (stage == State::Match) {
+    RELIEVO_TRY_ASSIGN(made.pair, document.pair(&memory));
+    RELIEVO_TRY_ASSIGN(made.matches, document.matches(*made.pair, &memory));
+    made.drift = pipeline::judge_drift(made.matches->epipolar_shift, document.head().calibration);
+  } else if (stage == State::Reconstruct) {
+    RELIEVO_TRY_ASSIGN(made.cloud, document.cloud(*made.pair, &memory));
+  } else if (stage == State::Mesh && document.head().stages.size() == storage::kDocumentStages) {
+    RELIEVO_TRY_ASSIGN(made.model, document.model(&memory));  // and the mesh in it
+  } else if (stage == State::Mesh) {
+    RELIEVO_TRY_ASSIGN(made.mesh, document.mesh(&memory));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> make_document(const Products& products, const Making& making) {
+  RELIEVO_ASSERT(products.frame.has_value());
+  storage::DocumentHead head{std::string(kVersion), making.set.to_text(), making.whole_view, making.calibration, products.frame->skew_ns, {}};
+  for (std::size_t i = 0; i < std::min(done(products), making.records.size()); ++i) {
+    const StageRecord& record = making.records[i];
+    head.stages.push_back({record.took, record.in, record.out, record.arena_peak_bytes});
+  }
+  return storage::make_document({head, *products.frame, pointer(products.pair), pointer(products.matches), pointer(products.cloud), pointer(products.mesh), pointer(products.model)});
+}
+
+Result<Making> making_of(const storage::Document& document) {
+  const storage::DocumentHead& head = document.head();
+  Making making{{}, head.whole_view, head.calibration, {}};
+  RELIEVO_TRY_ASSIGN(making.set, pipeline::AlgorithmSet::from_text(head.algorithms));
+  for (std::size_t i = 0; i < head.stages.size(); ++i) {
+    const storage::DocumentStage& stage = head.stages[i];
+    making.records.push_back({name_of(kStages.at(i)), stage.took, stage.in, stage.out, stage.arena_peak_bytes});
+  }
+  return making;
+}
+
+Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session, JobControl& control) {
+  const std::size_t stages = std::min(document.head().stages.size(), static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match));
+  try {
+    for (std::size_t i = 0; i < stages; ++i) {
+      if (control.cancelled.load()) return Error{Errc::Cancelled, "the reading was stopped"};
+      RELIEVO_TRY(load_stage(document, kStages.at(i), session));
+      control.progress.done.store(static_cast<float>(i + 1) / kStages.size());
+    }
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory, "not enough memory for this saved reconstruction"};
+  }
+  const State left = stages == kStages.size() ? State::Review : kStages.at(stages);
+  if (left == State::Review) return left;
+  session.begins(left);
+  session.rework(left);   // of a model only its mesh is wanted
+  return left;
+}
+
+}  // namespace relievo::firmware

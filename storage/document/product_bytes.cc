@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each product has one walk over its fields, taken by a packer to write and by an unpacker to read: they cannot differ.
+#include "storage/document/product_bytes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "storage/byte_order.h"
+
+namespace relievo::storage {
+namespace {
+
+using namespace pipeline;  // NOLINT(google-build-using-namespace): this file is about nothing else
+
+constexpr int kMaxSidePx = 16'384;
+
+class Packer {
+ public:
+  template <Number T>
+  void number(const T& value) { to_.put(value); }
+  template <typename Element, typename Items>
+  void run(const Items& items) {
+    to_.put(static_cast<std::uint64_t>(items.size()));
+    to_.put_run<Element>(std::span(items));
+  }
+  template <typename Items, typename Field>
+  void each(const Items& items, const Field& field) {
+    to_.put(static_cast<std::uint64_t>(items.size()));
+    for (const auto& item : items) field(*this, item);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
+ private:
+  std::vector<std::byte> bytes_;
+  ByteWriter to_{bytes_};
+};
+
+class Unpacker {
+ public:
+  explicit Unpacker(std::span<const std::byte> bytes) : from_(bytes) {}
+  template <Number T>
+  void number(T& value) { value = from_.get<T>(); }
+  template <typename Element, typename Items>
+  void run(Items& items) {
+    if (make_room(items, sizeof(typename Items::value_type))) from_.get_run<Element>(std::span(items));
+  }
+  template <typename Items, typename Field>
+  void each(Items& items, const Field& field) {
+    if (!make_room(items, 1)) return;
+    for (auto& item : items) field(*this, item);
+  }
+  bool whole() const { return from_.ok() && from_.left() == 0; }
+
+ private:
+  // Lengths that the bytes cannot hold allocate nothing.
+  template <typename Items>
+  bool make_room(Items& items, std::size_t least_bytes) {
+    const auto size = from_.get<std::uint64_t>();
+    if (size > from_.left() / least_bytes) {
+      from_ = ByteReader({});
+      (void)from_.get<std::uint8_t>();  // not whole from here on
+      return false;
+    }
+    items.resize(static_cast<std::size_t>(size));
+    return true;
+  }
+  ByteReader from_;
+};
+
+template <typename Io, typename Transform>
+void walk_transform(Io& io, Transform& t) {
+  for (auto& v : t.rotation.m) io.number(v);
+  io.number(t.translation_mm.x), io.number(t.translation_mm.y), io.number(t.translation_mm.z);
+}
+
+template <typename Io, typename View>
+void walk_view(Io& io, View& view) {
+  io.template run<float>(view.grey);
+  io.template run<std::uint8_t>(view.rgb);
+  io.template run<std::uint8_t>(view.valid);
+}
+
+template <typename Io, typename Pair>
+void walk_pair(Io& io, Pair& pair) {
+  io.number(pair.width_px), io.number(pair.height_px);
+  for (auto* v : {&pair.focal_px, &pair.baseline_mm, &pair.left_centre_px.x, &pair.left_centre_px.y, &pair.right_centre_px.x, &pair.right_centre_px.y,
+                  &pair.near_mm, &pair.far_mm, &pair.face_centre_px.x, &pair.face_centre_px.y, &pair.face_width_px, &pair.face_reach_mm})
+    io.number(*v);
+  for (auto* rotation : {&pair.rectified_from_left, &pair.rectified_from_right})
+    for (auto& v : rotation->m) io.number(v);
+  walk_transform(io, pair.right_from_left);
+  walk_view(io, pair.left);
+  walk_view(io, pair.right);
+  io.template run<std::uint8_t>(pair.region);
+}
+
+template <typename Io, typename Set>
+void walk_matches(Io& io, Set& set) {
+  auto& shift = set.epipolar_shift;
+  for (auto* v : {&shift.offset_px, &shift.slope_x, &shift.slope_y, &shift.middle_x_px, &shift.middle_y_px, &shift.spread_x_px, &shift.spread_y_px,
+                  &shift.correlation, &shift.residual_px, &shift.sigma_px, &set.motion_px})
+    io.number(*v);
+  for (auto& v : shift.covariance_px2) io.number(v);
+  io.number(set.lattice_step_px);
+  io.each(set.matches, [](Io& one, auto& match) {
+    for (auto* v : {&match.left_px.x, &match.left_px.y, &match.disparity_px, &match.cost, &match.sigma_px}) one.number(*v);
+    one.number(match.rejected_by);
+  });
+}
+
+template <typename Io, typename Cloud>
+void walk_cloud(Io& io, Cloud& cloud) {
+  io.number(cloud.lattice_step_px);
+  io.number(cloud.right_camera_mm.x), io.number(cloud.right_camera_mm.y), io.number(cloud.right_camera_mm.z);
+  io.template run<float>(cloud.points);
+}
+
+template <typename Io, typename Mesh>
+void walk_mesh(Io& io, Mesh& mesh) {
+  io.template run<float>(mesh.vertices_mm);
+  io.template run<float>(mesh.normals);
+  io.template run<float>(mesh.sigma_mm);
+  io.template run<std::uint8_t>(mesh.measured);
+  io.template run<std::uint32_t>(mesh.triangles);
+}
+
+template <typename Io, typename Drop>
+void walk_backdrop(Io& io, Drop& backdrop) {
+  io.number(backdrop.columns), io.number(backdrop.rows);
+  io.template run<float>(backdrop.at_mm);
+  io.template run<std::uint8_t>(backdrop.rgba);
+}
+
+bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool within(const Vec2f& p, const RectifiedPair& pair) {
+  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(pair.width_px - 1) && p.y <= static_cast<float>(pair.height_px - 1);
+}
+bool is_side(int px) { return px > 0 && px <= kMaxSidePx; }
+
+bool fits(const RectifiedPair& pair) {
+  if (!is_side(pair.width_px) || !is_side(pair.height_px)) return false;
+  const std::size_t pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const auto whole = [pixels](const RectifiedView& view) { return view.grey.size() == pixels && view.rgb.size() == 3 * pixels && view.valid.size() == pixels; };
+  return whole(pair.left) && whole(pair.right) && (pair.region.empty() || pair.region.size() == pixels);
+}
+
+bool fits(const MatchSet& set, const RectifiedPair& pair) {
+  return set.lattice_step_px >= 0 && set.lattice_step_px <= kMaxSidePx &&
+         std::ranges::all_of(set.matches, [&](const Match& m) { return within(m.left_px, pair); });
+}
+
+bool fits(const PointCloud& cloud, const RectifiedPair& pair) {
+  return cloud.lattice_step_px >= 0 && cloud.lattice_step_px <= kMaxSidePx &&
+         std::ranges::all_of(cloud.points, [&](const CloudPoint& p) { return finite(p.at_mm) && within(p.left_px, pair); });
+}
+
+bool fits(const FaceMesh& mesh) {
+  const std::size_t v = mesh.vertices_mm.size();
+  const auto there = [v](std::size_t size) { return size == v; };
+  return there(mesh.normals.size()) && there(mesh.sigma_mm.size()) && there(mesh.measured.size()) && std::ranges::all_of(mesh.vertices_mm, finite) &&
+         std::ranges::all_of(mesh.triangles, [v](const auto& t) { return t[0] < v && t[1] < v && t[2] < v; });
+}
+
+bool fits(const Backdrop& backdrop) {
+  if (backdrop.columns < 0 || backdrop.rows < 0 || backdrop.columns > kMaxSidePx || backdrop.rows > kMaxSidePx) return false;
+  const std::size_t size = static_cast<std::size_t>(backdrop.columns) * static_cast<std::size_t>(backdrop.rows);
+  return backdrop.at_mm.size() == size && backdrop.rgba.size() == size;
+}
+
+Error broken() { return {Errc::StoreCorrupt, "what was saved does not hang together"}; }
+
+constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
+
+}  // namespace
+
+std::vector<std::byte> picture_bytes(const ImageView& picture) {
+  const auto row_bytes = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(bytes_per_pixel(picture.format));
+  std::vector<std::byte> bytes;
+  bytes.reserve(kPictureHeadBytes + row_bytes * static_cast<std::size_t>(picture.height_px));
+  ByteWriter to(bytes);
+  to.put(picture.width_px);
+  to.put(picture.height_px);
+  to.put(static_cast<std::uint8_t>(picture.format));
+  for (int y = 0; y < picture.height_px; ++y) to.put(std::as_bytes(std::span(picture.row(y), row_bytes)));
+  return bytes;
+}
+
+Result<ImageView> picture_from(std::span<const std::byte> bytes) {
+  ByteReader from(bytes);
+  ImageView view;
+  view.width_px = from.get<int>();
+  view.height_px = from.get<int>();
+  const auto format = from.get<std::uint8_t>();
+  if (!from.ok() || !is_side(view.width_px) || !is_side(view.height_px) || format > static_cast<std::uint8_t>(PixelFormat::Grey16)) return broken();
+  view.format = static_cast<PixelFormat>(format);
+  view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
+  view.bytes = bytes.data() + kPictureHeadBytes;
+  if (from.left() != static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(view.height_px)) return broken();
+  return view;
+}
+
+std::vector<std::byte> pair_bytes(const RectifiedPair& pair) {
+  Packer io;
+  io.reserve(pair.left.grey.size() * 17 + 1024);
+  walk_pair(io, pair);
+  return io.take();
+}
+
+std::vector<std::byte> matches_bytes(const MatchSet& matches) {
+  Packer io;
+  io.reserve(matches.matches.size() * 22 + 256);
+  walk_matches(io, matches);
+  return io.take();
+}
+
+std::vector<std::byte> cloud_bytes(const PointCloud& cloud) {
+  Packer io;
+  walk_cloud(io, cloud);
+  return io.take();
+}
+
+std::vector<std::byte> mesh_bytes(const FaceMesh& mesh) {
+  Packer io;
+  io.reserve(mesh.vertices_mm.size() * 29 + mesh.triangles.size() * 12 + 64);
+  walk_mesh(io, mesh);
+  return io.take();
+}
+
+std::vector<std::byte> backdrop_bytes(const Backdrop& backdrop) {
+  Packer io;
+  walk_backdrop(io, backdrop);
+  return io.take();
+}
+
+Result<RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  Unpacker io(bytes);
+  RectifiedPair pair(memory);
+  walk_pair(io, pair);
+  if (!io.whole() || !fits(pair)) return broken();
+  return pair;
+}
+
+Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+  Unpacker io(bytes);
+  MatchSet matches(memory);
+  walk_matches(io, matches);
+  if (!io.whole() || !fits(matches, pair)) return broken();
+  return matches;
+}
+
+Result<PointCloud> cloud_from(std::span<const std::byte> bytes, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+  Unpacker io(bytes);
+  PointCloud cloud(memory);
+  walk_cloud(io, cloud);
+  if (!io.whole() || !fits(cloud, pair)) return broken();
+  return cloud;
+}
+
+Result<FaceMesh> mesh_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  Unpacker io(bytes);
+  FaceMesh mesh(memory);
+  walk_mesh(io, mesh);
+  if (!io.whole() || !fits(mesh)) return broken();
+  return mesh;
+}
+
+Result<Backdrop> backdrop_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  Unpacker io(bytes);
+  Backdrop backdrop(memory);
+  walk_backdrop(io, backdrop);
+  if (!io.whole() || !fits(backdrop)) return broken();
+  return backdrop;
+}
+
+}  // namespace relievo::storage

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What of a document SQLite sees: a table of named parts. One transaction makes it, in memory of the size it will have.
+#include <string.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "storage/byte_order.h"
+#include "storage/calibration_record.h"
+#include "storage/document/document.h"
+#include "storage/document/product_bytes.h"
+#include "storage/model_blob.h"
+#include "storage/sodium_sha256.h"
+#include "storage/sqlite/sqlite_database.h"
+
+namespace relievo::storage {
+namespace {
+
+constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+constexpr std::uint32_t kApplicationId = 0x524C564F;  // "RLVO"
+constexpr std::uint32_t kForm = 1;
+constexpr std::size_t kHeaderBytes = 100;  // of SQLite's file: its file format, section 1.3
+constexpr const char* kSchema =
+    "PRAGMA application_id = 1380734543; PRAGMA user_version = 1;"
+    "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB NOT NULL) STRICT;";
+static_assert(kApplicationId == 1380734543 && kForm == 1);
+
+Error damaged() { return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"}; }
+
+// All is in memory: but for memory itself, what SQLite finds wrong is wrong with the bytes.
+Error of_bytes(const Error& error) {
+  if (error.code == Errc::OutOfMemory) return {Errc::OutOfMemory, "not enough memory for this saved reconstruction"};
+  return damaged();
+}
+
+// Which parts there are follows from how far the stages came.
+std::vector<std::string_view> names_of(std::size_t stages) {
+  std::vector<std::string_view> names{"head", "calibration", "left", "right"};
+  if (stages >= 1) names.insert(names.end(), {"pair", "matches"});
+  if (stages >= 2) names.emplace_back("cloud");
+  if (stages == 3) names.emplace_back("mesh");
+  if (stages >= 4) names.insert(names.end(), {"model", "backdrop"});
+  return names;
+}
+
+// A part that was put in another's place is noticed, too.
+Sha256 digest_of(std::string_view name, std::span<const std::byte> data) {
+  const Sha256 of_data = sha256(data);
+  std::vector<std::byte> both;
+  ByteWriter to(both);
+  to.put(bytes_of(name));
+  to.put(of_data);
+  return sha256(both);
+}
+
+void put_text(ByteWriter& to, std::string_view text) {
+  to.put(static_cast<std::uint32_t>(text.size()));
+  to.put(bytes_of(text));
+}
+
+std::string get_text(ByteReader& from) {
+  const auto size = from.get<std::uint32_t>();
+  std::string text;
+  text.resize(std::min<std::size_t>(size, from.left()));
+  from.get_run<char>(std::span(text));
+  return text;
+}
+
+std::vector<std::byte> head_bytes(const DocumentHead& head) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(256 + head.version.size() + head.algorithms.size());
+  ByteWriter to(bytes);
+  put_text(to, head.version);
+  put_text(to, head.algorithms);
+  to.put(static_cast<std::uint8_t>(head.whole_view));
+  to.put(head.skew_ns);
+  to.put(static_cast<std::uint8_t>(head.stages.size()));
+  for (const DocumentStage& stage : head.stages) {
+    to.put(static_cast<std::int64_t>(stage.took.count()));
+    for (const std::uint64_t value : {stage.in, stage.out, stage.arena_peak_bytes}) to.put(value);
+  }
+  return bytes;
+}
+
+Result<DocumentHead> head_from(std::span<const std::byte> bytes) {
+  ByteReader from(bytes);
+  DocumentHead head;
+  head.version = get_text(from);
+  head.algorithms = get_text(from);
+  head.whole_view = from.get<std::uint8_t>() != 0;
+  head.skew_ns = from.get<std::int64_t>();
+  const auto stages = from.get<std::uint8_t>();
+  if (stages > kDocumentStages) return damaged();
+  for (std::size_t i = 0; i < stages; ++i) {
+    DocumentStage& stage = head.stages.emplace_back();
+    stage.took = std::chrono::nanoseconds(from.get<std::int64_t>());
+    for (std::uint64_t* value : {&stage.in, &stage.out, &stage.arena_peak_bytes}) *value = from.get<std::uint64_t>();
+  }
+  if (!from.ok() || from.left() != 0) return damaged();
+  return head;
+}
+
+Result<std::vector<std::byte>> bytes_of_part(const DocumentParts& parts, std::string_view name) {
+  if (name == "head") return head_bytes(parts.head);
+  if (name == "calibration") return encode_calibration(parts.head.calibration);
+  if (name == "left") return picture_bytes(parts.frame.left);
+  if (name == "right") return picture_bytes(parts.frame.right);
+  if (name == "pair") return pair_bytes(*parts.pair);
+  if (name == "matches") return matches_bytes(*parts.matches);
+  if (name == "cloud") return cloud_bytes(*parts.cloud);
+  if (name == "mesh") return mesh_bytes(*parts.mesh);
+  if (name == "backdrop") return backdrop_bytes(parts.model->backdrop);
+  return encode_model(*parts.model);
+}
+
+// At least what all the parts will take, SQLite's own pages with them.
+std::size_t room_for(const DocumentParts& parts) {
+  const auto picture = [](const ImageView& v) { return static_cast<std::size_t>(v.width_px) * static_cast<std::size_t>(v.height_px) * 3; };
+  std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size();
+  if (parts.pair != nullptr) bytes += parts.pair->left.grey.size() * 17;
+  if (parts.matches != nullptr) bytes += parts.matches->matches.size() * 22;
+  if (parts.cloud != nullptr) bytes += parts.cloud->points.size() * 24;
+  if (parts.mesh != nullptr) bytes += parts.mesh->vertices_mm.size() * 29 + parts.mesh->triangles.size() * 12;
+  if (parts.model != nullptr) {
+    const auto& [mesh, texture, frame, landmarks, quality, backdrop] = *parts.model;
+    bytes += mesh.vertices_mm.size() * 32 + mesh.triangles.size() * 36 + texture.rgb.size() + texture.origin.size() + backdrop.at_mm.size() * 16;
+  }
+  return bytes + bytes / 256 + std::size_t{256} * 1024;
+}
+
+Result<void> put(Database& database, std::string_view name, std::span<const std::byte> data) {
+  const Sha256 digest = digest_of(name, data);
+  RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO part (name, sha256, data) VALUES (?, ?, ?)"));
+  RELIEVO_TRY(insert.bind(name).bind(std::span<const std::byte>(digest)).bind_zeros(static_cast<std::int64_t>(data.size())).run());
+  return database.write_blob("part", "data", database.last_row_id(), data);
+}
+
+// Of a number in SQLite's header, which is big-endian.
+template <typename T>
+T header(std::span<const std::byte> bytes, std::size_t at) {
+  T value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) value = static_cast<T>(value << 8 | std::to_integer<unsigned>(bytes[at + i]));
+  return value;
+}
+
+Result<void> check_header(std::span<const std::byte> bytes) {
+  const bool ours = bytes.size() >= kHeaderBytes && std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic)) && header<std::uint32_t>(bytes, 68) == kApplicationId;
+  if (!ours) return Error{Errc::InvalidInput, "this is no saved reconstruction: choose a file that the technician's page or 'relievo reconstruct --save' has written"};
+  if (header<std::uint32_t>(bytes, 60) > kForm) return Error{Errc::StoreNewer, "this reconstruction was saved by a newer version: update Relievo"};
+  const std::size_t page = header<std::uint16_t>(bytes, 16);
+  if (page * header<std::uint32_t>(bytes, 28) != bytes.size()) return damaged();
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
+  return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
+    std::vector<std::byte> room(room_for(parts));
+    if (room.size() > kMaxDocumentBytes) return Error{Errc::InvalidInput, "this reconstruction is too large to be saved"};
+    Database database(":memory:");
+    RELIEVO_TRY(database.open(true));
+    RELIEVO_TRY(database.lie_in(room, 0, true));
+    Transaction transaction(database);
+    RELIEVO_TRY(transaction.begin());
+    RELIEVO_TRY(database.run(kSchema));
+    for (const std::string_view name : names_of(parts.head.stages.size())) {
+      RELIEVO_TRY_ASSIGN(std::vector<std::byte> data, bytes_of_part(parts, name));
+      const Result<void> done = put(database, name, data);
+      explicit_bzero(data.data(), data.size());  // a face
+      RELIEVO_TRY(done);
+    }
+    RELIEVO_TRY(transaction.commit());
+    RELIEVO_TRY_ASSIGN(const std::int64_t pages, database.integer("PRAGMA page_count"));
+    RELIEVO_TRY_ASSIGN(const std::int64_t page_bytes, database.integer("PRAGMA page_size"));
+    database.close();
+    room.resize(static_cast<std::size_t>(pages * page_bytes));
+    return room;
+  });
+}
+
+struct Document::Inside {
+  Database database{":memory:"};
+
+  Result<std::vector<std::byte>> part(std::string_view name) {
+    return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
+      RELIEVO_TRY_ASSIGN(auto find, database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?"));
+      RELIEVO_TRY_ASSIGN(const bool there, find.bind(name).step());
+      const auto size = there ? static_cast<std::size_t>(find.integer(2)) : 0;
+      if (size == 0 || size > kMaxDocumentBytes) return damaged();
+      std::vector<std::byte> data(size);
+      RELIEVO_TRY(database.read_blob("part", "data", find.integer(0), data));
+      if (!std::ranges::equal(digest_of(name, data), find.blob(1))) return damaged();
+      return data;
+    });
+  }
+  // With the one error a reader of bytes can have.
+  template <typename Read>
+  auto read(std::string_view name, const Read& from) -> decltype(from(std::span<const std::byte>())) {
+    auto data = part(name);
+    if (!data) return of_bytes(data.error());
+    auto product = without_exceptions({}, [&] { return from(std::span<const std::byte>(*data)); });
+    explicit_bzero(data->data(), data->size());
+    if (!product) return of_bytes(product.error());
+    return product;
+  }
+};
+
+Document::Document(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+Document::Document(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Result<Document> Document::open(std::span<const std::byte> bytes) {
+  RELIEVO_TRY(check_header(bytes));
+  Document document(std::make_unique<Inside>());
+  Inside& inside = *document.inside_;
+  // Read-only: SQLite asks for bytes it might write to, and does not.
+  const std::span<std::byte> room(const_cast<std::byte*>(bytes.data()), bytes.size());
+  if (const auto opened = inside.database.open(true); !opened) return of_bytes(opened.error());
+  if (const auto laid = inside.database.lie_in(room, room.size(), false); !laid) return of_bytes(laid.error());
+  RELIEVO_TRY_ASSIGN(document.head_, inside.read("head", head_from));
+  RELIEVO_TRY_ASSIGN(const StoredCalibration stored, inside.read("calibration", decode_calibration));
+  document.head_.calibration = stored.calibration;
+  if (!check_calibration(stored.calibration)) return damaged();
+  for (const std::string_view name : names_of(document.head_.stages.size())) {
+    const auto whole = inside.read(name, [](std::span<const std::byte> data) { return Result<std::size_t>(data.size()); });
+    if (!whole) return whole.error();
+  }
+  return document;
+}
+
+Result<Document::Picture> Document::picture(bool left) const {
+  auto data = inside_->part(left ? "left" : "right");
+  if (!data) return of_bytes(data.error());
+  const auto view = picture_from(*data);
+  if (!view) return damaged();
+  return Picture{*std::move(data), *view};
+}
+
+Result<pipeline::RectifiedPair> Document::pair(std::pmr::memory_resource* memory) const {
+  return inside_->read("pair", [memory](std::span<const std::byte> data) { return pair_from(data, memory); });
+}
+
+Result<pipeline::MatchSet> Document::matches(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const {
+  return inside_->read("matches", [memory, &of](std::span<const std::byte> data) { return matches_from(data, of, memory); });
+}
+
+Result<pipeline::PointCloud> Document::cloud(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const {
+  return inside_->read("cloud", [memory, &of](std::span<const std::byte> data) { return cloud_from(data, of, memory); });
+}
+
+Result<pipeline::FaceMesh> Document::mesh(std::pmr::memory_resource* memory) const {
+  return inside_->read("mesh", [memory](std::span<const std::byte> data) { return mesh_from(data, memory); });
+}
+
+Result<pipeline::FaceModel> Document::model(std::pmr::memory_resource* memory) const {
+  RELIEVO_TRY_ASSIGN(pipeline::FaceModel model, inside_->read("model", [memory](std::span<const std::byte> data) { return decode_model(data, memory); }));
+  RELIEVO_TRY_ASSIGN(model.backdrop, inside_->read("backdrop", [memory](std::span<const std::byte> data) { return backdrop_from(data, memory); }));
+  return model;
+}
+
+}  // namespace relievo::storage

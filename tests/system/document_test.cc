@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A reconstruction saved, loaded and calculated again from every stage: the same files, byte for byte. What is no
+// whole document is refused, and a full disk keeps no half of one.
+#include <filesystem>
+#include <fstream>
+
+#include "tests/system/relievo_process.h"
+
+namespace relievo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SavedReconstruction : public RelievoProcess {
+ protected:
+  // Everything but report.json, which has times.
+  void expect_same_model(const std::string& a, const std::string& b) {
+    for (const char* name : {"model.ply", "model.obj", "model.png", "model.stl", "model.glb", "model_origin.png", "portrait.png", "range.png", "recognition.json"})
+      EXPECT_EQ(read_text(here / (a + "/" + name)), read_text(here / (b + "/" + name))) << b << "/" << name;
+  }
+  void flip(const std::string& name, std::streamoff at) {
+    std::fstream file(here / name, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(at);
+    const char was = static_cast<char>(file.get());
+    file.seekp(at);
+    file.put(static_cast<char>(was ^ 1));
+  }
+};
+
+TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
+  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  const std::vector<std::string> first{"reconstruct", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "--set", "texturer=single-view", "-o", "first"};
+  auto saving = first;
+  saving.insert(saving.end(), {"--save", "face.relievo"});
+  EXPECT_NE(done(saving).out.find("saved, with the person's face: face.relievo"), std::string::npos);
+  fs::remove_all(here / "face");  // it needs nothing beside it
+
+  const std::string loaded = done({"reconstruct", "--load", "face.relievo", "--save", "again.relievo", "-o", "loaded"}).out;
+  EXPECT_NE(loaded.find("(as saved)"), std::string::npos) << loaded;
+  expect_same_model("first", "loaded");
+  EXPECT_EQ(read_text(here / "again.relievo"), read_text(here / "face.relievo"));
+  for (const std::string stage : {"match", "reconstruct", "mesh", "texture"}) {
+    done({"reconstruct", "--load", "face.relievo", "--from", stage, "-o", stage});
+    expect_same_model("first", stage);
+  }
+
+  // Other settings: what they have no part in is as it was saved.
+  const std::string mesh = done({"reconstruct", "--load", "face.relievo", "--set", "grid.max_triangles=9000", "-o", "coarse"}).out;
+  EXPECT_NE(mesh.find("Reconstruct"), std::string::npos);
+  EXPECT_LT(fs::file_size(here / "coarse/model.ply"), fs::file_size(here / "first/model.ply"));
+  refused({"reconstruct", "--load", "face.relievo", "--set", "matcher=zmncc", "--from", "mesh", "-o", "none"}, "--from mesh", "before this one");
+  EXPECT_EQ(relievo({"reconstruct", "--load", "face.relievo", "left.png", "right.png", "-o", "none"}).exit_code, 2);
+  EXPECT_EQ(relievo({"reconstruct", "--from", "mesh", "-o", "none"}).exit_code, 2);
+
+  const auto load = [](const std::string& name) { return std::vector<std::string>{"reconstruct", "--load", name, "-o", "none"}; };
+  fs::copy(here / "face.relievo", here / "cut.relievo");
+  fs::resize_file(here / "cut.relievo", fs::file_size(here / "cut.relievo") / 2);
+  refused(load("cut.relievo"), "cut.relievo", "damaged");
+  fs::copy(here / "face.relievo", here / "changed.relievo");
+  flip("changed.relievo", static_cast<std::streamoff>(fs::file_size(here / "face.relievo") / 3));
+  refused(load("changed.relievo"), "changed.relievo", "damaged");
+  fs::copy(here / "face.relievo", here / "newer.relievo");
+  flip("newer.relievo", 62);
+  refused(load("newer.relievo"), "newer.relievo", "update Relievo");
+  refused(load("first/model.ply"), "first/model.ply", "no saved reconstruction");
+  refused(load("missing.relievo"), "missing.relievo");
+
+  const TinyDisk disk(200'000);
+  if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
+  refused({"reconstruct", "--load", "face.relievo", "-o", "none", "--save", (disk.path() / "full.relievo").string()}, "full.relievo", "full");
+  EXPECT_EQ(listing(disk.path()), "");
+  EXPECT_FALSE(fs::exists(here / "none"));
+}
+
+}  // namespace
+}  // namespace relievo::test
