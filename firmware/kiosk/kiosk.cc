@@ -112,7 +112,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   appliance_->remember_moved(moved.faces, std::move(moved.note));
   camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
-  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), services.set_clock}));
+  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), revision_, services.set_clock}));
   desk_->set_bench(make_bench(args, services));
   code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
   look();

@@ -51,7 +51,7 @@ Desk::Desk(Parts parts)
       settings_(parts_.store, errands_, log_, parts_.board.clock()), retention_(parts_.store, errands_, log_, parts_.board.clock()),
       touch_(parts_.store, errands_, log_, parts_.board.clock()),
       consent_(parts_.folder, parts_.board.media(), errands_, log_),
-      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, consent_, parts_.folder},
+      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, consent_, parts_.folder, parts_.calibration},
       door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, consent_, parts_.board.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });

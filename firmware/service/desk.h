@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -32,6 +33,7 @@ class Desk {
     hal::Board& board;
     storage::Store& store;
     std::filesystem::path folder;   // of the store: for the log's file and the disk's room
+    const std::uint32_t& calibration;  // the revision that is measured with, 0 for none
     SetClock set_clock;
   };
   // Before a thread uses the store.

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -41,6 +42,7 @@ struct DeskTools {
   TouchTrial& touch;
   ConsentShelf& consent;
   std::filesystem::path folder;   // of the store
+  const std::uint32_t& calibration;  // the revision that is measured with, 0 for none; main thread
   ui::StaffRole role = ui::StaffRole::None;   // of who is signed in
 };
 

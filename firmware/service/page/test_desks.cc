@@ -59,8 +59,9 @@ void SelfTestDesk::ask(const ui::StaffWish& wish) {
     return {};
   });
   begin(Check::Store, JobPlace::Keeper, [&t](JobControl&) { return t.store.check(); });
-  begin(Check::Calibration, JobPlace::Keeper, [&t](JobControl&) -> Result<void> {
-    RELIEVO_TRY(t.store.active_calibration());
+  // The one that is measured with, which may be a file's or the simulated rig's and so not the store's active one.
+  begin(Check::Calibration, JobPlace::Keeper, [&t, revision = t.calibration](JobControl&) -> Result<void> {
+    RELIEVO_TRY(revision == 0 ? t.store.active_calibration() : t.store.calibration(revision));
     return {};
   });
   begin(Check::Disk, JobPlace::Keeper, [&t, least = t.settings.now().of(ui::Setting::LeastRoomMib)](JobControl&) { return disk_has_room(t.folder, least); });

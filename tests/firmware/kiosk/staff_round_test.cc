@@ -22,7 +22,7 @@ class StaffRoundTest : public StaffHands {
     const auto state = [&](ui::Check check) { return tested.states[static_cast<std::size_t>(check)]; };
     EXPECT_EQ(state(ui::Check::Store), ui::CheckState::Good);
     EXPECT_EQ(state(ui::Check::Cameras), ui::CheckState::Good);
-    EXPECT_EQ(state(ui::Check::Calibration), ui::CheckState::Bad) << "known to the store, but none is active";
+    EXPECT_EQ(state(ui::Check::Calibration), ui::CheckState::Good) << "known to the store and measured with, though none is active";
     tap("back");
     tap("open trigger");
     tap("begin");
@@ -181,7 +181,6 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
     kiosk->turn();
   };
   speak(ui::Language::German);
-  EXPECT_TRUE(says("Der Datenspeicher hat keine Kalibrierung")) << "what is not in order";
   tap("back");
   tap("open log");
   const auto read = [this](std::string_view words) {
