@@ -106,6 +106,17 @@ std::string AlgorithmSet::get(std::string_view key) const {
   return {};
 }
 
+namespace {
+
+// What is stored may be older than a name.
+std::string_view name_today(std::string_view key, std::string_view value) {
+  if (key == "selector" && value == "grid") return "grid-points";
+  if (key == "selector" && value == "file") return "file-points";
+  return value;
+}
+
+}  // namespace
+
 Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text) {
   AlgorithmSet set;
   while (!text.empty()) {
@@ -115,7 +126,9 @@ Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text) {
     if (line.empty()) continue;
     const std::size_t sign = line.find('=');
     if (sign == std::string_view::npos) return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
-    RELIEVO_TRY(set.set(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1))));
+    const std::string_view key = trimmed(line.substr(0, sign));
+    if (key == "grid-points.max_points") continue;  // older stores have it
+    RELIEVO_TRY(set.set(key, name_today(key, trimmed(line.substr(sign + 1)))));
   }
   return set;
 }

@@ -124,8 +124,9 @@ std::size_t room_for(const DocumentParts& parts) {
   if (parts.cloud != nullptr) bytes += parts.cloud->points.size() * 24;
   if (parts.mesh != nullptr) bytes += parts.mesh->vertices_mm.size() * 29 + parts.mesh->triangles.size() * 12;
   if (parts.model != nullptr) {
-    const auto& [mesh, texture, frame, landmarks, quality, backdrop] = *parts.model;
-    bytes += mesh.vertices_mm.size() * 32 + mesh.triangles.size() * 36 + texture.rgb.size() + texture.origin.size() + backdrop.at_mm.size() * 16;
+    const pipeline::FaceMesh& mesh = parts.model->mesh;
+    const pipeline::TextureAtlas& texture = parts.model->texture;
+    bytes += mesh.vertices_mm.size() * 32 + mesh.triangles.size() * 36 + texture.rgb.size() + texture.origin.size() + parts.model->backdrop.at_mm.size() * 16;
   }
   return bytes + bytes / 256 + std::size_t{256} * 1024;
 }

@@ -125,5 +125,13 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   EXPECT_EQ(set.to_text(), AlgorithmSet{}.to_text()) << "a refused setting must change nothing";
 }
 
+TEST(AlgorithmSet, ReadsWhatOlderStoresCallThings) {
+  const auto set = AlgorithmSet::from_text("selector = grid\ngrid-points.max_points = 20000\ngrid-points.step_px = 6\n");
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->get("selector"), "grid-points");
+  EXPECT_EQ(set->get("grid-points.step_px"), "6");
+  EXPECT_EQ(AlgorithmSet::from_text("selector = file\n")->get("selector"), "file-points");
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
