@@ -32,7 +32,7 @@ template <typename Field>
 void describe(DelaunayMesherOptions& o, Field&& field) {
   field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "more points are thinned evenly");
   field("max_edge_mm", o.max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
-  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100}, "longest edge, in distances of as many points spread evenly over the surface");
+  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100}, "longest edge, in usual distances between neighbours");
   field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89}, "steepest triangle, between its normal and the line of sight, degrees");
   field("ear_passes", o.ear_passes, OptionRange{0, 16}, "how often triangles that hang on by one edge are trimmed");
   field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
