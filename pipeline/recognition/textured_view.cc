@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipeline/model/recognition_images.h"
-#include "pipeline/texture/blend/photo_sampler.h"
+#include "pipeline/model/photo_sampler.h"
 #include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {

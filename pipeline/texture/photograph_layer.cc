@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/texture/colour_fill.h"
-#include "pipeline/texture/blend/photo_sampler.h"
+#include "pipeline/model/photo_sampler.h"
 #include "pipeline/texture/chart/side_charts.h"
 #include "pipeline/texture/blend/view_blend.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/mesh/landmarks/face_relief.h"
+#include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kHalfWidthMm = 24, kHalfHeightMm = 23;
 constexpr double kStepMm = 0.5, kReliefMm = 1, kSmoothMm = 2;
 constexpr double kNoise = 3;     // mean absolute deviations of skin
 constexpr double kShare = 0.5;   // of what the least red two per cent differ by
-constexpr double kGreyest = 30;  // added to the sum of the channels: what is dark has no colour
+constexpr float kGreyest = 30;  // added to the sum of the channels: what is dark has no colour
 constexpr double kLeastChroma = 0.01;
 // What eyes are like: half the width between corners, its middle from where pupils are, both lids' heights;
 // and what a deviation costs, mm2.
@@ -35,25 +36,6 @@ constexpr double kAroundMm = 2;
 // than the darkest: sclera beside an iris and lashes. A closed lid that shines is neither.
 constexpr double kWhiteRed = 0.5, kIrisContrast = 1.8;
 constexpr double kRimMm = 1;
-
-struct Rgb {
-  double r = 0, g = 0, b = 0;
-};
-
-Rgb colour_at(const RectifiedPair& pair, double x, double y) {
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const double fx = x - x0, fy = y - y0;
-  Rgb sum;
-  for (int dy = 0; dy < 2; ++dy)
-    for (int dx = 0; dx < 2; ++dx) {
-      const std::uint8_t* p =
-          &pair.left.rgb[3 * (static_cast<std::size_t>(y0 + dy) * static_cast<std::size_t>(pair.width_px) +
-                              static_cast<std::size_t>(x0 + dx))];
-      const double share = (dx != 0 ? fx : 1 - fx) * (dy != 0 ? fy : 1 - fy);
-      sum = {sum.r + share * p[0], sum.g + share * p[1], sum.b + share * p[2]};
-    }
-  return sum;
-}
 
 // The surroundings of an eye, columns away from the nose, rows upwards.
 struct Window {
@@ -106,6 +88,7 @@ void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_fr
             const RectifiedPair& pair, double side) {
   w.red.assign(static_cast<std::size_t>(w.columns * w.rows), std::nanf(""));
   w.light.assign(w.red.size(), 0);
+  const PhotoSampler photo(pair.left, pair.width_px, pair.height_px);
   for (int r = 0; r < w.rows; ++r)
     for (int c = 0; c < w.columns; ++c) {
       const double x = side * w.x_mm(c), y = w.y_mm(r), z = relief.at(x, y);
@@ -114,17 +97,17 @@ void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_fr
       const double u = p.x / p.z * pair.focal_px + pair.left_centre_px.x,
                    v = p.y / p.z * pair.focal_px + pair.left_centre_px.y;
       const double apart = kStepMm / 3 * pair.focal_px / p.z;  // of nine places in a sample
-      if (!(u > apart && v > apart && u + apart + 1 < pair.width_px && v + apart + 1 < pair.height_px))
-        continue;
-      Rgb sum;
+      if (u < 0 || v < 0 || u > pair.width_px - 1 || v > pair.height_px - 1) continue;
+      float sum[3] = {0, 0, 0};
       for (const double dv : {-apart, 0.0, apart})
         for (const double du : {-apart, 0.0, apart}) {
-          const Rgb one = colour_at(pair, u + du, v + dv);
-          sum = {sum.r + one.r / 9, sum.g + one.g / 9, sum.b + one.b / 9};
+          float rgb[3];
+          photo.read(static_cast<float>(u + du), static_cast<float>(v + dv), rgb);
+          for (std::size_t i = 0; i < 3; ++i) sum[i] += rgb[i] / 9;
         }
       const std::size_t k = static_cast<std::size_t>(r * w.columns + c);
-      w.light[k] = static_cast<float>(sum.r + sum.g + sum.b);
-      w.red[k] = static_cast<float>((sum.r - sum.b) / (sum.r + sum.g + sum.b + kGreyest));
+      w.light[k] = sum[0] + sum[1] + sum[2];
+      w.red[k] = (sum[0] - sum[2]) / (w.light[k] + kGreyest);
     }
 }
 

@@ -28,7 +28,6 @@ struct Lids {
     if (along <= 0 || along >= 1) return -1;
     return p.y > line ? line + upper * arc - p.y : p.y - line + lower * arc;
   }
-  Vec2d middle() const { return {(inner.x + outer.x) / 2, (inner.y + outer.y + upper - lower) / 2}; }
 };
 
 // The person's right eye, then the left one; none where an eye is closed, hidden, or the picture has no

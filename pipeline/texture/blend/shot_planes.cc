@@ -9,7 +9,7 @@
 
 #include "pipeline/mesh/vector_math.h"
 #include "pipeline/texture/chart/box_window.h"
-#include "pipeline/texture/blend/photo_sampler.h"
+#include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {

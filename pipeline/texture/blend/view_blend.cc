@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/texture/chart/box_window.h"
-#include "pipeline/texture/blend/photo_sampler.h"
+#include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 
