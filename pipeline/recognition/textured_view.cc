@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "pipeline/model/recognition_images.h"
 #include "pipeline/model/photo_sampler.h"
+#include "pipeline/model/recognition_images.h"
 #include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {

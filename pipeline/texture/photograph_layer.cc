@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/texture/colour_fill.h"
 #include "pipeline/model/photo_sampler.h"
-#include "pipeline/texture/chart/side_charts.h"
 #include "pipeline/texture/blend/view_blend.h"
+#include "pipeline/texture/chart/side_charts.h"
+#include "pipeline/texture/colour_fill.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "pipeline/mesh/vector_math.h"
-#include "pipeline/texture/chart/box_window.h"
 #include "pipeline/model/photo_sampler.h"
+#include "pipeline/texture/chart/box_window.h"
 
 namespace relievo::pipeline {
 namespace {

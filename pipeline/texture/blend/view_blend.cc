@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/texture/chart/box_window.h"
 #include "pipeline/model/photo_sampler.h"
+#include "pipeline/texture/chart/box_window.h"
 
 namespace relievo::pipeline {
 
