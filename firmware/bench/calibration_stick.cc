@@ -22,14 +22,21 @@ constexpr const char *kRig = "rig.yml", *kLeft = "left.yaml", *kRight = "right.y
 Result<void> read_back(const fs::path& file, const std::string& written) {
   const auto read = hal::read_whole_file(file, pipeline::kMaxCalibrationFileBytes);
   if (!read) return read.error();
-  const bool same = read->size() == written.size() && std::equal(read->begin(), read->end(), written.begin(), [](auto a, char b) { return static_cast<char>(a) == b; });
-  if (!same) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"}.at(file.filename().string());
+  const bool same =
+      read->size() == written.size() && std::equal(read->begin(), read->end(), written.begin(),
+                                                   [](auto a, char b) { return static_cast<char>(a) == b; });
+  if (!same)
+    return Error{Errc::IoFailed,
+                 "what was read back from the stick is not what was written: use another stick"}
+        .at(file.filename().string());
   return {};
 }
 
-Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target, hal::RemovableMedia& media) {
+Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target,
+                   hal::RemovableMedia& media) {
   RELIEVO_TRY_ASSIGN(const auto ros, pipeline::camera_info_texts(calibration));
-  const std::pair<const char*, std::string> files[] = {{kRig, pipeline::calibration_text(calibration)}, {kLeft, ros.left}, {kRight, ros.right}};
+  const std::pair<const char*, std::string> files[] = {
+      {kRig, pipeline::calibration_text(calibration)}, {kLeft, ros.left}, {kRight, ros.right}};
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   for (const auto& [name, text] : files) RELIEVO_TRY(write_text(folder.path() / name, text, target));
   RELIEVO_TRY(media.settle(folder.path()));
@@ -41,7 +48,8 @@ Result<void> write(const pipeline::StereoCalibration& calibration, const fs::pat
 std::vector<fs::path> places(const fs::path& root) {
   std::vector<fs::path> folders;
   std::error_code error;
-  for (fs::directory_iterator entry(root / kCalibrationsFolder, error), end; !error && entry != end; entry.increment(error))
+  for (fs::directory_iterator entry(root / kCalibrationsFolder, error), end; !error && entry != end;
+       entry.increment(error))
     if (!entry->path().filename().string().starts_with('.')) folders.push_back(entry->path());
   std::sort(folders.rbegin(), folders.rend());
   folders.insert(folders.begin(), root);
@@ -50,7 +58,8 @@ std::vector<fs::path> places(const fs::path& root) {
 
 }  // namespace
 
-Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name, hal::RemovableMedia& media) {
+Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name,
+                                hal::RemovableMedia& media) {
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
   const fs::path target = medium->root / kCalibrationsFolder / name;
@@ -58,7 +67,8 @@ Result<void> export_calibration(const pipeline::StereoCalibration& calibration, 
   const Result<void> written = write(calibration, target, media);
   // Whatever failed: a stick that is gone is the reason.
   std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error))) return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+  if (!media.current() || (written && !fs::exists(target, error)))
+    return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
   RELIEVO_TRY(written);
   return media.flush_and_eject();
 }
@@ -75,7 +85,8 @@ Result<StickCalibration> import_calibration(hal::RemovableMedia& media) {
       if (!read) return read.error();
       return StickCalibration{*read, file};
     }
-  return Error{Errc::NotFound, "no calibration is on the stick: put rig.yml, or left.yaml and right.yaml, at its top"};
+  return Error{Errc::NotFound,
+               "no calibration is on the stick: put rig.yml, or left.yaml and right.yaml, at its top"};
 }
 
 }  // namespace relievo::firmware

@@ -62,16 +62,6 @@ Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::R
 
 }  // namespace
 
-void clear_half_written(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> left;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (name.starts_with('.') && name.find(".part") != std::string::npos) left.push_back(entry->path());
-  }
-  for (const fs::path& one : left) fs::remove_all(one, error);
-}
-
 CaptureCopy::CaptureCopy(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) : pair_(std::move(as_taken)) {
   pair_.left = copied(frame.left, left_);
   pair_.right = copied(frame.right, right_);
@@ -86,7 +76,7 @@ Result<void> record_capture(const hal::RecordedPair& pair, const std::string& na
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
   const fs::path target = medium->root / kCapturesFolder / name;
-  clear_half_written(target.parent_path());
+  tidy_folder(target.parent_path());
   const Result<void> written = write(pair, target, media, control, trace);
   // Whatever failed: a stick that is gone is the reason.
   std::error_code error;

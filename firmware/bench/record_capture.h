@@ -9,7 +9,6 @@
 // (outcome_of_export() says what it means).
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,9 +36,6 @@ class CaptureCopy {
 };
 
 inline constexpr const char* kCapturesFolder = "captures";  // on the stick
-
-// What a stick that was pulled out has left in this folder.
-void clear_half_written(const std::filesystem::path& folder);
 
 Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
 

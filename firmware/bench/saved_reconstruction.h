@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reconstructions as documents (storage/document) on a stick: reconstructions/NAME.relievo, each whole or not there. What
-// was written is read back and compared before it gets its name; then the stick is let go.
-// Thread: keeper; between two pieces it looks whether it is to stop. Errors: MediaMissing (no stick), MediaFull,
-// Disconnected (pulled out meanwhile), Cancelled, IoFailed (outcome_of_export() says what it means), NotFound; the document's.
+// Reconstructions as documents (storage/document) on a stick: reconstructions/NAME.relievo, each whole or not
+// there. What was written is read back and compared before it gets its name; then the stick is let go.
+// Thread: keeper; between two pieces it looks whether it is to stop. Errors: MediaMissing (no stick),
+// MediaFull, Disconnected (pulled out meanwhile), Cancelled, IoFailed (outcome_of_export() says what it
+// means), NotFound; the document's.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +36,11 @@ class SavedBytes {
 inline constexpr const char* kSavedFolder = "reconstructions";  // on the stick
 inline constexpr const char* kSavedEnding = ".relievo";
 
-Result<void> save_reconstruction(const SavedBytes& document, const std::string& name, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
+Result<void> save_reconstruction(const SavedBytes& document, const std::string& name,
+                                 hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
 // Their file names, the newest first, so many at most.
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most);
-Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media, JobControl& control);
+Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
+                                                     JobControl& control);
 
 }  // namespace relievo::firmware

@@ -34,7 +34,8 @@ bool say_options(const Options& all, std::string_view section, Console& console)
   bool any = false;
   for (const auto& option : all) {
     if (is_kind(option) || option.key.substr(0, option.key.find('.')) != section) continue;
-    console.say("  " + padded(option.key + " = " + option.value, 36) + padded(range_of(option), 18) + option.sentence);
+    console.say("  " + padded(option.key + " = " + option.value, 36) + padded(range_of(option), 18) +
+                option.sentence);
     any = true;
   }
   return any;
@@ -45,7 +46,8 @@ bool say_algorithms(const Options& all, std::string_view name, Console& console)
   for (const auto& kind : all)
     for (const auto& algorithm : kind.algorithms) {
       if (algorithm.name != name) continue;
-      console.say(kind.key + " = " + algorithm.name + (kind.value == name ? " (the default)" : "") + ": " + algorithm.sentence);
+      console.say(kind.key + " = " + algorithm.name + (kind.value == name ? " (the default)" : "") + ": " +
+                  algorithm.sentence);
       console.say("  source: " + std::string(algorithm.source));
       any = true;
     }
@@ -53,7 +55,8 @@ bool say_algorithms(const Options& all, std::string_view name, Console& console)
 }
 
 bool say_kind(const Options& all, std::string_view key, Console& console) {
-  const auto kind = std::find_if(all.begin(), all.end(), [key](const auto& option) { return is_kind(option) && option.key == key; });
+  const auto kind = std::find_if(all.begin(), all.end(),
+                                 [key](const auto& option) { return is_kind(option) && option.key == key; });
   if (kind == all.end()) return false;
   console.say(kind->key + ": " + kind->sentence + "; default " + kind->value);
   for (const auto& algorithm : kind->algorithms)
@@ -64,7 +67,9 @@ bool say_kind(const Options& all, std::string_view key, Console& console) {
 void say_overview(const Options& all, Console& console) {
   for (const auto& option : all)
     if (say_kind(all, option.key, console)) console.say("");
-  console.say("Choose with --set KIND=NAME, set with --set NAME.OPTION=VALUE; 'relievo algorithms NAME' lists a NAME's options,");
+  console.say(
+      "Choose with --set KIND=NAME, set with --set NAME.OPTION=VALUE; 'relievo algorithms NAME' lists a "
+      "NAME's options,");
   console.say("'relievo algorithms face' those of the part of the surface that is kept, whatever is chosen.");
 }
 

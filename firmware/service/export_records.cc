@@ -131,7 +131,7 @@ Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, c
   trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  tidy_folder(medium->root / "relievo");
+  tidy_folder(medium->root / "relievo", is_receipt);
   Export work(store, media, control, trace);
   const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {

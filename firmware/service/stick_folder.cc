@@ -6,7 +6,6 @@
 #include <system_error>
 #include <vector>
 
-#include "firmware/kiosk/receipt.h"
 #include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
@@ -18,13 +17,10 @@ constexpr const char* kBefore = ".before";
 
 fs::path before(const fs::path& target) { return target.parent_path() / ("." + target.filename().string() + kBefore); }
 
-// The code in ".CODE.part123" or ".CODE.before"; empty where it is somebody else's file.
-std::string code_in(const std::string& name) {
-  const std::size_t end = name.find('.', 1);
-  if (!name.starts_with('.') || end == std::string::npos) return {};
-  const std::string_view rest = std::string_view(name).substr(end);
-  const std::string code = name.substr(1, end - 1);
-  return (rest.starts_with(".part") || rest == kBefore) && is_receipt(code) ? code : std::string();
+// The name in ".NAME.part123" or ".NAME.before"; empty in any other.
+std::string name_in(const std::string& entry) {
+  const std::size_t end = entry.ends_with(kBefore) ? entry.size() - std::string_view(kBefore).size() : entry.rfind(".part");
+  return entry.starts_with('.') && end != std::string::npos && end > 1 ? entry.substr(1, end - 1) : std::string();
 }
 
 }  // namespace
@@ -45,13 +41,15 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   return {};
 }
 
-void tidy_folder(const fs::path& folder) {
+void tidy_folder(const fs::path& folder, bool (*ours)(std::string_view name)) {
   std::error_code error;
   std::vector<fs::path> left;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (!code_in(entry->path().filename().string()).empty()) left.push_back(entry->path());
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = name_in(entry->path().filename().string());
+    if (!name.empty() && ours(name)) left.push_back(entry->path());
+  }
   for (const fs::path& one : left) {
-    const fs::path target = folder / code_in(one.filename().string());
+    const fs::path target = folder / name_in(one.filename().string());
     if (one.filename().string().ends_with(kBefore) && !fs::exists(target, error)) fs::rename(one, target, error);
     else fs::remove_all(one, error);
   }

@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture};
 
-std::size_t done(const Products& made) { return made.model ? 4 : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0; }
+std::size_t done(const Products& made) {
+  return made.model ? 4 : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0;
+}
 
 template <typename Product>
 const Product* pointer(const std::optional<Product>& product) {
@@ -43,12 +45,14 @@ Result<void> load_stage(const storage::Document& document, State stage, Enrolmen
 
 Result<std::vector<std::byte>> make_document(const Products& products, const Making& making) {
   RELIEVO_ASSERT(products.frame.has_value());
-  storage::DocumentHead head{std::string(kVersion), making.set.to_text(), making.whole_view, making.calibration, products.frame->skew_ns, {}};
+  storage::DocumentHead head{std::string(kVersion), making.set.to_text(),    making.whole_view,
+                             making.calibration,    products.frame->skew_ns, {}};
   for (std::size_t i = 0; i < std::min(done(products), making.records.size()); ++i) {
     const StageRecord& record = making.records[i];
     head.stages.push_back({record.took, record.in, record.out, record.arena_peak_bytes});
   }
-  return storage::make_document({head, *products.frame, pointer(products.pair), pointer(products.matches), pointer(products.cloud), pointer(products.mesh), pointer(products.model)});
+  return storage::make_document({head, *products.frame, pointer(products.pair), pointer(products.matches),
+                                 pointer(products.cloud), pointer(products.mesh), pointer(products.model)});
 }
 
 Result<Making> making_of(const storage::Document& document) {
@@ -57,13 +61,17 @@ Result<Making> making_of(const storage::Document& document) {
   RELIEVO_TRY_ASSIGN(making.set, pipeline::AlgorithmSet::from_text(head.algorithms));
   for (std::size_t i = 0; i < head.stages.size(); ++i) {
     const storage::DocumentStage& stage = head.stages[i];
-    making.records.push_back({name_of(kStages.at(i)), stage.took, stage.in, stage.out, stage.arena_peak_bytes});
+    making.records.push_back(
+        {name_of(kStages.at(i)), stage.took, stage.in, stage.out, stage.arena_peak_bytes});
   }
   return making;
 }
 
-Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session, JobControl& control) {
-  const std::size_t stages = std::min(document.head().stages.size(), static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match));
+Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session,
+                            JobControl& control) {
+  const std::size_t stages =
+      std::min(document.head().stages.size(),
+               static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match));
   try {
     for (std::size_t i = 0; i < stages; ++i) {
       if (control.cancelled.load()) return Error{Errc::Cancelled, "the reading was stopped"};
@@ -76,7 +84,7 @@ Result<State> load_products(const storage::Document& document, State first, Enro
   const State left = stages == kStages.size() ? State::Review : kStages.at(stages);
   if (left == State::Review) return left;
   session.begins(left);
-  session.rework(left);   // of a model only its mesh is wanted
+  session.rework(left);  // of a model only its mesh is wanted
   return left;
 }
 

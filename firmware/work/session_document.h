@@ -20,14 +20,15 @@ struct Making {
   pipeline::AlgorithmSet set;
   bool whole_view = false;
   pipeline::StereoCalibration calibration;
-  std::vector<StageRecord> records;   // of the stages that are done
+  std::vector<StageRecord> records;  // of the stages that are done
 };
 
 Result<std::vector<std::byte>> make_document(const Products& products, const Making& making);
 // Errors: also AlgorithmSet::from_text()'s.
 Result<Making> making_of(const storage::Document& document);
-// The products of the stages before `first`, as far as the document has them, into an open session without any.
-// Gives the first stage that is left to do; Review: none is.
-Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session, JobControl& control);
+// The products of the stages before `first`, as far as the document has them, into an open session without
+// any. Gives the first stage that is left to do; Review: none is.
+Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session,
+                            JobControl& control);
 
 }  // namespace relievo::firmware

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A reconstruction as a document: pictures, calibration, algorithms, and what each stage made of them, in one SQLite
-// database (application_id "RLVO", user_version its form, table `part`), each part under SHA-256. It is made and
-// read in memory: whoever has the bytes writes them to a file whole. It holds a person's face, unencrypted.
+// A reconstruction as a document: pictures, calibration, algorithms, and what each stage made of them, in one
+// SQLite database (application_id "RLVO", user_version its form, table `part`), each part under SHA-256. It
+// is made and read in memory: whoever has the bytes writes them to a file whole. It holds a person's face,
+// unencrypted.
 //
-// Errors: InvalidInput (no such document), StoreNewer (of a newer form), StoreCorrupt (cut, changed), OutOfMemory.
-// Thread: any, one at a time.
+// Errors: InvalidInput (no such document), StoreNewer (of a newer form), StoreCorrupt (cut, changed),
+// OutOfMemory. Thread: any, one at a time.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@
 
 namespace relievo::storage {
 
-inline constexpr std::size_t kDocumentStages = 4;              // match, reconstruct, mesh, texture
+inline constexpr std::size_t kDocumentStages = 4;  // match, reconstruct, mesh, texture
 inline constexpr std::size_t kMaxDocumentBytes = std::size_t{800} << 20;
 
 // What a stage took and made.
@@ -43,15 +44,16 @@ struct DocumentStage {
 
 // What is not the product of a stage.
 struct DocumentHead {
-  std::string version;                 // of Relievo, that made it
-  std::string algorithms;              // "key = value" a line
-  bool whole_view = false;             // else the face
+  std::string version;      // of Relievo, that made it
+  std::string algorithms;   // "key = value" a line
+  bool whole_view = false;  // else the face
   pipeline::StereoCalibration calibration;
-  std::int64_t skew_ns = 0;            // as in StereoFrame
-  std::vector<DocumentStage> stages;   // those that are done, in their order; kDocumentStages at most
+  std::int64_t skew_ns = 0;           // as in StereoFrame
+  std::vector<DocumentStage> stages;  // those that are done, in their order; kDocumentStages at most
 };
 
-// What is saved; borrowed. The products of the stages that head names are there: a mesh only while it is in no model.
+// What is saved; borrowed. The products of the stages that head names are there: a mesh only while it is in
+// no model.
 struct DocumentParts {
   const DocumentHead& head;
   pipeline::StereoFrame frame;
@@ -78,8 +80,10 @@ class Document {
   };
   Result<Picture> picture(bool left) const;
   Result<pipeline::RectifiedPair> pair(std::pmr::memory_resource* memory) const;
-  Result<pipeline::MatchSet> matches(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const;
-  Result<pipeline::PointCloud> cloud(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const;
+  Result<pipeline::MatchSet> matches(const pipeline::RectifiedPair& of,
+                                     std::pmr::memory_resource* memory) const;
+  Result<pipeline::PointCloud> cloud(const pipeline::RectifiedPair& of,
+                                     std::pmr::memory_resource* memory) const;
   Result<pipeline::FaceMesh> mesh(std::pmr::memory_resource* memory) const;
   Result<pipeline::FaceModel> model(std::pmr::memory_resource* memory) const;
 

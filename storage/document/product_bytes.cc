@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each product has one walk over its fields, taken by a packer to write and by an unpacker to read: they cannot differ.
+// Each product has one walk over its fields, taken by a packer to write and by an unpacker to read: they
+// cannot differ.
 #include "storage/document/product_bytes.h"
 
 #include <algorithm>
@@ -21,7 +22,9 @@ constexpr int kMaxSidePx = 16'384;
 class Packer {
  public:
   template <Number T>
-  void number(const T& value) { to_.put(value); }
+  void number(const T& value) {
+    to_.put(value);
+  }
   template <typename Element, typename Items>
   void run(const Items& items) {
     to_.put(static_cast<std::uint64_t>(items.size()));
@@ -44,7 +47,9 @@ class Unpacker {
  public:
   explicit Unpacker(std::span<const std::byte> bytes) : from_(bytes) {}
   template <Number T>
-  void number(T& value) { value = from_.get<T>(); }
+  void number(T& value) {
+    value = from_.get<T>();
+  }
   template <typename Element, typename Items>
   void run(Items& items) {
     if (make_room(items, sizeof(typename Items::value_type))) from_.get_run<Element>(std::span(items));
@@ -88,8 +93,9 @@ void walk_view(Io& io, View& view) {
 template <typename Io, typename Pair>
 void walk_pair(Io& io, Pair& pair) {
   io.number(pair.width_px), io.number(pair.height_px);
-  for (auto* v : {&pair.focal_px, &pair.baseline_mm, &pair.left_centre_px.x, &pair.left_centre_px.y, &pair.right_centre_px.x, &pair.right_centre_px.y,
-                  &pair.near_mm, &pair.far_mm, &pair.face_centre_px.x, &pair.face_centre_px.y, &pair.face_width_px, &pair.face_reach_mm})
+  for (auto* v : {&pair.focal_px, &pair.baseline_mm, &pair.left_centre_px.x, &pair.left_centre_px.y,
+                  &pair.right_centre_px.x, &pair.right_centre_px.y, &pair.near_mm, &pair.far_mm,
+                  &pair.face_centre_px.x, &pair.face_centre_px.y, &pair.face_width_px, &pair.face_reach_mm})
     io.number(*v);
   for (auto* rotation : {&pair.rectified_from_left, &pair.rectified_from_right})
     for (auto& v : rotation->m) io.number(v);
@@ -102,13 +108,15 @@ void walk_pair(Io& io, Pair& pair) {
 template <typename Io, typename Set>
 void walk_matches(Io& io, Set& set) {
   auto& shift = set.epipolar_shift;
-  for (auto* v : {&shift.offset_px, &shift.slope_x, &shift.slope_y, &shift.middle_x_px, &shift.middle_y_px, &shift.spread_x_px, &shift.spread_y_px,
-                  &shift.correlation, &shift.residual_px, &shift.sigma_px, &set.motion_px})
+  for (auto* v : {&shift.offset_px, &shift.slope_x, &shift.slope_y, &shift.middle_x_px, &shift.middle_y_px,
+                  &shift.spread_x_px, &shift.spread_y_px, &shift.correlation, &shift.residual_px,
+                  &shift.sigma_px, &set.motion_px})
     io.number(*v);
   for (auto& v : shift.covariance_px2) io.number(v);
   io.number(set.lattice_step_px);
   io.each(set.matches, [](Io& one, auto& match) {
-    for (auto* v : {&match.left_px.x, &match.left_px.y, &match.disparity_px, &match.cost, &match.sigma_px}) one.number(*v);
+    for (auto* v : {&match.left_px.x, &match.left_px.y, &match.disparity_px, &match.cost, &match.sigma_px})
+      one.number(*v);
     one.number(match.rejected_by);
   });
 }
@@ -138,14 +146,18 @@ void walk_backdrop(Io& io, Drop& backdrop) {
 
 bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 bool within(const Vec2f& p, const RectifiedPair& pair) {
-  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(pair.width_px - 1) && p.y <= static_cast<float>(pair.height_px - 1);
+  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(pair.width_px - 1) &&
+         p.y <= static_cast<float>(pair.height_px - 1);
 }
 bool is_side(int px) { return px > 0 && px <= kMaxSidePx; }
 
 bool fits(const RectifiedPair& pair) {
   if (!is_side(pair.width_px) || !is_side(pair.height_px)) return false;
-  const std::size_t pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
-  const auto whole = [pixels](const RectifiedView& view) { return view.grey.size() == pixels && view.rgb.size() == 3 * pixels && view.valid.size() == pixels; };
+  const std::size_t pixels =
+      static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const auto whole = [pixels](const RectifiedView& view) {
+    return view.grey.size() == pixels && view.rgb.size() == 3 * pixels && view.valid.size() == pixels;
+  };
   return whole(pair.left) && whole(pair.right) && (pair.region.empty() || pair.region.size() == pixels);
 }
 
@@ -156,19 +168,24 @@ bool fits(const MatchSet& set, const RectifiedPair& pair) {
 
 bool fits(const PointCloud& cloud, const RectifiedPair& pair) {
   return cloud.lattice_step_px >= 0 && cloud.lattice_step_px <= kMaxSidePx &&
-         std::ranges::all_of(cloud.points, [&](const CloudPoint& p) { return finite(p.at_mm) && within(p.left_px, pair); });
+         std::ranges::all_of(cloud.points,
+                             [&](const CloudPoint& p) { return finite(p.at_mm) && within(p.left_px, pair); });
 }
 
 bool fits(const FaceMesh& mesh) {
   const std::size_t v = mesh.vertices_mm.size();
   const auto there = [v](std::size_t size) { return size == v; };
-  return there(mesh.normals.size()) && there(mesh.sigma_mm.size()) && there(mesh.measured.size()) && std::ranges::all_of(mesh.vertices_mm, finite) &&
+  return there(mesh.normals.size()) && there(mesh.sigma_mm.size()) && there(mesh.measured.size()) &&
+         std::ranges::all_of(mesh.vertices_mm, finite) &&
          std::ranges::all_of(mesh.triangles, [v](const auto& t) { return t[0] < v && t[1] < v && t[2] < v; });
 }
 
 bool fits(const Backdrop& backdrop) {
-  if (backdrop.columns < 0 || backdrop.rows < 0 || backdrop.columns > kMaxSidePx || backdrop.rows > kMaxSidePx) return false;
-  const std::size_t size = static_cast<std::size_t>(backdrop.columns) * static_cast<std::size_t>(backdrop.rows);
+  if (backdrop.columns < 0 || backdrop.rows < 0 || backdrop.columns > kMaxSidePx ||
+      backdrop.rows > kMaxSidePx)
+    return false;
+  const std::size_t size =
+      static_cast<std::size_t>(backdrop.columns) * static_cast<std::size_t>(backdrop.rows);
   return backdrop.at_mm.size() == size && backdrop.rgba.size() == size;
 }
 
@@ -179,7 +196,8 @@ constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
 }  // namespace
 
 std::vector<std::byte> picture_bytes(const ImageView& picture) {
-  const auto row_bytes = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(bytes_per_pixel(picture.format));
+  const auto row_bytes =
+      static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(bytes_per_pixel(picture.format));
   std::vector<std::byte> bytes;
   bytes.reserve(kPictureHeadBytes + row_bytes * static_cast<std::size_t>(picture.height_px));
   ByteWriter to(bytes);
@@ -196,11 +214,14 @@ Result<ImageView> picture_from(std::span<const std::byte> bytes) {
   view.width_px = from.get<int>();
   view.height_px = from.get<int>();
   const auto format = from.get<std::uint8_t>();
-  if (!from.ok() || !is_side(view.width_px) || !is_side(view.height_px) || format > static_cast<std::uint8_t>(PixelFormat::Grey16)) return broken();
+  if (!from.ok() || !is_side(view.width_px) || !is_side(view.height_px) ||
+      format > static_cast<std::uint8_t>(PixelFormat::Grey16))
+    return broken();
   view.format = static_cast<PixelFormat>(format);
   view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
   view.bytes = bytes.data() + kPictureHeadBytes;
-  if (from.left() != static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(view.height_px)) return broken();
+  if (from.left() != static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(view.height_px))
+    return broken();
   return view;
 }
 
@@ -245,7 +266,8 @@ Result<RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memo
   return pair;
 }
 
-Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
+                              std::pmr::memory_resource* memory) {
   Unpacker io(bytes);
   MatchSet matches(memory);
   walk_matches(io, matches);
@@ -253,7 +275,8 @@ Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedP
   return matches;
 }
 
-Result<PointCloud> cloud_from(std::span<const std::byte> bytes, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+Result<PointCloud> cloud_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
+                              std::pmr::memory_resource* memory) {
   Unpacker io(bytes);
   PointCloud cloud(memory);
   walk_cloud(io, cloud);

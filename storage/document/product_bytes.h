@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The stages' products as bytes and back, bit for bit: little-endian, arrays behind their length. What comes back
-// hangs together (lengths fit, indices and places lie within), whoever wrote it. A model is model_blob's work.
-// Errors: StoreCorrupt. May throw std::bad_alloc. Thread: any.
+// The stages' products as bytes and back, bit for bit: little-endian, arrays behind their length. What comes
+// back hangs together (lengths fit, indices and places lie within), whoever wrote it. A model is model_blob's
+// work. Errors: StoreCorrupt. May throw std::bad_alloc. Thread: any.
 #pragma once
 
 #include <cstddef>
@@ -30,10 +30,13 @@ std::vector<std::byte> backdrop_bytes(const pipeline::Backdrop& backdrop);
 
 // A view of the bytes.
 Result<ImageView> picture_from(std::span<const std::byte> bytes);
-Result<pipeline::RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory);
+Result<pipeline::RectifiedPair> pair_from(std::span<const std::byte> bytes,
+                                          std::pmr::memory_resource* memory);
 // Of this pair.
-Result<pipeline::MatchSet> matches_from(std::span<const std::byte> bytes, const pipeline::RectifiedPair& pair, std::pmr::memory_resource* memory);
-Result<pipeline::PointCloud> cloud_from(std::span<const std::byte> bytes, const pipeline::RectifiedPair& pair, std::pmr::memory_resource* memory);
+Result<pipeline::MatchSet> matches_from(std::span<const std::byte> bytes, const pipeline::RectifiedPair& pair,
+                                        std::pmr::memory_resource* memory);
+Result<pipeline::PointCloud> cloud_from(std::span<const std::byte> bytes, const pipeline::RectifiedPair& pair,
+                                        std::pmr::memory_resource* memory);
 Result<pipeline::FaceMesh> mesh_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory);
 Result<pipeline::Backdrop> backdrop_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What of a document SQLite sees: a table of named parts. One transaction makes it, in memory of the size it will have.
+// What of a document SQLite sees: a table of named parts. One transaction makes it, in memory of the size it
+// will have.
 #include <string.h>
 
 #include <algorithm>
@@ -24,14 +25,18 @@ constexpr std::uint32_t kForm = 1;
 constexpr std::size_t kHeaderBytes = 100;  // of SQLite's file: its file format, section 1.3
 constexpr const char* kSchema =
     "PRAGMA application_id = 1380734543; PRAGMA user_version = 1;"
-    "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB NOT NULL) STRICT;";
+    "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB "
+    "NOT NULL) STRICT;";
 static_assert(kApplicationId == 1380734543 && kForm == 1);
 
-Error damaged() { return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"}; }
+Error damaged() {
+  return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"};
+}
 
 // All is in memory: but for memory itself, what SQLite finds wrong is wrong with the bytes.
 Error of_bytes(const Error& error) {
-  if (error.code == Errc::OutOfMemory) return {Errc::OutOfMemory, "not enough memory for this saved reconstruction"};
+  if (error.code == Errc::OutOfMemory)
+    return {Errc::OutOfMemory, "not enough memory for this saved reconstruction"};
   return damaged();
 }
 
@@ -96,7 +101,8 @@ Result<DocumentHead> head_from(std::span<const std::byte> bytes) {
   for (std::size_t i = 0; i < stages; ++i) {
     DocumentStage& stage = head.stages.emplace_back();
     stage.took = std::chrono::nanoseconds(from.get<std::int64_t>());
-    for (std::uint64_t* value : {&stage.in, &stage.out, &stage.arena_peak_bytes}) *value = from.get<std::uint64_t>();
+    for (std::uint64_t* value : {&stage.in, &stage.out, &stage.arena_peak_bytes})
+      *value = from.get<std::uint64_t>();
   }
   if (!from.ok() || from.left() != 0) return damaged();
   return head;
@@ -117,7 +123,9 @@ Result<std::vector<std::byte>> bytes_of_part(const DocumentParts& parts, std::st
 
 // At least what all the parts will take, SQLite's own pages with them.
 std::size_t room_for(const DocumentParts& parts) {
-  const auto picture = [](const ImageView& v) { return static_cast<std::size_t>(v.width_px) * static_cast<std::size_t>(v.height_px) * 3; };
+  const auto picture = [](const ImageView& v) {
+    return static_cast<std::size_t>(v.width_px) * static_cast<std::size_t>(v.height_px) * 3;
+  };
   std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size();
   if (parts.pair != nullptr) bytes += parts.pair->left.grey.size() * 17;
   if (parts.matches != nullptr) bytes += parts.matches->matches.size() * 22;
@@ -126,7 +134,8 @@ std::size_t room_for(const DocumentParts& parts) {
   if (parts.model != nullptr) {
     const pipeline::FaceMesh& mesh = parts.model->mesh;
     const pipeline::TextureAtlas& texture = parts.model->texture;
-    bytes += mesh.vertices_mm.size() * 32 + mesh.triangles.size() * 36 + texture.rgb.size() + texture.origin.size() + parts.model->backdrop.at_mm.size() * 16;
+    bytes += mesh.vertices_mm.size() * 32 + mesh.triangles.size() * 36 + texture.rgb.size() +
+             texture.origin.size() + parts.model->backdrop.at_mm.size() * 16;
   }
   return bytes + bytes / 256 + std::size_t{256} * 1024;
 }
@@ -134,7 +143,10 @@ std::size_t room_for(const DocumentParts& parts) {
 Result<void> put(Database& database, std::string_view name, std::span<const std::byte> data) {
   const Sha256 digest = digest_of(name, data);
   RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO part (name, sha256, data) VALUES (?, ?, ?)"));
-  RELIEVO_TRY(insert.bind(name).bind(std::span<const std::byte>(digest)).bind_zeros(static_cast<std::int64_t>(data.size())).run());
+  RELIEVO_TRY(insert.bind(name)
+                  .bind(std::span<const std::byte>(digest))
+                  .bind_zeros(static_cast<std::int64_t>(data.size()))
+                  .run());
   return database.write_blob("part", "data", database.last_row_id(), data);
 }
 
@@ -142,14 +154,21 @@ Result<void> put(Database& database, std::string_view name, std::span<const std:
 template <typename T>
 T header(std::span<const std::byte> bytes, std::size_t at) {
   T value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) value = static_cast<T>(value << 8 | std::to_integer<unsigned>(bytes[at + i]));
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    value = static_cast<T>(value << 8 | std::to_integer<unsigned>(bytes[at + i]));
   return value;
 }
 
 Result<void> check_header(std::span<const std::byte> bytes) {
-  const bool ours = bytes.size() >= kHeaderBytes && std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic)) && header<std::uint32_t>(bytes, 68) == kApplicationId;
-  if (!ours) return Error{Errc::InvalidInput, "this is no saved reconstruction: choose a file that the technician's page or 'relievo reconstruct --save' has written"};
-  if (header<std::uint32_t>(bytes, 60) > kForm) return Error{Errc::StoreNewer, "this reconstruction was saved by a newer version: update Relievo"};
+  const bool ours = bytes.size() >= kHeaderBytes &&
+                    std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic)) &&
+                    header<std::uint32_t>(bytes, 68) == kApplicationId;
+  if (!ours)
+    return Error{Errc::InvalidInput,
+                 "this is no saved reconstruction: choose a file that the technician's page or 'relievo "
+                 "reconstruct --save' has written"};
+  if (header<std::uint32_t>(bytes, 60) > kForm)
+    return Error{Errc::StoreNewer, "this reconstruction was saved by a newer version: update Relievo"};
   const std::size_t page = header<std::uint16_t>(bytes, 16);
   if (page * header<std::uint32_t>(bytes, 28) != bytes.size()) return damaged();
   return {};
@@ -160,7 +179,8 @@ Result<void> check_header(std::span<const std::byte> bytes) {
 Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
   return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
     std::vector<std::byte> room(room_for(parts));
-    if (room.size() > kMaxDocumentBytes) return Error{Errc::InvalidInput, "this reconstruction is too large to be saved"};
+    if (room.size() > kMaxDocumentBytes)
+      return Error{Errc::InvalidInput, "this reconstruction is too large to be saved"};
     Database database(":memory:");
     RELIEVO_TRY(database.open(true));
     RELIEVO_TRY(database.lie_in(room, 0, true));
@@ -187,7 +207,8 @@ struct Document::Inside {
 
   Result<std::vector<std::byte>> part(std::string_view name) {
     return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
-      RELIEVO_TRY_ASSIGN(auto find, database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?"));
+      RELIEVO_TRY_ASSIGN(auto find,
+                         database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?"));
       RELIEVO_TRY_ASSIGN(const bool there, find.bind(name).step());
       const auto size = there ? static_cast<std::size_t>(find.integer(2)) : 0;
       if (size == 0 || size > kMaxDocumentBytes) return damaged();
@@ -220,13 +241,15 @@ Result<Document> Document::open(std::span<const std::byte> bytes) {
   // Read-only: SQLite asks for bytes it might write to, and does not.
   const std::span<std::byte> room(const_cast<std::byte*>(bytes.data()), bytes.size());
   if (const auto opened = inside.database.open(true); !opened) return of_bytes(opened.error());
-  if (const auto laid = inside.database.lie_in(room, room.size(), false); !laid) return of_bytes(laid.error());
+  if (const auto laid = inside.database.lie_in(room, room.size(), false); !laid)
+    return of_bytes(laid.error());
   RELIEVO_TRY_ASSIGN(document.head_, inside.read("head", head_from));
   RELIEVO_TRY_ASSIGN(const StoredCalibration stored, inside.read("calibration", decode_calibration));
   document.head_.calibration = stored.calibration;
   if (!check_calibration(stored.calibration)) return damaged();
   for (const std::string_view name : names_of(document.head_.stages.size())) {
-    const auto whole = inside.read(name, [](std::span<const std::byte> data) { return Result<std::size_t>(data.size()); });
+    const auto whole =
+        inside.read(name, [](std::span<const std::byte> data) { return Result<std::size_t>(data.size()); });
     if (!whole) return whole.error();
   }
   return document;
@@ -244,12 +267,16 @@ Result<pipeline::RectifiedPair> Document::pair(std::pmr::memory_resource* memory
   return inside_->read("pair", [memory](std::span<const std::byte> data) { return pair_from(data, memory); });
 }
 
-Result<pipeline::MatchSet> Document::matches(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const {
-  return inside_->read("matches", [memory, &of](std::span<const std::byte> data) { return matches_from(data, of, memory); });
+Result<pipeline::MatchSet> Document::matches(const pipeline::RectifiedPair& of,
+                                             std::pmr::memory_resource* memory) const {
+  return inside_->read(
+      "matches", [memory, &of](std::span<const std::byte> data) { return matches_from(data, of, memory); });
 }
 
-Result<pipeline::PointCloud> Document::cloud(const pipeline::RectifiedPair& of, std::pmr::memory_resource* memory) const {
-  return inside_->read("cloud", [memory, &of](std::span<const std::byte> data) { return cloud_from(data, of, memory); });
+Result<pipeline::PointCloud> Document::cloud(const pipeline::RectifiedPair& of,
+                                             std::pmr::memory_resource* memory) const {
+  return inside_->read(
+      "cloud", [memory, &of](std::span<const std::byte> data) { return cloud_from(data, of, memory); });
 }
 
 Result<pipeline::FaceMesh> Document::mesh(std::pmr::memory_resource* memory) const {
@@ -257,8 +284,13 @@ Result<pipeline::FaceMesh> Document::mesh(std::pmr::memory_resource* memory) con
 }
 
 Result<pipeline::FaceModel> Document::model(std::pmr::memory_resource* memory) const {
-  RELIEVO_TRY_ASSIGN(pipeline::FaceModel model, inside_->read("model", [memory](std::span<const std::byte> data) { return decode_model(data, memory); }));
-  RELIEVO_TRY_ASSIGN(model.backdrop, inside_->read("backdrop", [memory](std::span<const std::byte> data) { return backdrop_from(data, memory); }));
+  RELIEVO_TRY_ASSIGN(pipeline::FaceModel model,
+                     inside_->read("model", [memory](std::span<const std::byte> data) {
+                       return decode_model(data, memory);
+                     }));
+  RELIEVO_TRY_ASSIGN(model.backdrop, inside_->read("backdrop", [memory](std::span<const std::byte> data) {
+    return backdrop_from(data, memory);
+  }));
   return model;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A reconstruction saved, loaded and calculated again from every stage: the same files, byte for byte. What is no
-// whole document is refused, and a full disk keeps no half of one.
+// A reconstruction saved, loaded and calculated again from every stage: the same files, byte for byte. What
+// is no whole document is refused, and a full disk keeps no half of one.
 #include <filesystem>
 #include <fstream>
 
@@ -17,7 +17,8 @@ class SavedReconstruction : public RelievoProcess {
  protected:
   // Everything but report.json, which has times.
   void expect_same_model(const std::string& a, const std::string& b) {
-    for (const char* name : {"model.ply", "model.obj", "model.png", "model.stl", "model.glb", "model_origin.png", "portrait.png", "range.png", "recognition.json"})
+    for (const char* name : {"model.ply", "model.obj", "model.png", "model.stl", "model.glb",
+                             "model_origin.png", "portrait.png", "range.png", "recognition.json"})
       EXPECT_EQ(read_text(here / (a + "/" + name)), read_text(here / (b + "/" + name))) << b << "/" << name;
   }
   void flip(const std::string& name, std::streamoff at) {
@@ -31,13 +32,17 @@ class SavedReconstruction : public RelievoProcess {
 
 TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
   done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
-  const std::vector<std::string> first{"reconstruct", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "--set", "texturer=single-view", "-o", "first"};
+  const std::vector<std::string> first{
+      "reconstruct",  "face/left.png", "face/right.png",       "--calibration",
+      "face/rig.yml", "--set",         "texturer=single-view", "-o",
+      "first"};
   auto saving = first;
   saving.insert(saving.end(), {"--save", "face.relievo"});
   EXPECT_NE(done(saving).out.find("saved, with the person's face: face.relievo"), std::string::npos);
   fs::remove_all(here / "face");  // it needs nothing beside it
 
-  const std::string loaded = done({"reconstruct", "--load", "face.relievo", "--save", "again.relievo", "-o", "loaded"}).out;
+  const std::string loaded =
+      done({"reconstruct", "--load", "face.relievo", "--save", "again.relievo", "-o", "loaded"}).out;
   EXPECT_NE(loaded.find("(as saved)"), std::string::npos) << loaded;
   expect_same_model("first", "loaded");
   EXPECT_EQ(read_text(here / "again.relievo"), read_text(here / "face.relievo"));
@@ -47,14 +52,19 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
   }
 
   // Other settings: what they have no part in is as it was saved.
-  const std::string mesh = done({"reconstruct", "--load", "face.relievo", "--set", "grid.max_triangles=9000", "-o", "coarse"}).out;
+  const std::string mesh =
+      done({"reconstruct", "--load", "face.relievo", "--set", "grid.max_triangles=9000", "-o", "coarse"}).out;
   EXPECT_NE(mesh.find("Reconstruct"), std::string::npos);
   EXPECT_LT(fs::file_size(here / "coarse/model.ply"), fs::file_size(here / "first/model.ply"));
-  refused({"reconstruct", "--load", "face.relievo", "--set", "matcher=zmncc", "--from", "mesh", "-o", "none"}, "--from mesh", "before this one");
-  EXPECT_EQ(relievo({"reconstruct", "--load", "face.relievo", "left.png", "right.png", "-o", "none"}).exit_code, 2);
+  refused({"reconstruct", "--load", "face.relievo", "--set", "matcher=zmncc", "--from", "mesh", "-o", "none"},
+          "--from mesh", "before this one");
+  EXPECT_EQ(
+      relievo({"reconstruct", "--load", "face.relievo", "left.png", "right.png", "-o", "none"}).exit_code, 2);
   EXPECT_EQ(relievo({"reconstruct", "--from", "mesh", "-o", "none"}).exit_code, 2);
 
-  const auto load = [](const std::string& name) { return std::vector<std::string>{"reconstruct", "--load", name, "-o", "none"}; };
+  const auto load = [](const std::string& name) {
+    return std::vector<std::string>{"reconstruct", "--load", name, "-o", "none"};
+  };
   fs::copy(here / "face.relievo", here / "cut.relievo");
   fs::resize_file(here / "cut.relievo", fs::file_size(here / "cut.relievo") / 2);
   refused(load("cut.relievo"), "cut.relievo", "damaged");
@@ -69,7 +79,9 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
 
   const TinyDisk disk(200'000);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
-  refused({"reconstruct", "--load", "face.relievo", "-o", "none", "--save", (disk.path() / "full.relievo").string()}, "full.relievo", "full");
+  refused({"reconstruct", "--load", "face.relievo", "-o", "none", "--save",
+           (disk.path() / "full.relievo").string()},
+          "full.relievo", "full");
   EXPECT_EQ(listing(disk.path()), "");
   EXPECT_FALSE(fs::exists(here / "none"));
 }

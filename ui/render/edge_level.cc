@@ -18,7 +18,9 @@ float distance(const Vec3f& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.
 
 // Vertices of which no two are nearer to each other than `least_mm`, and none of the others farther from all.
 std::vector<std::uint32_t> spaced(const pipeline::FaceMesh& mesh, float least_mm) {
-  const auto cell = [least_mm](float v) { return static_cast<std::int64_t>(std::floor(v / least_mm)) + (1 << 20); };
+  const auto cell = [least_mm](float v) {
+    return static_cast<std::int64_t>(std::floor(v / least_mm)) + (1 << 20);
+  };
   const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) { return (x << 42) | (y << 21) | z; };
   std::unordered_multimap<std::int64_t, std::uint32_t> held;
   std::vector<std::uint32_t> chosen;
@@ -26,7 +28,10 @@ std::vector<std::uint32_t> spaced(const pipeline::FaceMesh& mesh, float least_mm
     const std::int64_t x = cell(at.x), y = cell(at.y), z = cell(at.z);
     for (std::int64_t k = 0; k < 27; ++k) {
       const auto [from, to] = held.equal_range(key(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
-      if (std::any_of(from, to, [&](const auto& entry) { return distance(mesh.vertices_mm[entry.second], at) < least_mm; })) return true;
+      if (std::any_of(from, to, [&](const auto& entry) {
+            return distance(mesh.vertices_mm[entry.second], at) < least_mm;
+          }))
+        return true;
     }
     return false;
   };
@@ -93,7 +98,8 @@ Edges edges_of(const pipeline::FaceMesh& mesh, float least_mm) {
   for (const auto& t : mesh.triangles) {
     const std::uint32_t a = owner[t[0]], b = owner[t[1]], c = owner[t[2]];
     if (a == b || b == c || c == a) continue;
-    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}}) edges.push_back({std::min(p, q), std::max(p, q)});
+    for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}})
+      edges.push_back({std::min(p, q), std::max(p, q)});
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sides of a mesh's triangles, no finer than can be told apart: vertices about `least_mm` apart stand for those
-// around them, and two are joined where their surroundings meet three by three (the dual of the Voronoi cells on the
-// mesh). A mesh that is as coarse already keeps its own sides.
-// Thread: any. Memory: the heap, in proportion to the mesh. Errors: none.
+// The sides of a mesh's triangles, no finer than can be told apart: vertices about `least_mm` apart stand for
+// those around them, and two are joined where their surroundings meet three by three (the dual of the Voronoi
+// cells on the mesh). A mesh that is as coarse already keeps its own sides. Thread: any. Memory: the heap, in
+// proportion to the mesh. Errors: none.
 #pragma once
 
 #include <array>

@@ -16,8 +16,8 @@ namespace {
 constexpr double kPupilMm = 31.5, kUpMm = 35;
 constexpr double kHalfWidthMm = 24, kHalfHeightMm = 23;
 constexpr double kStepMm = 0.5, kReliefMm = 1, kSmoothMm = 2;
-constexpr double kNoise = 3;     // mean absolute deviations of skin
-constexpr double kShare = 0.5;   // of what the least red two per cent differ by
+constexpr double kNoise = 3;    // mean absolute deviations of skin
+constexpr double kShare = 0.5;  // of what the least red two per cent differ by
 constexpr float kGreyest = 30;  // added to the sum of the channels: what is dark has no colour
 constexpr double kLeastChroma = 0.01;
 // What eyes are like: half the width between corners, its middle from where pupils are, both lids' heights;

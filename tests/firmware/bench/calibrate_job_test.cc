@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Who reads the newest pair of a live calibration while the next one is being drawn sees left and right of one instant.
+// Who reads the newest pair of a live calibration while the next one is being drawn sees left and right of
+// one instant.
 #include "firmware/bench/calibrate_job.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,10 @@ TEST(CalibrateJob, LeftAndRightAreOfTheSameInstantWheneverTheyAreRead) {
   EnrolmentSession session(memory);
   StereoGrabber grabber(*board);
   ThreadPool pool(1);
-  CalibrateJob job(grabber, session, *board, pool, [](const BoardArgs&) -> Result<std::unique_ptr<LivePairs>> { return std::unique_ptr<LivePairs>(std::make_unique<GreyPairs>()); });
+  CalibrateJob job(grabber, session, *board, pool,
+                   [](const BoardArgs&) -> Result<std::unique_ptr<LivePairs>> {
+                     return std::unique_ptr<LivePairs>(std::make_unique<GreyPairs>());
+                   });
   job.order({{10, 7, 20}, std::nullopt});
   std::atomic<bool> over{false};
   const std::atomic<bool> cancelled{false};

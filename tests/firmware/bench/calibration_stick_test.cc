@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 class FolderStick final : public hal::RemovableMedia {
  public:
   explicit FolderStick(fs::path root) : root_(std::move(root)) {}
-  std::optional<hal::Medium> current() override { return gone ? std::nullopt : std::optional<hal::Medium>({root_, 1U << 30U}); }
+  std::optional<hal::Medium> current() override {
+    return gone ? std::nullopt : std::optional<hal::Medium>({root_, 1U << 30U});
+  }
   Result<void> settle(const fs::path& folder) override {
     if (spoils) std::ofstream(folder / "left.yaml", std::ios::app) << "x";
     if (leaves) gone = true;
@@ -57,13 +59,15 @@ TEST_F(CalibrationStick, WhatIsExportedComesBackInEitherForm) {
   const auto rig = import_calibration(stick);
   ASSERT_TRUE(rig);
   EXPECT_EQ(rig->file, "calibrations/0002/rig.yml");
-  EXPECT_EQ(pipeline::calibration_text(rig->calibration), pipeline::calibration_text(calibration)) << "to the last digit";
+  EXPECT_EQ(pipeline::calibration_text(rig->calibration), pipeline::calibration_text(calibration))
+      << "to the last digit";
   fs::remove(root / "calibrations/0002/rig.yml");
   const auto ros = import_calibration(stick);
   ASSERT_TRUE(ros);
   EXPECT_EQ(ros->file, "calibrations/0002/left.yaml");
   EXPECT_NEAR(ros->calibration.left.focal_px.x, calibration.left.focal_px.x, 1e-6);
-  EXPECT_NEAR(ros->calibration.right_from_left.translation_mm.x, calibration.right_from_left.translation_mm.x, 1e-6);
+  EXPECT_NEAR(ros->calibration.right_from_left.translation_mm.x, calibration.right_from_left.translation_mm.x,
+              1e-6);
 }
 
 TEST_F(CalibrationStick, TheTopComesFirstThenTheLastName) {
@@ -91,6 +95,17 @@ TEST_F(CalibrationStick, NothingHalfWrittenStands) {
   stick.leaves = true;
   EXPECT_EQ(export_calibration(calibration, "0001", stick).error().code, Errc::Disconnected);
   EXPECT_EQ(stick.ejected, 0);
+}
+
+// What a stick that was pulled out has left: the next export clears the one and brings back the other.
+TEST_F(CalibrationStick, WhatWasLeftIsPutInOrder) {
+  fs::create_directories(root / "calibrations/.0001.part77");
+  ASSERT_TRUE(export_calibration(calibration, "0003", stick));
+  fs::rename(root / "calibrations/0003", root / "calibrations/.0003.before");
+  ASSERT_TRUE(export_calibration(calibration, "0004", stick));
+  EXPECT_FALSE(fs::exists(root / "calibrations/.0001.part77"));
+  EXPECT_FALSE(fs::exists(root / "calibrations/.0003.before"));
+  EXPECT_TRUE(fs::exists(root / "calibrations/0003/rig.yml"));
 }
 
 }  // namespace

@@ -21,9 +21,13 @@ constexpr int kWidth = 40, kHeight = 30;
 
 // Awkward numbers of every kind, small enough for thousands of damaged copies.
 struct Sample {
-  std::vector<std::byte> left = std::vector<std::byte>(static_cast<std::size_t>(kWidth) * kHeight * 3, std::byte{7});
-  std::vector<std::byte> right = std::vector<std::byte>(static_cast<std::size_t>(kWidth + 2) * kHeight * 2, std::byte{9});
-  DocumentHead head{"1.2", "matcher = zmncc\n", true, test::sample_calibration(), -1234, {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}}};
+  std::vector<std::byte> left =
+      std::vector<std::byte>(static_cast<std::size_t>(kWidth) * kHeight * 3, std::byte{7});
+  std::vector<std::byte> right =
+      std::vector<std::byte>(static_cast<std::size_t>(kWidth + 2) * kHeight * 2, std::byte{9});
+  DocumentHead head{"1.2", "matcher = zmncc\n",
+                    true,  test::sample_calibration(),
+                    -1234, {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}}};
   pipeline::RectifiedPair pair{std::pmr::get_default_resource()};
   pipeline::MatchSet matches{std::pmr::get_default_resource()};
   pipeline::PointCloud cloud{std::pmr::get_default_resource()};
@@ -49,7 +53,8 @@ struct Sample {
     matches.lattice_step_px = 2;
     matches.motion_px = 0.1;
     matches.epipolar_shift.covariance_px2[5] = 1.0 / 9;
-    matches.matches = {{{3, 4.5F}, 0.1F, -0.0F, std::numeric_limits<float>::infinity(), 5}, {{kWidth - 1, kHeight - 1}, 1.0F / 3, 1, 0, 0}};
+    matches.matches = {{{3, 4.5F}, 0.1F, -0.0F, std::numeric_limits<float>::infinity(), 5},
+                       {{kWidth - 1, kHeight - 1}, 1.0F / 3, 1, 0, 0}};
     cloud.points = {{{1, 2, 600.1F}, {3, 4}, 0.1F}, {{-1, 1e-42F, 2}, {0, 0}, 0}};
     cloud.right_camera_mm = {110, 0.1, -3};
     model.backdrop.columns = 2, model.backdrop.rows = 1;
@@ -94,7 +99,8 @@ TEST(Document, GivesBackEveryBit) {
   }
   const auto pair = document->pair(heap());
   ASSERT_TRUE(pair);
-  EXPECT_TRUE(same(pair->left.grey, sample.pair.left.grey) && same(pair->right.rgb, sample.pair.right.rgb) && same(pair->region, sample.pair.region));
+  EXPECT_TRUE(same(pair->left.grey, sample.pair.left.grey) && same(pair->right.rgb, sample.pair.right.rgb) &&
+              same(pair->region, sample.pair.region));
   EXPECT_TRUE(same(pair->left.valid, sample.pair.left.valid));
   EXPECT_TRUE(std::signbit(pair->near_mm));
   EXPECT_EQ(pair->focal_px, 1.0 / 3);
@@ -116,9 +122,11 @@ TEST(Document, GivesBackEveryBit) {
   const auto model = document->model(heap());
   ASSERT_TRUE(model);
   EXPECT_TRUE(test::identical(*model, sample.model));
-  EXPECT_TRUE(same(model->backdrop.at_mm, sample.model.backdrop.at_mm) && same(model->backdrop.rgba, sample.model.backdrop.rgba));
+  EXPECT_TRUE(same(model->backdrop.at_mm, sample.model.backdrop.at_mm) &&
+              same(model->backdrop.rgba, sample.model.backdrop.rgba));
   const auto& c = document->head().calibration;
-  EXPECT_TRUE(std::ranges::equal(c.right_from_left.rotation.m, sample.head.calibration.right_from_left.rotation.m));
+  EXPECT_TRUE(
+      std::ranges::equal(c.right_from_left.rotation.m, sample.head.calibration.right_from_left.rotation.m));
   EXPECT_EQ(c.right_from_left.translation_mm.z, sample.head.calibration.right_from_left.translation_mm.z);
 }
 
@@ -134,7 +142,9 @@ TEST(Document, AReconstructionThatEndedEarlyHasWhatItsStagesMade) {
   ASSERT_TRUE(document);
   const auto mesh = document->mesh(heap());
   ASSERT_TRUE(mesh);
-  EXPECT_TRUE(same(mesh->vertices_mm, sample.model.mesh.vertices_mm) && same(mesh->triangles, sample.model.mesh.triangles) && same(mesh->measured, sample.model.mesh.measured));
+  EXPECT_TRUE(same(mesh->vertices_mm, sample.model.mesh.vertices_mm) &&
+              same(mesh->triangles, sample.model.mesh.triangles) &&
+              same(mesh->measured, sample.model.mesh.measured));
   EXPECT_FALSE(document->model(heap()));
 }
 
@@ -147,14 +157,15 @@ TEST(Document, WhatIsNoneOrNewerIsToldApart) {
   foreign[71] ^= std::byte{1};  // the application id
   EXPECT_EQ(Document::open(foreign).error().code, Errc::InvalidInput);
   auto newer = *bytes;
-  newer[63] = std::byte{2};     // the user version
+  newer[63] = std::byte{2};  // the user version
   EXPECT_EQ(Document::open(newer).error().code, Errc::StoreNewer);
 }
 
 TEST(Document, EveryCutIsNoticed) {
   const auto bytes = make_document(Sample().parts());
   ASSERT_TRUE(bytes);
-  for (std::size_t size = 100; size < bytes->size(); size += 509) EXPECT_EQ(Document::open(std::span(*bytes).first(size)).error().code, Errc::StoreCorrupt) << size;
+  for (std::size_t size = 100; size < bytes->size(); size += 509)
+    EXPECT_EQ(Document::open(std::span(*bytes).first(size)).error().code, Errc::StoreCorrupt) << size;
 }
 
 // A changed byte is refused, or it lay in a page's unused room and every product is as it was.

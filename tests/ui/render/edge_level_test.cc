@@ -16,7 +16,8 @@ pipeline::FaceMesh bowl(int side, float step_mm) {
   pipeline::FaceMesh mesh(std::pmr::get_default_resource());
   for (int r = 0; r < side; ++r)
     for (int c = 0; c < side; ++c) {
-      const float x = (static_cast<float>(c) - static_cast<float>(side) / 2) * step_mm, y = (static_cast<float>(r) - static_cast<float>(side) / 2) * step_mm;
+      const float x = (static_cast<float>(c) - static_cast<float>(side) / 2) * step_mm,
+                  y = (static_cast<float>(r) - static_cast<float>(side) / 2) * step_mm;
       mesh.vertices_mm.push_back({x, y, std::sqrt(std::max(0.0F, 120 * 120 - x * x - y * y))});
     }
   const auto at = [side](int r, int c) { return static_cast<std::uint32_t>(r * side + c); };
@@ -51,7 +52,8 @@ TEST(EdgeLevel, OfAFineMeshAsManySidesAsTheSpacingAllows) {
     // A net of triangles over all of it: V - E + F = 1, 3 F < 2 E.
     EXPECT_GT(static_cast<double>(edges.size()), 2.5 * static_cast<double>(used.size()));
     EXPECT_LT(edges.size(), 3 * used.size());
-    EXPECT_GT(static_cast<double>(used.size()) * static_cast<double>(least_mm * least_mm), 0.6 * 164 * 164) << "no part is left out";
+    EXPECT_GT(static_cast<double>(used.size()) * static_cast<double>(least_mm * least_mm), 0.6 * 164 * 164)
+        << "no part is left out";
   }
 }
 
@@ -59,7 +61,8 @@ TEST(EdgeLevel, AMeshThatIsCoarseKeepsEverySide) {
   const pipeline::FaceMesh mesh = bowl(12, 8);
   std::set<std::array<std::uint32_t, 2>> own;
   for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) own.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+    for (std::size_t i = 0; i < 3; ++i)
+      own.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   EXPECT_EQ(edges_of(mesh, 3), Edges(own.begin(), own.end()));
   EXPECT_TRUE(edges_of(pipeline::FaceMesh(std::pmr::get_default_resource()), 3).empty());
 }

@@ -17,7 +17,8 @@ Result<std::vector<std::byte>> head_picture(const pipeline::FaceModel& model, do
   std::vector<std::uint8_t> rgb(std::size_t{3} * kSidePx * kSidePx);
   StageCanvas canvas(rgb.data(), kSidePx);
   draw_head(model.mesh, model.head_from_camera, turned_deg, kAcrossMm, canvas);
-  return hal::encode_png({reinterpret_cast<const std::byte*>(rgb.data()), kSidePx, kSidePx, 3 * kSidePx, PixelFormat::Rgb8});
+  return hal::encode_png(
+      {reinterpret_cast<const std::byte*>(rgb.data()), kSidePx, kSidePx, 3 * kSidePx, PixelFormat::Rgb8});
 }
 
 }  // namespace
@@ -25,7 +26,8 @@ Result<std::vector<std::byte>> head_picture(const pipeline::FaceModel& model, do
 Result<SurfaceLook> surface_look(const pipeline::FaceModel& model) {
   SurfaceLook look;
   look.vertices = model.mesh.vertices_mm.size();
-  look.measured = static_cast<std::size_t>(std::count(model.mesh.measured.begin(), model.mesh.measured.end(), 1));
+  look.measured =
+      static_cast<std::size_t>(std::count(model.mesh.measured.begin(), model.mesh.measured.end(), 1));
   look.triangles = model.mesh.triangles.size();
   RELIEVO_TRY_ASSIGN(look.front, head_picture(model, 0));
   RELIEVO_TRY_ASSIGN(look.side, head_picture(model, kTurnedDeg));

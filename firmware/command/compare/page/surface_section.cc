@@ -16,10 +16,15 @@ using pipeline::report::figure;
 
 std::string facts_of(const Run& run) {
   const SurfaceLook& look = *run.surface;
-  std::string facts = figure(look.mesh_ms, 0) + " ms to mesh, " + std::to_string(look.triangles) + " triangles, " +
-                      figure(100 * static_cast<double>(look.measured) / static_cast<double>(std::max<std::size_t>(1, look.vertices)), 0) +
+  std::string facts = figure(look.mesh_ms, 0) + " ms to mesh, " + std::to_string(look.triangles) +
+                      " triangles, " +
+                      figure(100 * static_cast<double>(look.measured) /
+                                 static_cast<double>(std::max<std::size_t>(1, look.vertices)),
+                             0) +
                       " % of the vertices measured";
-  if (run.model) facts += "; interior median " + figure(run.model->interior_median_mm, 3) + " mm, " + figure(100 * run.model->complete_half_mm, 1) + " % within 0.5 mm";
+  if (run.model)
+    facts += "; interior median " + figure(run.model->interior_median_mm, 3) + " mm, " +
+             figure(100 * run.model->complete_half_mm, 1) + " % within 0.5 mm";
   return facts;
 }
 
@@ -35,7 +40,8 @@ std::string surfaces(const Comparison& c, std::size_t pair) {
     out += pipeline::report::figure_of(d.svg(), escaped(name_of(c, *run)), facts_of(*run));
   }
   if (out.empty()) return out;
-  return "<h3 class=\"topic\">Surfaces</h3>\n<p class=\"lead\">Each set’s model in plain shading, from in front and turned by 50°, all at one scale.</p>\n<div class=\"pair\">\n" +
+  return "<h3 class=\"topic\">Surfaces</h3>\n<p class=\"lead\">Each set’s model in plain shading, from in "
+         "front and turned by 50°, all at one scale.</p>\n<div class=\"pair\">\n" +
          out + "</div>\n";
 }
 

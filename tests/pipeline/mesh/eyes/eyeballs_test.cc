@@ -79,7 +79,8 @@ TEST(Eyeballs, LieWhereThePersonsOwnDo) {
       now += *is * *is;
     }
     ASSERT_GT(moved, 300) << seed;
-    std::cout << "person " << seed << ": before the ball " << std::sqrt(now / moved) << " mm rms, as matched " << std::sqrt(then / moved) << "\n";
+    std::cout << "person " << seed << ": before the ball " << std::sqrt(now / moved) << " mm rms, as matched "
+              << std::sqrt(then / moved) << "\n";
     EXPECT_LT(std::sqrt(now / moved), 0.4) << seed;
     EXPECT_LT(now, then) << seed;
   }
