@@ -19,7 +19,8 @@ bool is_fault(Errc code) {
     case Errc::NotCalibrated:
     case Errc::InvalidState:
     case Errc::StoreCorrupt:
-    case Errc::StoreNewer: return true;
+    case Errc::StoreNewer:
+      return true;
     case Errc::InvalidInput:
     case Errc::NotFound:
     case Errc::Timeout:
@@ -32,24 +33,35 @@ bool is_fault(Errc code) {
     case Errc::MediaFull:
     case Errc::IoFailed:
     case Errc::Cancelled:
-    case Errc::Unsupported: break;
+    case Errc::Unsupported:
+      break;
   }
   return false;
 }
 
 Event event_of(ui::Intent intent) {
   switch (intent) {
-    case ui::Intent::Pose: return Event::PoseAsked;
-    case ui::Intent::Begin: return Event::Begin;
-    case ui::Intent::Accept: return Event::Accept;
-    case ui::Intent::Retake: return Event::Retake;
-    case ui::Intent::Cancel: return Event::Cancel;
+    case ui::Intent::Pose:
+      return Event::PoseAsked;
+    case ui::Intent::Begin:
+      return Event::Begin;
+    case ui::Intent::Accept:
+      return Event::Accept;
+    case ui::Intent::Retake:
+      return Event::Retake;
+    case ui::Intent::Cancel:
+      return Event::Cancel;
     case ui::Intent::LookUp:
-    case ui::Intent::StillHere: break;  // no event: it only gives time
-    case ui::Intent::OpenTechnician: return Event::TechnicianIn;
-    case ui::Intent::LeaveTechnician: return Event::TechnicianOut;
-    case ui::Intent::Calibrate: return Event::CalibrateAsked;
-    case ui::Intent::Export: return Event::ExportAsked;
+    case ui::Intent::StillHere:
+      break;  // no event: it only gives time
+    case ui::Intent::OpenTechnician:
+      return Event::TechnicianIn;
+    case ui::Intent::LeaveTechnician:
+      return Event::TechnicianOut;
+    case ui::Intent::Calibrate:
+      return Event::CalibrateAsked;
+    case ui::Intent::Export:
+      return Event::ExportAsked;
   }
   return Event::Count;
 }
@@ -57,13 +69,19 @@ Event event_of(ui::Intent intent) {
 }  // namespace
 
 Appliance::Appliance(Parts parts)
-    : board_(parts.board), machine_(parts.board.clock().now()), session_(parts.memory),
+    : board_(parts.board),
+      machine_(parts.board.clock().now()),
+      session_(parts.memory),
       grabber_(parts.board),
       open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
       pose_(grabber_, session_, parts.board, parts.pool, parts.judge),
       grab_(grabber_, session_, parts.board, pose_),
-      stage_(parts.stages, session_, parts.pool, parts.board.clock()), keep_(std::move(parts.keep), session_), look_up_(std::move(parts.look_up)),
-      capture_(reports_), worker_(reports_), keeper_(reports_) {
+      stage_(parts.stages, session_, parts.pool, parts.board.clock()),
+      keep_(std::move(parts.keep), session_),
+      look_up_(std::move(parts.look_up)),
+      capture_(reports_),
+      worker_(reports_),
+      keeper_(reports_) {
   records_.reserve(4 * budget::kCaptureAttempts);
   start(capture_, open_cameras_);
 }
@@ -140,7 +158,9 @@ void Appliance::end_side_job(JobPlace place) {
 }
 
 float Appliance::side_progress(JobPlace place) const {
-  const JobThread& thread = place == JobPlace::Capture ? capture_ : place == JobPlace::Worker ? worker_ : keeper_;
+  const JobThread& thread = place == JobPlace::Capture  ? capture_
+                            : place == JobPlace::Worker ? worker_
+                                                        : keeper_;
   return side_jobs_[static_cast<std::size_t>(place)] == 0 ? 0 : thread.progress();
 }
 
@@ -162,10 +182,14 @@ void Appliance::heard(const JobReport& report) {
   if (report.error) {
     note(*report.error);
     const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
-    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed : advise ? Event::AdviceGiven : Event::StageFailed);
+    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed
+           : advise                                                 ? Event::AdviceGiven
+                                                                    : Event::StageFailed);
   } else {
     if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
-    handle(state == State::SelfTest ? Event::Passed : state == State::Capture ? Event::Triggered : Event::StageDone);
+    handle(state == State::SelfTest  ? Event::Passed
+           : state == State::Capture ? Event::Triggered
+                                     : Event::StageDone);
   }
 }
 
@@ -250,7 +274,9 @@ void Appliance::close_session() {
 void Appliance::entered(const Change& change) {
   stop_job();
   switch (change.to) {
-    case State::SelfTest: start(capture_, open_cameras_); break;
+    case State::SelfTest:
+      start(capture_, open_cameras_);
+      break;
     case State::Position:
       if (!enter_position(change)) return;
       break;
@@ -269,14 +295,17 @@ void Appliance::entered(const Change& change) {
       start(keeper_, keep_);
       break;
     case State::Idle:
-    case State::Fault: close_session(); break;
+    case State::Fault:
+      close_session();
+      break;
     case State::Review:
       if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
       break;
     case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
     case State::Export:
     case State::Technician:
-    case State::Count: break;
+    case State::Count:
+      break;
   }
   if (listener_) listener_(change);
 }

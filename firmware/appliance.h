@@ -40,7 +40,7 @@ class Appliance {
     ThreadPool& pool;
     Keep keep;
     LiveJudge* judge = nullptr;  // advice for a person at the screen; without one the picture alone is shown
-    std::function<Result<void>()> look_up = {};   // on the keeper, for Intent::LookUp: asks the records
+    std::function<Result<void>()> look_up = {};  // on the keeper, for Intent::LookUp: asks the records
   };
   explicit Appliance(Parts parts);
   ~Appliance();
@@ -66,10 +66,13 @@ class Appliance {
   // How many faces on end have said that they have moved too far to be measured with. Kept over visits.
   int moved_in_a_row() const { return moved_in_a_row_; }
   // What an earlier run of the device knew of the calibration in use; before anything runs.
-  void remember_moved(int faces, std::string note) { moved_in_a_row_ = faces, calibration_note_ = std::move(note); }
+  void remember_moved(int faces, std::string note) {
+    moved_in_a_row_ = faces, calibration_note_ = std::move(note);
+  }
   // Another calibration is in use: what was said against the one before counts no more.
   void calibrated_anew();
-  // For the technician: what the last face that could tell said against the calibration, packed (hal/base/sentence.h); else empty.
+  // For the technician: what the last face that could tell said against the calibration, packed
+  // (hal/base/sentence.h); else empty.
   std::string_view calibration_note() const { return calibration_note_; }
   // Is a camera away, and being tried again?
   CameraWatch cameras() const { return grabber_.watch(); }
@@ -82,9 +85,11 @@ class Appliance {
   // thread is busy. A state that needs the thread stops such work and waits for it to end.
   Result<void> start_side_job(JobPlace place, Job& job);
   void cancel_side_job(JobPlace place);
-  void end_side_job(JobPlace place);   // waits until it has stopped; it is not reported any more
+  void end_side_job(JobPlace place);  // waits until it has stopped; it is not reported any more
   float side_progress(JobPlace place) const;
-  void on_side_report(std::function<void(JobPlace, const std::optional<Error>&)> listener) { side_listener_ = std::move(listener); }
+  void on_side_report(std::function<void(JobPlace, const std::optional<Error>&)> listener) {
+    side_listener_ = std::move(listener);
+  }
   // What Calibrate or Export was entered for has ended: back to Technician.
   void end_service_state(bool done) { handle(done ? Event::StageDone : Event::StageFailed); }
   // For work on the capture thread.
@@ -120,7 +125,7 @@ class Appliance {
   LookUpJob look_up_;
   std::string next_subject_;
   int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
-  bool attended_ = false;        // a person is at the screen: advice instead of another try
+  bool attended_ = false;  // a person is at the screen: advice instead of another try
   std::optional<Error> problem_;
   std::optional<pipeline::DriftJudgement> drift_;
   std::string calibration_note_;

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // BootMemory: the one block, taken at boot and never given back, cut as budget.h says.
-// A page that nothing touches costs nothing; those that are touched come as huge pages where the kernel has them,
-// since a stage that takes 150 MB page by page spends a tenth of its time in the kernel. Throws bad_alloc when the machine has not that much:
-// then there is no appliance. Thread: main makes it; each span then has one user.
+// A page that nothing touches costs nothing; those that are touched come as huge pages where the kernel has
+// them, since a stage that takes 150 MB page by page spends a tenth of its time in the kernel. Throws
+// bad_alloc when the machine has not that much: then there is no appliance. Thread: main makes it; each span
+// then has one user.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +44,8 @@ class BootMemory {
   using Block = std::unique_ptr<std::byte, GiveBack>;
   static Block take(std::size_t bytes) {
     auto* block = static_cast<std::byte*>(::operator new(bytes, kHugePage));
-    ::madvise(block, bytes, MADV_HUGEPAGE);  // advice: a kernel without huge pages says no, and all is as before
+    ::madvise(block, bytes,
+              MADV_HUGEPAGE);  // advice: a kernel without huge pages says no, and all is as before
     return Block(block);
   }
 

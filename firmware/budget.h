@@ -14,26 +14,26 @@ namespace relievo::firmware::budget {
 inline constexpr std::size_t kMiB = std::size_t{1} << 20;
 
 // --- pictures -----------------------------------------------------------------------------------
-inline constexpr int kMaxFrameWidthPx = 2448;    // 5 megapixels: the largest sensor of the parts list
+inline constexpr int kMaxFrameWidthPx = 2448;  // 5 megapixels: the largest sensor of the parts list
 inline constexpr int kMaxFrameHeightPx = 2048;
-inline constexpr std::size_t kFrameBytes =
-    std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
+inline constexpr std::size_t kFrameBytes = std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
 // Two pictures, and a byte a pixel to develop one behind a colour filter.
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
-inline constexpr int kLiveSidePx = 640;           // longer side of the live picture on the screen
-inline constexpr int kStagePictureSidePx = 400;   // of a stage's picture, a square
-inline constexpr int kBenchPictureSidePx = 720;   // longer side of a picture on the technician's pages
-inline constexpr std::size_t kStereoSlots = 2;   // a burst's best pair, kept until the session closes, and its newest
+inline constexpr int kLiveSidePx = 640;          // longer side of the live picture on the screen
+inline constexpr int kStagePictureSidePx = 400;  // of a stage's picture, a square
+inline constexpr int kBenchPictureSidePx = 720;  // longer side of a picture on the technician's pages
+inline constexpr std::size_t kStereoSlots =
+    2;  // a burst's best pair, kept until the session closes, and its newest
 
 // --- memory -------------------------------------------------------------------------------------
 inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
-inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;    // what the stages hand on
-inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;   // what one stage needs for itself
+inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;   // what the stages hand on
+inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;  // what one stage needs for itself
 inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
 
-inline constexpr std::size_t kLibraryBytes = 256 * kMiB;        // OpenCV, CGAL, SQLite: measured, not enforced
+inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;
-inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;     // of the machine's memory, for the process
+inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;  // of the machine's memory, for the process
 static_assert(kBlockBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
               "the parts need more than the appliance has");
 
@@ -42,36 +42,38 @@ inline constexpr std::size_t kEventQueueLength = 32;
 inline constexpr std::size_t kSubjectNameBytes = 128;
 
 // --- threads ------------------------------------------------------------------------------------
-inline constexpr int kMaxPoolThreads = 4;        // inside the worker, the worker counted
+inline constexpr int kMaxPoolThreads = 4;  // inside the worker, the worker counted
 
 // --- time ---------------------------------------------------------------------------------------
-using std::chrono::milliseconds;
 using std::chrono::microseconds;
-inline constexpr milliseconds kTick{50};                  // the main loop turns at least this often
-inline constexpr milliseconds kCancelWithin{100};         // a job has stopped this long after it was asked to
-inline constexpr milliseconds kLivePause{30};             // between two live pictures: others need the processor, too
+using std::chrono::milliseconds;
+inline constexpr milliseconds kTick{50};           // the main loop turns at least this often
+inline constexpr milliseconds kCancelWithin{100};  // a job has stopped this long after it was asked to
+inline constexpr milliseconds kLivePause{30};  // between two live pictures: others need the processor, too
 inline constexpr microseconds kTriggerPulse{100};
-inline constexpr milliseconds kFrameWait{2000};           // from the trigger to both pictures
-inline constexpr microseconds kMaxSkew{100};              // between the two exposures of a pair at one trigger
-inline constexpr microseconds kMaxFreeSkew{17'000};       // without a trigger wire: half a frame at 30 a second
-inline constexpr microseconds kStampSlack{1000};          // how much a frame may seem older than its pulse
-inline constexpr microseconds kLongestExposure{8'000};    // a face that moves 25 mm a second smears 0.2 mm
-inline constexpr int kGrabTries = 3;                      // pulses, until a pair that was refused is an error
-inline constexpr milliseconds kCameraRetryFirst{250};     // after a camera has vanished; doubles with each attempt
+inline constexpr milliseconds kFrameWait{2000};         // from the trigger to both pictures
+inline constexpr microseconds kMaxSkew{100};            // between the two exposures of a pair at one trigger
+inline constexpr microseconds kMaxFreeSkew{17'000};     // without a trigger wire: half a frame at 30 a second
+inline constexpr microseconds kStampSlack{1000};        // how much a frame may seem older than its pulse
+inline constexpr microseconds kLongestExposure{8'000};  // a face that moves 25 mm a second smears 0.2 mm
+inline constexpr int kGrabTries = 3;                    // pulses, until a pair that was refused is an error
+inline constexpr milliseconds kCameraRetryFirst{
+    250};  // after a camera has vanished; doubles with each attempt
 inline constexpr milliseconds kCameraRetryMost{8'000};
-inline constexpr milliseconds kCameraReturn{20'000};      // a self-test waits this long for a camera that was there
-inline constexpr int kCaptureAttempts = 3;                // until a person is asked to come again
-inline constexpr int kBurstPairs = 5;                     // of which the sharpest, stillest is kept
+inline constexpr milliseconds kCameraReturn{
+    20'000};                                // a self-test waits this long for a camera that was there
+inline constexpr int kCaptureAttempts = 3;  // until a person is asked to come again
+inline constexpr int kBurstPairs = 5;       // of which the sharpest, stillest is kept
 inline constexpr milliseconds kSelfTestLimit{30'000};
-inline constexpr milliseconds kPositionLimit{120'000};    // nobody touches the screen: nothing is photographed
+inline constexpr milliseconds kPositionLimit{120'000};  // nobody touches the screen: nothing is photographed
 inline constexpr milliseconds kCaptureLimit{30'000};
-inline constexpr milliseconds kStageLimit{60'000};        // a stage that runs longer is stopped
-inline constexpr milliseconds kReviewLimit{60'000};       // nobody answers: nothing is kept
+inline constexpr milliseconds kStageLimit{60'000};   // a stage that runs longer is stopped
+inline constexpr milliseconds kReviewLimit{60'000};  // nobody answers: nothing is kept
 inline constexpr milliseconds kStoreLimit{30'000};
 inline constexpr milliseconds kExportLimit{600'000};
 inline constexpr milliseconds kCalibrateLimit{600'000};
 inline constexpr milliseconds kTechnicianLimit{300'000};
-inline constexpr milliseconds kFaultRetry{5'000};         // a fault tests itself again after this
-inline constexpr int kMovedFaces = 2;                      // on end that say the cameras have moved: one may have nodded
+inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this
+inline constexpr int kMovedFaces = 2;  // on end that say the cameras have moved: one may have nodded
 
 }  // namespace relievo::firmware::budget

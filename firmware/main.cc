@@ -17,8 +17,8 @@
 #include "firmware/work/pool_size.h"
 #include "hal/linux/board.h"
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
 #include "hal/picture_file.h"
+#include "hal/sim/board.h"
 #include "hal/sim/photo/held_board.h"
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/sheet/sheet_photo.h"
@@ -37,7 +37,8 @@ constexpr std::string_view kBoardFile = "/etc/relievo/board.toml";
 // "linux", or "linux:FILE" with another file that says what is wired where.
 Result<std::unique_ptr<hal::Board>> open_linux_board(std::string_view board) {
   const bool named = board.size() > kLinux.size();
-  RELIEVO_TRY_ASSIGN(const auto options, hal::read_linux_board_file(named ? board.substr(kLinux.size() + 1) : kBoardFile));
+  RELIEVO_TRY_ASSIGN(const auto options,
+                     hal::read_linux_board_file(named ? board.substr(kLinux.size() + 1) : kBoardFile));
   return hal::make_linux_board(options);
 }
 
@@ -48,8 +49,11 @@ Result<std::unique_ptr<hal::Board>> open_board(std::string_view board) {
     return hal::make_sim_board(options);
   }
   if (board.substr(0, kFolder.size()) == kFolder) return hal::make_folder_board(board.substr(kFolder.size()));
-  if (board == kLinux || (board.starts_with(kLinux) && board[kLinux.size()] == ':')) return open_linux_board(board);
-  return Error{Errc::InvalidInput, "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}.at(board);
+  if (board == kLinux || (board.starts_with(kLinux) && board[kLinux.size()] == ':'))
+    return open_linux_board(board);
+  return Error{Errc::InvalidInput,
+               "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}
+      .at(board);
 }
 
 Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write) {
@@ -59,7 +63,8 @@ Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_w
   return storage::open_sqlite_store(folder, clock, options);
 }
 
-Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::SimulationOptions& simulation, const Path& folder) {
+Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::SimulationOptions& simulation,
+                          const Path& folder) {
   RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(held.picture));
   hal::sim::SheetPhotoOptions options;
   options.rig = simulation.rig;
@@ -83,8 +88,13 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.board_poses = args.pairs;
   if (args.board) {
     const BoardArgs& b = args.printed;
-    options.board = {b.corners_across, b.corners_down, b.square_mm, 0.75 * b.square_mm,
-                     b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard, b.marker_mm, b.marker_bits};
+    options.board = {b.corners_across,
+                     b.corners_down,
+                     b.square_mm,
+                     0.75 * b.square_mm,
+                     b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard,
+                     b.marker_mm,
+                     b.marker_bits};
     options.board_look = {args.lamp, args.shadow, args.highlight, args.cover};
     options.sensor.defocus_px = args.blur_px;
     options.sensor.noise = args.noise;
@@ -108,9 +118,14 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
   const sim::ArtefactPlace place{p.right_mm, p.down_mm, p.distance_mm, p.pitch_deg, p.yaw_deg, p.roll_deg};
   const auto take = [&]() -> Result<sim::PicturePair> {
     switch (shot.kind) {
-      case TargetKind::Board: return photograph_board(options, {t.board_columns, t.board_rows, t.square_mm}, shot.number, shot.count);
-      case TargetKind::Dumbbell: return photograph_dumbbell(options, {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed}, place);
-      case TargetKind::Plate: break;
+      case TargetKind::Board:
+        return photograph_board(options, {t.board_columns, t.board_rows, t.square_mm}, shot.number,
+                                shot.count);
+      case TargetKind::Dumbbell:
+        return photograph_dumbbell(
+            options, {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed}, place);
+      case TargetKind::Plate:
+        break;
     }
     return photograph_plate(options, {t.plate_width_mm, t.plate_height_mm, shot.seed}, place);
   };
@@ -120,13 +135,21 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
 
 // A hand's pose in the world of the simulated rig.
 hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& board) {
-  return hal::sim::HeldPlace{held.right_mm, held.down_mm, held.distance_mm, held.yaw_deg, held.pitch_deg, held.roll_deg}.pose(board);
+  return hal::sim::HeldPlace{held.right_mm, held.down_mm,   held.distance_mm,
+                             held.yaw_deg,  held.pitch_deg, held.roll_deg}
+      .pose(board);
 }
 
 Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {
   const BoardArgs& b = args.board;
-  const hal::sim::BoardPattern pattern{b.corners_across, b.corners_down, b.square_mm, 0.75 * b.square_mm,
-                                       b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard, b.marker_mm, b.marker_bits};
+  const hal::sim::BoardPattern pattern{
+      b.corners_across,
+      b.corners_down,
+      b.square_mm,
+      0.75 * b.square_mm,
+      b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard,
+      b.marker_mm,
+      b.marker_bits};
   RELIEVO_TRY(pattern.check());
   hal::sim::RigOptions rig;
   rig.seed = args.seed;
@@ -148,10 +171,12 @@ namespace {
 // The rig writes what other tools read; the product reads it as it would anybody's.
 Result<pipeline::StereoCalibration> simulated_calibration() {
   std::string folder = (std::filesystem::temp_directory_path() / "relievo-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) return Error{Errc::IoFailed, "no temporary folder can be made: check TMPDIR"};
+  if (mkdtemp(folder.data()) == nullptr)
+    return Error{Errc::IoFailed, "no temporary folder can be made: check TMPDIR"};
   const Path file = Path(folder) / "rig.yml";
   const Result<void> written = hal::sim::write_rig(file, hal::sim::make_rig({}));
-  Result<pipeline::StereoCalibration> read = written ? pipeline::read_calibration(file) : Result<pipeline::StereoCalibration>(written.error());
+  Result<pipeline::StereoCalibration> read =
+      written ? pipeline::read_calibration(file) : Result<pipeline::StereoCalibration>(written.error());
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
   return read;
@@ -163,13 +188,16 @@ Result<void> set_system_clock(std::chrono::system_clock::time_point time) {
   timespec at{};
   at.tv_sec = static_cast<time_t>(whole.count());
   at.tv_nsec = std::chrono::nanoseconds(since - whole).count();
-  if (clock_settime(CLOCK_REALTIME, &at) != 0) return Error{Errc::Unsupported, "the system's clock may not be set by this program: set it with timedatectl", errno};
+  if (clock_settime(CLOCK_REALTIME, &at) != 0)
+    return Error{Errc::Unsupported,
+                 "the system's clock may not be set by this program: set it with timedatectl", errno};
   return {};
 }
 
 Result<void> plug_stick(hal::Board& board, const std::string& folder) {
   auto* const stick = dynamic_cast<hal::FolderMedia*>(&board.media());
-  if (stick == nullptr) return Error{Errc::Unsupported, "has real sticks: a script cannot plug them"}.at(board.name());
+  if (stick == nullptr)
+    return Error{Errc::Unsupported, "has real sticks: a script cannot plug them"}.at(board.name());
   if (folder.empty()) stick->unplug();
   else stick->plug(folder);
   return {};
@@ -182,6 +210,17 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board, fw::open_store, fw::simulate, fw::photograph, fw::hold_board, fw::simulated_calibration, relievo::ui::open_sdl_display, console, clock, fw::set_system_clock, fw::plug_stick, fw::allocation_count()};
+  fw::Services services{fw::open_board,
+                        fw::open_store,
+                        fw::simulate,
+                        fw::photograph,
+                        fw::hold_board,
+                        fw::simulated_calibration,
+                        relievo::ui::open_sdl_display,
+                        console,
+                        clock,
+                        fw::set_system_clock,
+                        fw::plug_stick,
+                        fw::allocation_count()};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

@@ -23,7 +23,8 @@ Result<void> EnrolmentSession::open(std::string_view subject) {
 }
 
 void EnrolmentSession::make_products() {
-  products_ = std::construct_at(static_cast<Products*>(output_.allocate(sizeof(Products), alignof(Products))));
+  products_ =
+      std::construct_at(static_cast<Products*>(output_.allocate(sizeof(Products), alignof(Products))));
 }
 
 Products& EnrolmentSession::products() const {
@@ -49,12 +50,15 @@ void EnrolmentSession::rework() {
   products_->frame = frame;
 }
 
-void EnrolmentSession::begins(State stage) { stage_begins_.at(static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match)) = output_.used(); }
+void EnrolmentSession::begins(State stage) {
+  stage_begins_.at(static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match)) = output_.used();
+}
 
 void EnrolmentSession::rework(State from) {
   if (from <= State::Match) return rework();
   Products& made = products();
-  if (from == State::Texture && made.model) made.mesh = std::move(made.model->mesh);  // it was taken over unchanged
+  if (from == State::Texture && made.model)
+    made.mesh = std::move(made.model->mesh);  // it was taken over unchanged
   made.model.reset();
   if (from <= State::Mesh) made.mesh.reset();
   if (from <= State::Reconstruct) made.cloud.reset();

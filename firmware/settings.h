@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where things are when nobody says otherwise, and the staff's settings as the store keeps them: a line each, "key value".
-// Thread: any.
+// Where things are when nobody says otherwise, and the staff's settings as the store keeps them: a line each,
+// "key value". Thread: any.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,11 @@ namespace relievo::firmware {
 // $XDG_DATA_HOME/relievo, ~/.local/share/relievo, or relievo-store where there is no home.
 std::filesystem::path default_store_folder();
 
-inline constexpr const char* kDeviceSetting = "device";   // the store's key of all of them
+inline constexpr const char* kDeviceSetting = "device";  // the store's key of all of them
 
 std::string text_of(const ui::Settings& settings);
-// What is missing, or not one of a setting's values, stays as usual; `complaints` are the lines that say such a thing.
+// What is missing, or not one of a setting's values, stays as usual; `complaints` are the lines that say such
+// a thing.
 ui::Settings settings_of(std::string_view text, std::vector<std::string>& complaints);
 
 }  // namespace relievo::firmware

@@ -18,10 +18,10 @@ namespace relievo::hal {
 class Board {
  public:
   virtual ~Board() = default;
-  virtual std::string_view name() const = 0;   // "sim", "folder", "linux"
+  virtual std::string_view name() const = 0;  // "sim", "folder", "linux"
   // The mode in which this board's cameras give their best picture.
   virtual CaptureMode preferred_mode() const = 0;
-  virtual Camera& left() = 0;                  // left as the cameras see it: the image's left half of the pair
+  virtual Camera& left() = 0;  // left as the cameras see it: the image's left half of the pair
   virtual Camera& right() = 0;
   virtual TriggerLine& trigger() = 0;
   // Do both cameras expose at the trigger's pulse? If not, they run on their own, or did when recorded.

@@ -28,10 +28,15 @@ class Frame {
   Frame(const RawImage& raw, const Stamp& stamp, Release release, void* owner, int slot)
       : raw_(raw), stamp_(stamp), release_(release), owner_(owner), slot_(slot) {}
   Frame(Frame&& other) noexcept
-      : raw_(other.raw_), stamp_(other.stamp_), release_(std::exchange(other.release_, nullptr)),
-        owner_(other.owner_), slot_(other.slot_) {}
+      : raw_(other.raw_),
+        stamp_(other.stamp_),
+        release_(std::exchange(other.release_, nullptr)),
+        owner_(other.owner_),
+        slot_(other.slot_) {}
   Frame& operator=(Frame&&) = delete;
-  ~Frame() { if (release_ != nullptr) release_(owner_, slot_); }
+  ~Frame() {
+    if (release_ != nullptr) release_(owner_, slot_);
+  }
 
   const RawImage& raw() const { return raw_; }
   // Without developing: empty for a format that needs it.

@@ -24,7 +24,8 @@ Result<void> check_limits(const PictureHeader& header) {
     return Error{Errc::InvalidInput, "this picture has no size"};
   if (header.width_px > kMaxPictureSidePx || header.height_px > kMaxPictureSidePx ||
       header.width_px * header.height_px > kMaxPictureAreaPx)
-    return Error{Errc::InvalidInput, "this picture is larger than the limit of 8192 px a side and 40 megapixels"};
+    return Error{Errc::InvalidInput,
+                 "this picture is larger than the limit of 8192 px a side and 40 megapixels"};
   return {};
 }
 
@@ -50,20 +51,25 @@ Result<Picture> to_picture(cv::Mat image) {
 Result<cv::Mat> to_mat(const ImageView& image) {
   if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to write"};
   RELIEVO_TRY(check_limits({image.width_px, image.height_px}));
-  const int type = image.format == PixelFormat::Rgb8 ? CV_8UC3 : image.format == PixelFormat::Grey16 ? CV_16UC1 : CV_8UC1;
+  const int type = image.format == PixelFormat::Rgb8     ? CV_8UC3
+                   : image.format == PixelFormat::Grey16 ? CV_16UC1
+                                                         : CV_8UC1;
   // OpenCV has no const Mat over foreign bytes; this one is only read.
-  const cv::Mat borrowed(image.height_px, image.width_px, type, const_cast<std::byte*>(image.bytes),  // NOLINT
+  const cv::Mat borrowed(image.height_px, image.width_px, type,
+                         const_cast<std::byte*>(image.bytes),  // NOLINT
                          static_cast<std::size_t>(image.stride_bytes));
   if (image.format != PixelFormat::Rgb8) return borrowed;
-  cv::Mat turned;       // memory of its own: the lender's must not change
+  cv::Mat turned;  // memory of its own: the lender's must not change
   cv::cvtColor(borrowed, turned, cv::COLOR_RGB2BGR);
   return turned;
 }
 
-Result<std::vector<std::byte>> encode(const ImageView& image, const char* extension, const std::vector<int>& options) try {
+Result<std::vector<std::byte>> encode(const ImageView& image, const char* extension,
+                                      const std::vector<int>& options) try {
   RELIEVO_TRY_ASSIGN(const cv::Mat mat, to_mat(image));
   std::vector<unsigned char> encoded;
-  if (!cv::imencode(extension, mat, encoded, options)) return Error{Errc::LibraryFailed, "cannot encode this picture"};
+  if (!cv::imencode(extension, mat, encoded, options))
+    return Error{Errc::LibraryFailed, "cannot encode this picture"};
   std::vector<std::byte> bytes(encoded.size());
   std::memcpy(bytes.data(), encoded.data(), encoded.size());
   return bytes;
@@ -84,7 +90,8 @@ std::string lower_extension(const std::filesystem::path& file) {
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
   RELIEVO_TRY_ASSIGN(const PictureHeader header, read_picture_header({bytes, size}));
   RELIEVO_TRY(check_limits(header));
-  const cv::Mat encoded(1, static_cast<int>(size), CV_8UC1, const_cast<std::byte*>(bytes));  // NOLINT: read only
+  const cv::Mat encoded(1, static_cast<int>(size), CV_8UC1,
+                        const_cast<std::byte*>(bytes));  // NOLINT: read only
   // The orientation tag is ignored: a calibration knows the sensor's pixels, not how a viewer turns them.
   constexpr int kFlags = cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;
   const cv::Mat image = cv::imdecode(encoded, kFlags);
@@ -93,7 +100,8 @@ Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to decode this picture"};
 } catch (const cv::Exception& failure) {
-  if (failure.code == cv::Error::StsNoMem) return Error{Errc::OutOfMemory, "no memory to decode this picture"};
+  if (failure.code == cv::Error::StsNoMem)
+    return Error{Errc::OutOfMemory, "no memory to decode this picture"};
   return Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
 }
 
@@ -118,11 +126,11 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   const std::string extension = lower_extension(file);
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!jpeg && extension != ".png")
-    return Error{Errc::InvalidInput, "pictures are written as .png or .jpg; choose one of these names"}.at(file.native());
+    return Error{Errc::InvalidInput, "pictures are written as .png or .jpg; choose one of these names"}.at(
+        file.native());
   if (jpeg && image.format == PixelFormat::Grey16)
     return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit; write a .png"}.at(file.native());
-  Result<std::vector<std::byte>> bytes =
-      jpeg ? encode_jpeg(image, 95) : encode_png(image);
+  Result<std::vector<std::byte>> bytes = jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);
 }

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::array<unsigned, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-unsigned byte_at(std::span<const std::byte> bytes, std::size_t i) { return std::to_integer<unsigned>(bytes[i]); }
+unsigned byte_at(std::span<const std::byte> bytes, std::size_t i) {
+  return std::to_integer<unsigned>(bytes[i]);
+}
 
 std::uint32_t big_endian_32(std::span<const std::byte> b, std::size_t i) {
   return byte_at(b, i) << 24 | byte_at(b, i + 1) << 16 | byte_at(b, i + 2) << 8 | byte_at(b, i + 3);
@@ -34,7 +36,8 @@ Result<PictureHeader> png_header(std::span<const std::byte> b) {
   if (b.size() < 33) return truncated();
   if (big_endian_32(b, 12) != 0x49484452U)  // "IHDR"
     return Error{Errc::InvalidInput, "this PNG does not begin with its header"};
-  const PictureHeader header{static_cast<long>(big_endian_32(b, 16)), static_cast<long>(big_endian_32(b, 20))};
+  const PictureHeader header{static_cast<long>(big_endian_32(b, 16)),
+                             static_cast<long>(big_endian_32(b, 20))};
   std::size_t at = kPngSignature.size();
   while (b.size() - at >= 12) {
     const std::size_t length = big_endian_32(b, at);
@@ -68,7 +71,8 @@ Result<PictureHeader> jpeg_header(std::span<const std::byte> b) {
     }
     if (is_start_of_frame(marker)) {
       if (!ends_with_end_marker(b)) return truncated();
-      return PictureHeader{static_cast<long>(big_endian_16(b, at + 7)), static_cast<long>(big_endian_16(b, at + 5))};
+      return PictureHeader{static_cast<long>(big_endian_16(b, at + 7)),
+                           static_cast<long>(big_endian_16(b, at + 5))};
     }
     at += 2 + big_endian_16(b, at + 2);
   }
@@ -80,7 +84,8 @@ Result<PictureHeader> jpeg_header(std::span<const std::byte> b) {
 Result<PictureHeader> read_picture_header(std::span<const std::byte> bytes) {
   if (bytes.empty()) return Error{Errc::InvalidInput, "this picture is empty"};
   if (starts_with_png(bytes)) return png_header(bytes);
-  if (bytes.size() >= 3 && byte_at(bytes, 0) == 0xff && byte_at(bytes, 1) == 0xd8 && byte_at(bytes, 2) == 0xff)
+  if (bytes.size() >= 3 && byte_at(bytes, 0) == 0xff && byte_at(bytes, 1) == 0xd8 &&
+      byte_at(bytes, 2) == 0xff)
     return jpeg_header(bytes);
   return Error{Errc::InvalidInput, "this is neither a PNG nor a JPEG picture"};
 }

@@ -11,9 +11,13 @@
 namespace relievo::hal {
 
 Result<void> RemovableMedia::settle(const std::filesystem::path& folder) {
-  const auto failed = [](const std::filesystem::path& at, int number) { return Error{Errc::IoFailed, "the stick does not take what is written: use another stick", number}.at(at.native()); };
+  const auto failed = [](const std::filesystem::path& at, int number) {
+    return Error{Errc::IoFailed, "the stick does not take what is written: use another stick", number}.at(
+        at.native());
+  };
   std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
     const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return failed(entry->path(), errno);
     const int number = ::fsync(file) == 0 ? 0 : errno;

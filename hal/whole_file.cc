@@ -25,8 +25,10 @@ struct Descriptor {
 
 Error write_error(int number, const std::filesystem::path& file) {
   if (number == ENOSPC || number == EDQUOT || number == EFBIG)
-    return Error{Errc::MediaFull, "no room left to write this file; free some space", number}.at(file.native());
-  return Error{Errc::IoFailed, "cannot write this file; check that the folder exists and may be written", number}
+    return Error{Errc::MediaFull, "no room left to write this file; free some space", number}.at(
+        file.native());
+  return Error{Errc::IoFailed, "cannot write this file; check that the folder exists and may be written",
+               number}
       .at(file.native());
 }
 
@@ -82,13 +84,15 @@ Result<std::size_t> regular_size(int fd, const std::filesystem::path& file, std:
   if (!S_ISREG(info.st_mode)) return Error{Errc::InvalidInput, "this is not a file"}.at(file.native());
   if (info.st_size == 0) return Error{Errc::InvalidInput, "this file is empty"}.at(file.native());
   const auto size = static_cast<std::size_t>(info.st_size);
-  if (size > limit_bytes) return Error{Errc::InvalidInput, "this file is larger than its limit"}.at(file.native());
+  if (size > limit_bytes)
+    return Error{Errc::InvalidInput, "this file is larger than its limit"}.at(file.native());
   return size;
 }
 
 }  // namespace
 
-Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file, std::size_t limit_bytes) try {
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file,
+                                               std::size_t limit_bytes) try {
   // O_NONBLOCK: a FIFO under this name must not hold us up; regular files do not care.
   const Descriptor in{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (in.fd < 0) {
@@ -113,7 +117,8 @@ Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file
 }
 
 Result<void> write_whole_file(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-  if (file.filename().empty()) return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
+  if (file.filename().empty())
+    return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
   if (is_device(file)) return write_device(file, bytes);
   const std::filesystem::path part = temporary_beside(file);
   int failed = write_and_sync(part, bytes);

@@ -3,8 +3,8 @@
 //
 // The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
 // command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
-// Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers, mesher,
-// completion, relief, texturer; and NAME.OPTION for every option of every algorithm.
+// Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers,
+// mesher, completion, relief, texturer; and NAME.OPTION for every option of every algorithm.
 #pragma once
 
 #include <map>
@@ -54,20 +54,21 @@ struct AlgorithmDescription {
 
 // What may be chosen: for help texts, the technician's page and the documentation.
 struct OptionDescription {
-  std::string key;           // "refined.bending", or a kind: "matcher"
-  std::string value;         // the default
+  std::string key;    // "refined.bending", or a kind: "matcher"
+  std::string value;  // the default
   std::string sentence;
-  std::vector<std::string> names;  // of a kind: what it may be; empty for a number
+  std::vector<std::string> names;                // of a kind: what it may be; empty for a number
   std::vector<AlgorithmDescription> algorithms;  // of a kind: what each of `names` is
-  double least = 0, most = 0;      // of a number
-  bool text = false;               // any text: a path
-  bool several = false;            // of a kind: names may be joined by '+'
-  std::string kind = {};           // of an option: the kind it belongs to
+  double least = 0, most = 0;                    // of a number
+  bool text = false;                             // any text: a path
+  bool several = false;                          // of a kind: names may be joined by '+'
+  std::string kind = {};                         // of an option: the kind it belongs to
 };
 std::vector<OptionDescription> describe_algorithms();
 
 // Errors: InvalidInput where the options do not fit together.
-Result<std::unique_ptr<Preprocessor>> make_preprocessor(const AlgorithmSet& set);  // null: the grey values stay
+Result<std::unique_ptr<Preprocessor>> make_preprocessor(
+    const AlgorithmSet& set);  // null: the grey values stay
 Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set);
 Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
 Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);
@@ -76,7 +77,8 @@ Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& s
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
 Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
 Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set);
-Result<std::optional<ReliefOptions>> make_relief_check(const AlgorithmSet& set);  // none: pictures of faces pass
+Result<std::optional<ReliefOptions>> make_relief_check(
+    const AlgorithmSet& set);  // none: pictures of faces pass
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
 
 }  // namespace relievo::pipeline

@@ -23,7 +23,9 @@ constexpr double kReachBeyondCrop = 1.15;  // so that the rough surface's own er
 // Said before the first picture is looked at, not after minutes of matching.
 Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& mesher) {
   if (selector.on_lattice() || !mesher.needs_lattice()) return {};
-  return Error{Errc::InvalidInput, "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
+  return Error{
+      Errc::InvalidInput,
+      "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
       .at("selector=" + std::string(selector.name()) + " mesher=" + std::string(mesher.name()));
 }
 
@@ -94,12 +96,14 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& c
   });
   if (!looked || context.stop()) return std::nullopt;
   const bool light = fault && error_of(*fault).code == Errc::NoFace;
-  if (!light && fault != PairFault::SamePicture && matches_swapped(frame, context)) fault = PairFault::Swapped;
+  if (!light && fault != PairFault::SamePicture && matches_swapped(frame, context))
+    fault = PairFault::Swapped;
   return fault ? std::optional(error_of(*fault)) : std::nullopt;
 }
 
 Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) const {
-  if (preprocessor_ != nullptr) RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); }));
+  if (preprocessor_ != nullptr)
+    RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); }));
   auto keypoints = run_stage(context, [&](StageContext& c) { return selector_->select(pair, c); });
   if (!keypoints) return keypoints.error();
   auto set = run_stage(context, [&](StageContext& c) { return matcher_->match(pair, *keypoints, c); });
@@ -116,7 +120,8 @@ Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) con
   return set;
 }
 
-Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const {
+Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchSet& matches,
+                                         StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<PointCloud> {
     RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_->triangulate(pair, matches, c));
     RELIEVO_TRY(crop_to_face(cloud, pair, crop_, c));
@@ -125,16 +130,19 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
   });
 }
 
-Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const {
+Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pair,
+                                StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
     RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_->mesh(cloud, c));
-    if (const auto head = find_head_frame(mesh, {}, c, across(calibration_))) lay_eyeballs(mesh, head->head_from_camera, pair, c);
+    if (const auto head = find_head_frame(mesh, {}, c, across(calibration_)))
+      lay_eyeballs(mesh, head->head_from_camera, pair, c);
     return completion_->complete(std::move(mesh), across(calibration_), c);
   });
 }
 
 // Before anything that takes a face for granted looks at the surface.
-Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const {
+Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair,
+                                    StageContext& context) const {
   if (region_ == Region::All) return {};
   RELIEVO_TRY_ASSIGN(const ReliefFigures relief, measure_relief(mesh, pair, context));
   model.quality.relief = relief;

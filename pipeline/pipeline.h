@@ -31,19 +31,23 @@ enum class Region : std::uint8_t { Face, All };
 
 class Pipeline {
  public:
-  // Errors: InvalidInput (options; a mesher for lattices with a scattered selector), NotFound or LibraryFailed (the face detector's files).
+  // Errors: InvalidInput (options; a mesher for lattices with a scattered selector), NotFound or
+  // LibraryFailed (the face detector's files).
   static Result<Pipeline> make(const AlgorithmSet& set, const StereoCalibration& calibration,
                                const RectifierOptions& volume = {}, Region region = Region::Face);
 
   // Errors: InvalidInput (pictures that are not this calibration's), NoFace, Cancelled, OutOfMemory.
   Result<RectifiedPair> rectify(const StereoFrame& frame, StageContext& context) const;
-  // The pair's grey values are then what the preprocessor made of them. Errors: TooFewMatches, NoFace, Cancelled, OutOfMemory.
+  // The pair's grey values are then what the preprocessor made of them. Errors: TooFewMatches, NoFace,
+  // Cancelled, OutOfMemory.
   Result<MatchSet> match(RectifiedPair& pair, StageContext& context) const;
-  Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const;
+  Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches,
+                                 StageContext& context) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
-  // Takes the mesh over into the model, which says where it could not be told whether that is a face (FaceModel::unjudged; never
-  // with Region::All or relief=off). Errors: NoFace (a picture was held up; never so either), Cancelled, OutOfMemory.
+  // Takes the mesh over into the model, which says where it could not be told whether that is a face
+  // (FaceModel::unjudged; never with Region::All or relief=off). Errors: NoFace (a picture was held up; never
+  // so either), Cancelled, OutOfMemory.
   Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
 
   // After a failure: what is wrong with the pictures, if anything is. May take as long as a match.
@@ -55,12 +59,13 @@ class Pipeline {
  private:
   Pipeline() = default;
   bool matches_swapped(const StereoFrame& frame, StageContext& context) const;
-  Result<void> judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
+  Result<void> judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair,
+                            StageContext& context) const;
   AlgorithmSet set_;
   StereoCalibration calibration_;
   RectifierOptions volume_;
   Region region_ = Region::Face;
-  std::shared_ptr<FaceFinder> finder_;  // null where the whole view is wanted
+  std::shared_ptr<FaceFinder> finder_;                // null where the whole view is wanted
   std::shared_ptr<const Preprocessor> preprocessor_;  // null: the grey values stay
   std::shared_ptr<const KeypointSelector> selector_;
   std::shared_ptr<const Matcher> matcher_;

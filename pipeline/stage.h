@@ -20,8 +20,8 @@ struct Progress {
 };
 
 struct StageContext {
-  Arena& output;    // lives until the enrolment session ends
-  Arena& scratch;   // emptied when the stage returns
+  Arena& output;   // lives until the enrolment session ends
+  Arena& scratch;  // emptied when the stage returns
   ThreadPool& pool;
   Progress& progress;
   const std::atomic<bool>& cancelled;
@@ -42,7 +42,8 @@ auto run_stage(StageContext& context, Stage&& stage) -> decltype(stage(context))
   try {
     return std::forward<Stage>(stage)(context);
   } catch (const std::bad_alloc&) {
-    return Error{Errc::OutOfMemory, "the stage's memory is used up: the picture is larger than the plan in budget.h allows"};
+    return Error{Errc::OutOfMemory,
+                 "the stage's memory is used up: the picture is larger than the plan in budget.h allows"};
   } catch (const std::exception&) {
     return Error{Errc::LibraryFailed, "a library gave up on this input"};
   }

@@ -62,7 +62,8 @@ std::string get_name(ByteReader& from) {
 }
 
 bool is_name(const std::string& name) {
-  return name.size() <= pipeline::kMaxCameraWords && std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~'; });
+  return name.size() <= pipeline::kMaxCameraWords &&
+         std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 bool usable(const CameraIntrinsics& camera) {
@@ -108,7 +109,8 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
   return {};
 }
 
-std::vector<std::byte> encode_calibration(const StereoCalibration& calibration, const CalibrationFigures& figures) {
+std::vector<std::byte> encode_calibration(const StereoCalibration& calibration,
+                                          const CalibrationFigures& figures) {
   std::vector<std::byte> out;
   out.reserve(kForm3Bytes);
   ByteWriter to(out);
@@ -121,7 +123,8 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration, 
   const auto& t = calibration.right_from_left.translation_mm;
   for (const double v : {t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px}) to.put(v);
   to.put(static_cast<std::uint8_t>(figures.grade));
-  for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm}) to.put(v);
+  for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm})
+    to.put(v);
   put_name(to, calibration.cameras.left);
   put_name(to, calibration.cameras.right);
   const Sha256 digest = sha256(out);
@@ -155,7 +158,8 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   calibration.epipolar_shift_px = from.get<double>();
   CalibrationFigures& figures = stored.figures;
   const auto grade = from.get<std::uint8_t>();
-  if (grade <= static_cast<std::uint8_t>(CalibrationGrade::Refuse)) figures.grade = static_cast<CalibrationGrade>(grade);
+  if (grade <= static_cast<std::uint8_t>(CalibrationGrade::Refuse))
+    figures.grade = static_cast<CalibrationGrade>(grade);
   for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
     *v = from.get<double>();
   }

@@ -30,11 +30,14 @@ constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::texture_sharpness,
                                               &ModelQuality::symmetry_residual_mm};
 
-constexpr double ReliefFigures::*kRelief[] = {&ReliefFigures::covered,      &ReliefFigures::sigma_mm,       &ReliefFigures::off_plane_mm,
-                                              &ReliefFigures::off_sheet_mm, &ReliefFigures::sheet_range_mm, &ReliefFigures::curvature_sr};
+constexpr double ReliefFigures::*kRelief[] = {&ReliefFigures::covered,        &ReliefFigures::sigma_mm,
+                                              &ReliefFigures::off_plane_mm,   &ReliefFigures::off_sheet_mm,
+                                              &ReliefFigures::sheet_range_mm, &ReliefFigures::curvature_sr};
 
 // Each version added figures at the end.
-std::size_t quality_figures(std::uint16_t version) { return version < 2 ? 7 : version < 3 ? 8 : std::size(kQuality); }
+std::size_t quality_figures(std::uint16_t version) {
+  return version < 2 ? 7 : version < 3 ? 8 : std::size(kQuality);
+}
 
 constexpr std::size_t kLandmarkBytes = pipeline::kLandmarkCount * (4 * 4 + 1);
 std::size_t landmark_bytes(std::uint16_t version) { return version < 3 ? 0 : kLandmarkBytes; }
@@ -54,14 +57,15 @@ struct Shape {
 
   bool within_limits() const {
     return vertices <= kMaxModelVertices && triangles <= kMaxModelTriangles &&
-           width_px <= kMaxTextureSidePx && height_px <= kMaxTextureSidePx &&
-           (flags & ~known_flags()) == 0 && (width_px == 0) == (height_px == 0);
+           width_px <= kMaxTextureSidePx && height_px <= kMaxTextureSidePx && (flags & ~known_flags()) == 0 &&
+           (width_px == 0) == (height_px == 0);
   }
   // Cannot overflow within the limits: at most 0.9 GB.
   std::size_t total_bytes() const {
     const std::size_t v = vertices;
     const std::size_t texels = std::size_t{width_px} * height_px;
-    return kHeaderBytes + (12 + quality_figures(version) + relief_figures(version)) * 8 + landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
+    return kHeaderBytes + (12 + quality_figures(version) + relief_figures(version)) * 8 +
+           landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
            count(Measured, v) + std::size_t{triangles} * 12 + texels * 3 + count(Origin, texels) +
            count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + sizeof(Sha256);
   }
@@ -90,12 +94,12 @@ Result<Shape> shape_of(const FaceModel& model) {
   }
   Shape shape{static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(mesh.triangles.size()),
               static_cast<std::uint32_t>(texture.width_px), static_cast<std::uint32_t>(texture.height_px)};
-  const bool lengths_fit = absent_or(mesh.normals, v, Shape::Normals, shape) &&
-                           absent_or(mesh.sigma_mm, v, Shape::Sigma, shape) &&
-                           absent_or(mesh.measured, v, Shape::Measured, shape) &&
-                           absent_or(texture.uv, mesh.triangles.size() * 3, Shape::Uv, shape) &&
-                           absent_or(texture.vertex_rgb, v * 3, Shape::VertexRgb, shape) &&
-                           absent_or(texture.origin, std::size_t{shape.width_px} * shape.height_px, Shape::Origin, shape);
+  const bool lengths_fit =
+      absent_or(mesh.normals, v, Shape::Normals, shape) && absent_or(mesh.sigma_mm, v, Shape::Sigma, shape) &&
+      absent_or(mesh.measured, v, Shape::Measured, shape) &&
+      absent_or(texture.uv, mesh.triangles.size() * 3, Shape::Uv, shape) &&
+      absent_or(texture.vertex_rgb, v * 3, Shape::VertexRgb, shape) &&
+      absent_or(texture.origin, std::size_t{shape.width_px} * shape.height_px, Shape::Origin, shape);
   if (!shape.within_limits()) return Error{Errc::InvalidInput, "the texture is larger than the store takes"};
   if (!lengths_fit || texture.rgb.size() != std::size_t{shape.width_px} * shape.height_px * 3) {
     return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
@@ -123,13 +127,15 @@ void get_numbers(ByteReader& from, FaceModel& model, std::uint16_t version) {
   model.head_from_camera.translation_mm.x = from.get<double>();
   model.head_from_camera.translation_mm.y = from.get<double>();
   model.head_from_camera.translation_mm.z = from.get<double>();
-  for (const auto member : std::span(kQuality).first(quality_figures(version))) model.quality.*member = from.get<double>();
+  for (const auto member : std::span(kQuality).first(quality_figures(version)))
+    model.quality.*member = from.get<double>();
   if (landmark_bytes(version) == 0) return;
   for (pipeline::Landmark& l : model.landmarks) {
     for (float* value : {&l.at_mm.x, &l.at_mm.y, &l.at_mm.z, &l.sigma_mm}) *value = from.get<float>();
     l.found = from.get<std::uint8_t>() != 0;
   }
-  for (const auto member : std::span(kRelief).first(relief_figures(version))) model.quality.relief.*member = from.get<double>();
+  for (const auto member : std::span(kRelief).first(relief_figures(version)))
+    model.quality.relief.*member = from.get<double>();
 }
 
 template <typename Element, typename Item>
@@ -207,7 +213,8 @@ Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memor
   get_all<std::uint8_t>(from, model.texture.rgb, std::size_t{shape.width_px} * shape.height_px * 3);
   get_all<float>(from, model.texture.uv, shape.count(Shape::Uv, corners));
   get_all<std::uint8_t>(from, model.texture.vertex_rgb, shape.count(Shape::VertexRgb, v * 3));
-  get_all<std::uint8_t>(from, model.texture.origin, shape.count(Shape::Origin, std::size_t{shape.width_px} * shape.height_px));
+  get_all<std::uint8_t>(from, model.texture.origin,
+                        shape.count(Shape::Origin, std::size_t{shape.width_px} * shape.height_px));
   model.texture.width_px = static_cast<int>(shape.width_px);
   model.texture.height_px = static_cast<int>(shape.height_px);
   if (!from.ok() || from.left() != 0 || !indices_fit(model.mesh)) {

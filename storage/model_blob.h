@@ -5,12 +5,12 @@
 //
 // Little-endian, whatever the machine:
 //   "RFACE\0" u16 version | 5 x u32 vertices triangles width_px height_px flags | 12 f64 head_from_camera
-//   | 9 f64 quality | 10 landmarks: x y z sigma f32, found u8 | 6 f64 relief | vertices 3 f32 | normals 3 f32 | sigma f32 | measured u8 | triangles 3 u32
-//   | texture rgb | uv 2 f32 a corner | vertex rgb | texture origin u8 | SHA-256 of all before it
-// Still read: version 1 with 7 figures of quality, no origin and no landmarks; version 2 with 8 and no landmarks;
-// version 3 without relief.
-// Every number comes back bit for bit. The length follows from the header alone, so a cut piece, a
-// longer piece and hostile sizes are refused before anything is allocated.
+//   | 9 f64 quality | 10 landmarks: x y z sigma f32, found u8 | 6 f64 relief | vertices 3 f32 | normals 3 f32
+//   | sigma f32 | measured u8 | triangles 3 u32 | texture rgb | uv 2 f32 a corner | vertex rgb | texture
+//   origin u8 | SHA-256 of all before it
+// Still read: version 1 with 7 figures of quality, no origin and no landmarks; version 2 with 8 and no
+// landmarks; version 3 without relief. Every number comes back bit for bit. The length follows from the
+// header alone, so a cut piece, a longer piece and hostile sizes are refused before anything is allocated.
 #pragma once
 
 #include <cstddef>

@@ -35,7 +35,8 @@ struct Subject {
   std::string name;
   WallTime created_at;
   int enrolments = 0;
-  std::int64_t receipt = 0;  // drawn when they came (receipt_number.h); 0: a store of before receipts were drawn
+  std::int64_t receipt =
+      0;  // drawn when they came (receipt_number.h); 0: a store of before receipts were drawn
 };
 
 struct SubjectFilter {
@@ -60,7 +61,7 @@ struct NewEnrolment {
   std::uint32_t calibration_revision = 0;  // 0: made with one that is not in the store
   std::string_view algorithms;             // the set of algorithms, TOML
   std::string_view report_json;
-  bool renews = false;                     // the subject's earlier enrolments are erased in the same transaction
+  bool renews = false;  // the subject's earlier enrolments are erased in the same transaction
 };
 
 struct Enrolment {

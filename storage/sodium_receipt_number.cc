@@ -6,7 +6,8 @@
 
 namespace relievo::storage {
 
-// What is beyond the last whole multiple of the range is drawn again: every number is as likely as every other.
+// What is beyond the last whole multiple of the range is drawn again: every number is as likely as every
+// other.
 std::int64_t draw_receipt() {
   constexpr auto kRange = static_cast<std::uint64_t>(kMostReceipt - kLeastReceipt + 1);
   constexpr std::uint64_t kEnd = UINT64_MAX - UINT64_MAX % kRange;

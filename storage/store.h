@@ -51,9 +51,11 @@ class Store {
   // Stores a calibration under the next revision, which it returns, and makes it the active one.
   // InvalidInput: not finite, or without a focal length or a size.
   virtual Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
-                                                 std::string_view note, const CalibrationFigures& figures) = 0;
+                                                 std::string_view note,
+                                                 const CalibrationFigures& figures) = 0;
   // One whose figures nobody knows: from a file.
-  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note) {
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
+                                         std::string_view note) {
     return save_calibration(calibration, note, {});
   }
   // The revision of one that somebody else keeps, in a file: its own where the store has the same

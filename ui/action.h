@@ -11,22 +11,50 @@ namespace relievo::ui {
 
 enum class ActionKind : std::uint8_t {
   None,
-  Start, Agree, Decline, Done,           // on along the path
-  Back, Leave, LeaveNow, Stay,           // and off it
-  ShowLanguages, ChooseLanguage, ShowHelp, CloseOverlay,
-  BiggerText, Contrast,
-  TypeKey, Erase, Shift, Accents,        // value: a space types one, else the node's text
-  TakePicture, Accept, Retake,
-  TurnFace,                              // dragged
-  TurnLeft, TurnRight, ZoomIn, ZoomOut, MoveLight, ShowShape,
-  LookPoints, LookEdges, LookFill, LookLight,  // what of the model is drawn
-  HaveCode, SomebodyElse, Renew, AddAnother,   // already enrolled
+  Start,
+  Agree,
+  Decline,
+  Done,  // on along the path
+  Back,
+  Leave,
+  LeaveNow,
+  Stay,  // and off it
+  ShowLanguages,
+  ChooseLanguage,
+  ShowHelp,
+  CloseOverlay,
+  BiggerText,
+  Contrast,
+  TypeKey,
+  Erase,
+  Shift,
+  Accents,  // value: a space types one, else the node's text
+  TakePicture,
+  Accept,
+  Retake,
+  TurnFace,  // dragged
+  TurnLeft,
+  TurnRight,
+  ZoomIn,
+  ZoomOut,
+  MoveLight,
+  ShowShape,
+  LookPoints,
+  LookEdges,
+  LookFill,
+  LookLight,  // what of the model is drawn
+  HaveCode,
+  SomebodyElse,
+  Renew,
+  AddAnother,  // already enrolled
   Finish,
-  StaffEnter, StaffLeave,                // the staff's side (ui/service.h)
-  StaffOpen,                             // value: a StaffPage
-  StaffDo,                               // value: one of the page's verbs, detail: its number
-  StaffAnswer,                           // the same, and the page's mode is its first again
-  StaffMode, StaffChoose                 // value: the page's mode; a row, detail: the mode
+  StaffEnter,
+  StaffLeave,   // the staff's side (ui/service.h)
+  StaffOpen,    // value: a StaffPage
+  StaffDo,      // value: one of the page's verbs, detail: its number
+  StaffAnswer,  // the same, and the page's mode is its first again
+  StaffMode,
+  StaffChoose  // value: the page's mode; a row, detail: the mode
 };
 
 struct Action {

@@ -25,7 +25,7 @@ struct ConsentText {
 };
 
 struct ConsentTexts {
-  std::string version;   // stored with every record, as "2026-03"
+  std::string version;  // stored with every record, as "2026-03"
   std::array<std::optional<ConsentText>, kLanguages> in;
   const ConsentText* of(Language language) const {
     const auto& text = in[static_cast<std::size_t>(language)];

@@ -8,14 +8,18 @@
 
 namespace relievo::ui {
 
-inline constexpr std::int64_t kMouse = -1;   // as a finger
+inline constexpr std::int64_t kMouse = -1;  // as a finger
 
 struct Input {
   enum class Kind : std::uint8_t {
-    Down, Move, Up,                            // a finger
-    Next, Previous,                            // the keypad: focus goes on, or back
-    Activate, Back,                            // what has the focus is done; one step back
-    Quit                                       // the window is closed
+    Down,
+    Move,
+    Up,  // a finger
+    Next,
+    Previous,  // the keypad: focus goes on, or back
+    Activate,
+    Back,  // what has the focus is done; one step back
+    Quit   // the window is closed
   };
   Kind kind = Kind::Down;
   std::int64_t finger = 0;

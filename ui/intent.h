@@ -11,28 +11,34 @@
 namespace relievo::ui {
 
 enum class Intent : std::uint8_t {
-  LookUp,    // is there a record of the name, or of the code, that was typed?
-  Pose,      // stand before the cameras: the live picture begins (a person who has agreed, with a name)
-  Begin,     // take the picture
-  Accept, Retake, Cancel,
-  StillHere, // somebody is there: a state that waits for a person waits longer
-  OpenTechnician, LeaveTechnician, Calibrate, Export
+  LookUp,  // is there a record of the name, or of the code, that was typed?
+  Pose,    // stand before the cameras: the live picture begins (a person who has agreed, with a name)
+  Begin,   // take the picture
+  Accept,
+  Retake,
+  Cancel,
+  StillHere,  // somebody is there: a state that waits for a person waits longer
+  OpenTechnician,
+  LeaveTechnician,
+  Calibrate,
+  Export
 };
 
 // What is to become of the portrait.
 enum class Errand : std::uint8_t {
-  New,       // of somebody new
-  Renew,     // in the place of the earlier ones of the record whose code was quoted
-  Add        // beside them
+  New,    // of somebody new
+  Renew,  // in the place of the earlier ones of the record whose code was quoted
+  Add     // beside them
 };
 
-// Who stands there, and what they have agreed to; goes with Intent::LookUp and Intent::Pose. Borrowed for the call.
+// Who stands there, and what they have agreed to; goes with Intent::LookUp and Intent::Pose. Borrowed for the
+// call.
 struct Wish {
   std::string_view name;
-  std::string_view wording;    // which consent text was shown
-  std::string_view language;   // in which language, BCP 47
+  std::string_view wording;   // which consent text was shown
+  std::string_view language;  // in which language, BCP 47
   std::chrono::system_clock::time_point agreed_at;
-  bool quotes_code = false;    // the name is the code of an earlier record, or nothing
+  bool quotes_code = false;  // the name is the code of an earlier record, or nothing
   Errand errand = Errand::New;
 };
 

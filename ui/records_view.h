@@ -12,8 +12,8 @@ namespace relievo::ui {
 
 inline constexpr std::uint8_t kRecordsSearch = 1;  // text: a part of the name, or a number; empty: everyone
 inline constexpr std::uint8_t kRecordsNewer = 2, kRecordsOlder = 3;
-inline constexpr std::uint8_t kRecordShow = 4, kRecordErase = 5;    // number: of the record
-inline constexpr std::uint8_t kRecordExport = 6;   // number: of the record; 0: of everyone who is found
+inline constexpr std::uint8_t kRecordShow = 4, kRecordErase = 5;  // number: of the record
+inline constexpr std::uint8_t kRecordExport = 6;  // number: of the record; 0: of everyone who is found
 inline constexpr std::uint8_t kExportStop = 7;
 
 struct RecordRow {
@@ -23,15 +23,15 @@ struct RecordRow {
 };
 
 struct RecordsView {
-  std::span<const RecordRow> rows;   // newest first
-  bool newer = false, older = false; // there are more that way
+  std::span<const RecordRow> rows;    // newest first
+  bool newer = false, older = false;  // there are more that way
   std::string_view searched;
-  const RecordRow* shown = nullptr;  // the one that is looked at
+  const RecordRow* shown = nullptr;        // the one that is looked at
   std::string_view consent, consented_at;  // the text's version and language; when
-  bool erased = false;               // the last thing that was done
+  bool erased = false;                     // the last thing that was done
   bool exported = false;
-  int asked = 0;                     // records of the last export; 0: the last thing that was done is another
-  int whole = 0;                     // of these, on the stick and read back
+  int asked = 0;  // records of the last export; 0: the last thing that was done is another
+  int whole = 0;  // of these, on the stick and read back
 };
 
 }  // namespace relievo::ui

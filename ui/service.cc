@@ -18,7 +18,8 @@ bool needs_role(StaffPage page) { return page != StaffPage::Pin && page != Staff
 bool Service::takes(ActionKind kind) const {
   if (kind == ActionKind::StaffEnter) return true;
   // Language, text size and help are the same for everybody.
-  const bool staff = kind > ActionKind::StaffEnter || kind == ActionKind::TypeKey || kind == ActionKind::Erase || kind == ActionKind::Back;
+  const bool staff = kind > ActionKind::StaffEnter || kind == ActionKind::TypeKey ||
+                     kind == ActionKind::Erase || kind == ActionKind::Back;
   return open && staff;
 }
 
@@ -33,7 +34,8 @@ void Service::act(const Action& action, const ViewState& view) {
   const ActionKind kind = action.kind;
   if (kind == ActionKind::StaffEnter) enter(view);
   if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
-  if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer) wish(static_cast<std::uint8_t>(action.value), action.detail);
+  if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer)
+    wish(static_cast<std::uint8_t>(action.value), action.detail);
   if (kind == ActionKind::StaffAnswer) mode = 0;
   if (kind == ActionKind::StaffMode) mode = action.value;
   if (kind == ActionKind::StaffChoose) {

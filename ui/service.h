@@ -46,8 +46,8 @@ class Service {
  public:
   bool open = false;
   StaffPage page = StaffPage::Pin;
-  int mode = 0;                  // the page's own: a question, a step; 0 when the page is opened
-  std::int64_t chosen = 0;       // the page's own: a row
+  int mode = 0;             // the page's own: a question, a step; 0 when the page is opened
+  std::int64_t chosen = 0;  // the page's own: a row
 
   std::string_view typed() const { return {typed_.data(), length_}; }
   bool takes(ActionKind kind) const;
@@ -71,7 +71,9 @@ class Service {
   void back(bool inner);
   void erase_letter();
   void forget_typed();
-  bool digits_only() const { return page == StaffPage::Pin || page == StaffPage::FirstStart || page == StaffPage::Pins; }
+  bool digits_only() const {
+    return page == StaffPage::Pin || page == StaffPage::FirstStart || page == StaffPage::Pins;
+  }
 
   std::array<char, kStaffTextBytes> typed_{};
   std::size_t length_ = 0;

@@ -18,56 +18,90 @@ enum class StaffRole : std::uint8_t { None, Technician, Operator };
 
 // Every page of the staff's side. Pin and FirstStart need no role; the rest are rows of kStaffPages.
 enum class StaffPage : std::uint8_t {
-  Pin, FirstStart, Menu,
-  Records, Statistics, Consent,                    // operator's
-  Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate,  // technician's, on the workbench
-  SelfTest, Trigger, Touch, Health, Log,  // technician's
-  Settings, Pins,                                  // everybody's
+  Pin,
+  FirstStart,
+  Menu,
+  Records,
+  Statistics,
+  Consent,  // operator's
+  Stages,
+  Model,
+  Tables,
+  Algorithms,
+  Compare,
+  Cameras,
+  Calibrate,  // technician's, on the workbench
+  SelfTest,
+  Trigger,
+  Touch,
+  Health,
+  Log,  // technician's
+  Settings,
+  Pins,  // everybody's
   Count
 };
 
 // How a piece of work ended, as far as it makes a difference to who asked for it.
 enum class Outcome : std::uint8_t {
-  None, Done, Cancelled, NoStick, StickFull, StickGone,
-  StickLocked, StickBad, StickHeld,   // write-protected; does not keep what is written; all is there, but the system does not let it go
-  StickUnchecked,                     // all is there and was read back, but it cannot be opened once more to be sure
-  NotFound, Refused, Failed
+  None,
+  Done,
+  Cancelled,
+  NoStick,
+  StickFull,
+  StickGone,
+  StickLocked,
+  StickBad,
+  StickHeld,  // write-protected; does not keep what is written; all is there, but the system does not let it
+              // go
+  StickUnchecked,  // all is there and was read back, but it cannot be opened once more to be sure
+  NotFound,
+  Refused,
+  Failed
 };
 
 struct Work {
   bool running = false;
-  float progress = 0;           // 0 to 1
+  float progress = 0;  // 0 to 1
   Outcome outcome = Outcome::None;
-  std::string_view problem;     // one sentence in English, for the log's reader; may be empty
+  std::string_view problem;  // one sentence in English, for the log's reader; may be empty
 };
 
 // Whose PIN is to be typed while new ones are chosen: each is typed twice.
-enum class PinStep : std::uint8_t { Technician, TechnicianAgain, Operator, OperatorAgain, Own, OwnAgain, Done };
+enum class PinStep : std::uint8_t {
+  Technician,
+  TechnicianAgain,
+  Operator,
+  OperatorAgain,
+  Own,
+  OwnAgain,
+  Done
+};
 enum class PinFault : std::uint8_t { None, Differ, Simple, Taken };
 
 struct AccessView {
-  bool set_up = true;           // both PINs have been chosen
-  bool demanded = false;        // until they are nobody gets past the first start: the device stands before real people
+  bool set_up = true;  // both PINs have been chosen
+  bool demanded =
+      false;  // until they are nobody gets past the first start: the device stands before real people
   PinStep step = PinStep::Technician;
   PinFault fault = PinFault::None;
-  std::string_view clock;       // the date and time that is shown for the first start
-  bool clock_right = false;     // somebody has said so
-  bool clock_refused = false;   // the system does not let this program set its clock
+  std::string_view clock;      // the date and time that is shown for the first start
+  bool clock_right = false;    // somebody has said so
+  bool clock_refused = false;  // the system does not let this program set its clock
   bool checking = false;
-  bool wrong = false;           // the last one was
-  int wait_s = 0;               // until the next try
-  bool consent_right = false;   // somebody has seen which consent text is in force, and goes on with it
-  bool forgotten = false;       // not set up, because one of the two is to be chosen anew
+  bool wrong = false;          // the last one was
+  int wait_s = 0;              // until the next try
+  bool consent_right = false;  // somebody has seen which consent text is in force, and goes on with it
+  bool forgotten = false;      // not set up, because one of the two is to be chosen anew
 };
 
 enum class Mood : std::uint8_t { Plain, Good, Warn, Bad };
 
 struct ServiceView {
   StaffRole role = StaffRole::None;
-  int leaves_in_s = 0;          // 0: not soon
+  int leaves_in_s = 0;  // 0: not soon
   AccessView access;
-  Work work;                    // of the page that is shown
-  bool inner = false;           // it shows something within itself: Back opens the page anew
+  Work work;           // of the page that is shown
+  bool inner = false;  // it shows something within itself: Back opens the page anew
   // The model of the page, to be turned; another number for every model.
   const pipeline::FaceModel* model = nullptr;
   std::uint32_t model_number = 0;
@@ -81,7 +115,7 @@ struct ServiceView {
   const struct ConsentShelfView* consent = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
-  const struct BenchView* bench = nullptr;   // of all pages on the workbench
+  const struct BenchView* bench = nullptr;  // of all pages on the workbench
 };
 
 }  // namespace relievo::ui

@@ -19,18 +19,18 @@ enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory,
 inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
 
 struct StatisticsView {
-  std::string_view since;                        // a date
+  std::string_view since;  // a date
   std::uint64_t visits = 0, captures = 0, models = 0, stored = 0, left = 0;
   std::array<std::uint64_t, kRefusals> refused{};
-  double median_s = 0, slow_s = 0;               // from the pictures to the model: half, nine of ten are faster
+  double median_s = 0, slow_s = 0;  // from the pictures to the model: half, nine of ten are faster
 };
 
 // What has been noted, to be said in the reader's language.
 struct LogLine {
-  std::string_view at;                       // date and time
+  std::string_view at;  // date and time
   bool fault = false;
-  std::string_view sentence;                 // English
-  std::string_view key;                      // of its words; empty: nobody knows it any more, the sentence is said as it is
+  std::string_view sentence;  // English
+  std::string_view key;       // of its words; empty: nobody knows it any more, the sentence is said as it is
   std::array<std::string_view, 2> values{};  // for the places {} of the key
 };
 
@@ -39,29 +39,30 @@ enum class Gauge : std::uint8_t { Stages, Process, Disk, Temperature };
 
 struct GaugeRow {
   Gauge gauge = Gauge::Process;
-  std::string_view name;          // of a sensor; empty: the gauge's own
-  double used = 0, of = 0;        // MiB, or degrees Celsius
+  std::string_view name;    // of a sensor; empty: the gauge's own
+  double used = 0, of = 0;  // MiB, or degrees Celsius
   Mood mood = Mood::Plain;
 };
 
 struct HealthView {
   std::span<const GaugeRow> gauges;
-  std::span<const LogLine> faults;           // newest first
+  std::span<const LogLine> faults;  // newest first
 };
 
 // --- log: the newest lines -------------------------------------------------------------------------
 struct LogView {
-  std::span<const LogLine> lines;            // newest first
+  std::span<const LogLine> lines;  // newest first
 };
 
 // --- consent text: which is in force, ViewState::consent says --------------------------------------
-inline constexpr std::uint8_t kConsentTake = 5;   // from the stick; also on the page of the first start
+inline constexpr std::uint8_t kConsentTake = 5;  // from the stick; also on the page of the first start
 
 struct ConsentShelfView {
   bool taking = false;
-  Outcome outcome = Outcome::None;   // of the last try; Done: it is in force. NotFound: the stick has no such folder
-  std::string_view file;          // what is wrong, by its name
-  std::string_view fault;         // and why: English, the key of its words
+  Outcome outcome =
+      Outcome::None;       // of the last try; Done: it is in force. NotFound: the stick has no such folder
+  std::string_view file;   // what is wrong, by its name
+  std::string_view fault;  // and why: English, the key of its words
 };
 
 // --- self-test --------------------------------------------------------------------------------------
@@ -79,9 +80,9 @@ struct SelfTestView {
 inline constexpr std::uint8_t kTriggerBegin = 1;
 
 struct TriggerView {
-  int pulses = 0, pairs = 0;      // given; seen by both cameras
-  double apart_ms = 0;            // between the two exposures, at most
-  double delay_ms = 0;            // from asking to having both pictures, at most
+  int pulses = 0, pairs = 0;                      // given; seen by both cameras
+  double apart_ms = 0;                            // between the two exposures, at most
+  double delay_ms = 0;                            // from asking to having both pictures, at most
   std::uint64_t late = 0, lost = 0, damaged = 0;  // of both cameras, in this test
   bool ended = false;
 };

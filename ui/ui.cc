@@ -25,7 +25,8 @@ constexpr float kSlopPx = 14;  // a finger that rests moves so far
 std::optional<Intent> Ui::take_intent() {
   if (intent_count_ == 0) return std::nullopt;
   const Intent first = intents_[0];
-  std::move(intents_.begin() + 1, intents_.begin() + static_cast<std::ptrdiff_t>(intent_count_), intents_.begin());
+  std::move(intents_.begin() + 1, intents_.begin() + static_cast<std::ptrdiff_t>(intent_count_),
+            intents_.begin());
   --intent_count_;
   return first;
 }
@@ -34,7 +35,10 @@ void Ui::ask(std::optional<Intent> intent) {
   if (intent && intent_count_ < intents_.size()) intents_[intent_count_++] = *intent;
 }
 
-Wish Ui::wish() const { return {visit_.name(), kConsentWording, info_of(visit_.language).code, visit_.agreed_at(), visit_.quotes_code(), visit_.errand()}; }
+Wish Ui::wish() const {
+  return {visit_.name(),      kConsentWording,      info_of(visit_.language).code,
+          visit_.agreed_at(), visit_.quotes_code(), visit_.errand()};
+}
 
 bool Ui::take_forgotten() { return std::exchange(forgotten_, false); }
 
@@ -54,16 +58,23 @@ void Ui::feed(const Input& input, const ViewState& view) {
     if (input.kind == Input::Kind::Activate) return;
   }
   switch (input.kind) {
-    case Input::Kind::Down: return down(input);
-    case Input::Kind::Move: return move(input);
-    case Input::Kind::Up: return up(input, view);
-    case Input::Kind::Next: return focus_on(1);
-    case Input::Kind::Previous: return focus_on(-1);
-    case Input::Kind::Activate: return activate_focus(view);
+    case Input::Kind::Down:
+      return down(input);
+    case Input::Kind::Move:
+      return move(input);
+    case Input::Kind::Up:
+      return up(input, view);
+    case Input::Kind::Next:
+      return focus_on(1);
+    case Input::Kind::Previous:
+      return focus_on(-1);
+    case Input::Kind::Activate:
+      return activate_focus(view);
     case Input::Kind::Back:
       if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
       return ask(visit_.act({ActionKind::Back, 0}, view));
-    case Input::Kind::Quit: return;
+    case Input::Kind::Quit:
+      return;
   }
 }
 
@@ -88,7 +99,8 @@ void Ui::move(const Input& input) {
     if (std::hypot(finger.x - finger.start_x, finger.y - finger.start_y) > kSlopPx) finger.dragging = true;
     if (!finger.dragging) return;
     const Node* node = tree_.find(hands_.pressed);
-    if (node != nullptr && node->hold && !node->rect.holds(finger.x, finger.y)) hands_.pressed.clear();  // it slid off: that is no holding
+    if (node != nullptr && node->hold && !node->rect.holds(finger.x, finger.y))
+      hands_.pressed.clear();  // it slid off: that is no holding
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
     if (fingers_[0].down && fingers_[1].down) return pinch(finger, old_x, old_y, fingers_[1 - i]);
     if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);
@@ -97,7 +109,8 @@ void Ui::move(const Input& input) {
         hands_.scrolled = scroller->id;
         hands_.scroll_px = 0;
       }
-      hands_.scroll_px = std::clamp(hands_.scroll_px - (finger.y - old_y), 0.0F, scroller->content_height - scroller->rect.h);
+      hands_.scroll_px = std::clamp(hands_.scroll_px - (finger.y - old_y), 0.0F,
+                                    scroller->content_height - scroller->rect.h);
       hands_.pressed.clear();
     }
     return;
@@ -125,11 +138,13 @@ void Ui::activate(const Node& node, const ViewState& view) {
     visit_.capitals = false;
     return;
   }
-  if (node.action.kind == ActionKind::TypeKey) return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
+  if (node.action.kind == ActionKind::TypeKey)
+    return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
   ask(visit_.act(node.action, view));
 }
 
-// A keypad has no finger that rests. What must not happen by mistake takes the same time here, and nobody has to keep a key down.
+// A keypad has no finger that rests. What must not happen by mistake takes the same time here, and nobody has
+// to keep a key down.
 void Ui::activate_focus(const ViewState& view) {
   const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
   if (node == nullptr || node->action.kind == ActionKind::None) return;
@@ -141,13 +156,17 @@ void Ui::activate_focus(const ViewState& view) {
 
 // What goes on is read to its end before the focus leaves it.
 void Ui::focus_on(int direction) {
-  constexpr float kScreenful = 0.7F;   // the last lines of one are seen again, and none lies under a fade
+  constexpr float kScreenful = 0.7F;  // the last lines of one are seen again, and none lies under a fade
   const Node* at = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
-  const Node* next = tree_.after(at != nullptr ? std::string_view(hands_.focus) : std::string_view{}, direction);
+  const Node* next =
+      tree_.after(at != nullptr ? std::string_view(hands_.focus) : std::string_view{}, direction);
   const Node* left = at == nullptr ? nullptr : at->box.scroll ? at : tree_.scroller_around(*at);
-  const bool leaves = left != nullptr && (next == nullptr || next == left || tree_.scroller_around(*next) != left);
+  const bool leaves =
+      left != nullptr && (next == nullptr || next == left || tree_.scroller_around(*next) != left);
   const bool turns_round = left != nullptr && next != nullptr && (direction > 0) != (next > at);
-  if ((leaves || turns_round) && scroll(*left, scrolled_px(*left) + static_cast<float>(direction) * kScreenful * left->rect.h)) return;
+  if ((leaves || turns_round) &&
+      scroll(*left, scrolled_px(*left) + static_cast<float>(direction) * kScreenful * left->rect.h))
+    return;
   hands_.show_focus = next != nullptr;
   if (next == nullptr) return;
   hands_.focus = next->id;
@@ -155,7 +174,8 @@ void Ui::focus_on(int direction) {
 }
 
 bool Ui::scroll(const Node& scroller, float to_px) {
-  const float to = std::clamp(to_px, 0.0F, std::max(0.0F, scroller.content_height - scroller.rect.h)), before = scrolled_px(scroller);
+  const float to = std::clamp(to_px, 0.0F, std::max(0.0F, scroller.content_height - scroller.rect.h)),
+              before = scrolled_px(scroller);
   if (std::abs(to - before) < 1) return false;
   hands_.scrolled = scroller.id;
   hands_.scroll_px = to;
@@ -166,7 +186,8 @@ void Ui::bring_into_view(const Node& node) {
   const Node* scroller = tree_.scroller_around(node);
   if (scroller == nullptr) return;
   const Rect& room = scroller->rect;
-  const float margin = std::max(0.0F, std::min(room.h / 4, (room.h - node.rect.h) / 2));   // as high as a fade, where there is room
+  const float margin = std::max(
+      0.0F, std::min(room.h / 4, (room.h - node.rect.h) / 2));  // as high as a fade, where there is room
   const float above = room.y + margin - node.rect.y, below = node.rect.bottom() - (room.bottom() - margin);
   if (above > 0) scroll(*scroller, scrolled_px(*scroller) - above);
   else if (below > 0) scroll(*scroller, scrolled_px(*scroller) + below);
@@ -179,7 +200,8 @@ void Ui::drag_face(float dx, float dy) {
 }
 
 void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& other) {
-  const float before = std::hypot(old_x - other.x, old_y - other.y), now = std::hypot(moved.x - other.x, moved.y - other.y);
+  const float before = std::hypot(old_x - other.x, old_y - other.y),
+              now = std::hypot(moved.x - other.x, moved.y - other.y);
   if (before > 1) visit_.look.zoom = std::clamp(visit_.look.zoom * now / before, 0.8F, 3.0F);
 }
 
@@ -187,7 +209,8 @@ void Ui::frame(const ViewState& view) {
   follow_staff(view);
   ask(visit_.follow(view));
   const std::optional<StaffPage> page = service_.open ? std::optional(service_.page) : std::nullopt;
-  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_ || page != last_page_ || service_.mode != last_mode_;
+  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_ || page != last_page_ ||
+                        service_.mode != last_mode_;
   if (moved_on) {
     hands_.scrolled.clear();
     hands_.scroll_px = 0;
@@ -196,7 +219,8 @@ void Ui::frame(const ViewState& view) {
     key_held_ = false;
     hands_.show_focus = false;
   }
-  if (((visit_.step == Step::Attract || visit_.step == Step::Trouble) && last_step_ != visit_.step) || page != last_page_) {
+  if (((visit_.step == Step::Attract || visit_.step == Step::Trouble) && last_step_ != visit_.step) ||
+      page != last_page_) {
     forgotten_ = true;
     visit_.look = {};
     text_->forget();
@@ -208,12 +232,15 @@ void Ui::frame(const ViewState& view) {
   draw(view);
 }
 
-// What is held is done when its time has passed: the way in, so that a child's finger does not open it, and what nobody can undo.
+// What is held is done when its time has passed: the way in, so that a child's finger does not open it, and
+// what nobody can undo.
 void Ui::follow_staff(const ViewState& view) {
   const Node* held = hands_.pressed.empty() ? nullptr : tree_.find(hands_.pressed);
   hands_.held = 0;
   if (held != nullptr && held->hold) {
-    const float share = std::clamp(std::chrono::duration<float>(view.now - pressed_at_) / std::chrono::duration<float>(kHold), 0.0F, 1.0F);
+    const float share =
+        std::clamp(std::chrono::duration<float>(view.now - pressed_at_) / std::chrono::duration<float>(kHold),
+                   0.0F, 1.0F);
     if (share < 1) {
       hands_.held = share;
     } else {
@@ -235,7 +262,8 @@ void Ui::show(const ViewState& view, const Visit& visit, const Service& service)
 
 void Ui::draw(const ViewState& view) {
   const Rect screen{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
-  const Palette& palette = service_.open ? build_staff_screen(tree_, view, visit_, service_, screen) : build_visitor_screen(tree_, view, visit_, screen);
+  const Palette& palette = service_.open ? build_staff_screen(tree_, view, visit_, service_, screen)
+                                         : build_visitor_screen(tree_, view, visit_, screen);
   tree_.layout(screen, *text_, hands_);
   if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
   else fill_pictures(list_, view, visit_);

@@ -48,7 +48,9 @@ class Ui {
   Visit& visit() { return visit_; }
   const Visit& visit() const { return visit_; }
   Service& service() { return service_; }
-  std::string_view focus() const { return hands_.show_focus ? std::string_view(hands_.focus) : std::string_view(); }
+  std::string_view focus() const {
+    return hands_.show_focus ? std::string_view(hands_.focus) : std::string_view();
+  }
   const Service& service() const { return service_; }
 
  private:
@@ -66,8 +68,10 @@ class Ui {
   void move(const Input& input);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
-  float scrolled_px(const Node& scroller) const { return hands_.scrolled == scroller.id ? hands_.scroll_px : 0; }
-  bool scroll(const Node& scroller, float to_px);   // false: it is there
+  float scrolled_px(const Node& scroller) const {
+    return hands_.scrolled == scroller.id ? hands_.scroll_px : 0;
+  }
+  bool scroll(const Node& scroller, float to_px);  // false: it is there
   void bring_into_view(const Node& node);
   void activate(const Node& node, const ViewState& view);
   void activate_focus(const ViewState& view);
@@ -85,10 +89,10 @@ class Ui {
   std::size_t intent_count_ = 0;
   Step last_step_ = Step::Starting;
   Overlay last_overlay_ = Overlay::None;
-  std::optional<StaffPage> last_page_;     // none: the visitor's side
+  std::optional<StaffPage> last_page_;  // none: the visitor's side
   int last_mode_ = 0;
   hal::Instant pressed_at_{};
-  bool key_held_ = false;                  // what is pressed was asked for by the keypad
+  bool key_held_ = false;  // what is pressed was asked for by the keypad
   bool forgotten_ = false;
   int width_px_ = 1280, height_px_ = 800;
 };

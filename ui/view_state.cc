@@ -6,20 +6,34 @@ namespace relievo::ui {
 
 std::string_view name_of(Screen screen) {
   switch (screen) {
-    case Screen::SelfTest: return "SelfTest";
-    case Screen::Idle: return "Idle";
-    case Screen::Calibrate: return "Calibrate";
-    case Screen::Position: return "Position";
-    case Screen::Capture: return "Capture";
-    case Screen::Match: return "Match";
-    case Screen::Reconstruct: return "Reconstruct";
-    case Screen::Mesh: return "Mesh";
-    case Screen::Texture: return "Texture";
-    case Screen::Review: return "Review";
-    case Screen::Store: return "Store";
-    case Screen::Export: return "Export";
-    case Screen::Technician: return "Technician";
-    case Screen::Fault: return "Fault";
+    case Screen::SelfTest:
+      return "SelfTest";
+    case Screen::Idle:
+      return "Idle";
+    case Screen::Calibrate:
+      return "Calibrate";
+    case Screen::Position:
+      return "Position";
+    case Screen::Capture:
+      return "Capture";
+    case Screen::Match:
+      return "Match";
+    case Screen::Reconstruct:
+      return "Reconstruct";
+    case Screen::Mesh:
+      return "Mesh";
+    case Screen::Texture:
+      return "Texture";
+    case Screen::Review:
+      return "Review";
+    case Screen::Store:
+      return "Store";
+    case Screen::Export:
+      return "Export";
+    case Screen::Technician:
+      return "Technician";
+    case Screen::Fault:
+      return "Fault";
   }
   return "?";
 }

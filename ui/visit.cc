@@ -9,19 +9,22 @@ namespace relievo::ui {
 namespace {
 
 bool is_stage(Screen screen) {
-  return screen == Screen::Capture || screen == Screen::Match || screen == Screen::Reconstruct || screen == Screen::Mesh ||
-         screen == Screen::Texture;
+  return screen == Screen::Capture || screen == Screen::Match || screen == Screen::Reconstruct ||
+         screen == Screen::Mesh || screen == Screen::Texture;
 }
 
 }  // namespace
 
 int Visit::seconds_left(hal::Instant now) const {
-  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + patience() + kLastCall - now).count();
+  const auto left =
+      std::chrono::ceil<std::chrono::seconds>(last_touch_ + patience() + kLastCall - now).count();
   return static_cast<int>(std::clamp<long>(left, 0, kLastCall.count()));
 }
 
 std::optional<float> Visit::countdown(const LiveView& live) const {
-  if (!settings_.is_on(Setting::Automatic) || overlay != Overlay::None || live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor) return std::nullopt;
+  if (!settings_.is_on(Setting::Automatic) || overlay != Overlay::None ||
+      live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor)
+    return std::nullopt;
   return std::max(0.0F, kSteadyFor + countdown_s() - live.steady_s);
 }
 
@@ -73,18 +76,26 @@ void Visit::look_at(ActionKind kind) {
 std::optional<Intent> Visit::back(const ViewState& view) {
   if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
   switch (step) {
-    case Step::Consent: go(Step::Attract, view.now); break;
-    case Step::Name: step = Step::Consent; break;
-    case Step::Known: step = Step::Name; break;
+    case Step::Consent:
+      go(Step::Attract, view.now);
+      break;
+    case Step::Name:
+      step = Step::Consent;
+      break;
+    case Step::Known:
+      step = Step::Name;
+      break;
     case Step::Position:
       step = Step::Name;
       return Intent::Cancel;
-    case Step::Review: return Intent::Pose;
+    case Step::Review:
+      return Intent::Pose;
     case Step::Attract:
     case Step::Working:
     case Step::Thanks:
     case Step::Trouble:
-    case Step::Starting: break;
+    case Step::Starting:
+      break;
   }
   return std::nullopt;
 }
@@ -98,9 +109,13 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Stay:
     case ActionKind::ChooseLanguage:
     case ActionKind::BiggerText:
-    case ActionKind::Contrast: act_on_page(action, view); break;
-    case ActionKind::LeaveNow: return leave_now(view);
-    case ActionKind::Back: return back(view);
+    case ActionKind::Contrast:
+      act_on_page(action, view);
+      break;
+    case ActionKind::LeaveNow:
+      return leave_now(view);
+    case ActionKind::Back:
+      return back(view);
     case ActionKind::TurnLeft:
     case ActionKind::TurnRight:
     case ActionKind::ZoomIn:
@@ -110,10 +125,18 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::LookEdges:
     case ActionKind::LookFill:
     case ActionKind::LookLight:
-    case ActionKind::ShowShape: look_at(action.kind); break;
-    case ActionKind::Erase: erase_letter(); break;
-    case ActionKind::Shift: capitals = !capitals; break;
-    case ActionKind::Accents: accents = !accents; break;
+    case ActionKind::ShowShape:
+      look_at(action.kind);
+      break;
+    case ActionKind::Erase:
+      erase_letter();
+      break;
+    case ActionKind::Shift:
+      capitals = !capitals;
+      break;
+    case ActionKind::Accents:
+      accents = !accents;
+      break;
     case ActionKind::Start:
     case ActionKind::Agree:
     case ActionKind::Decline:
@@ -121,11 +144,13 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::TakePicture:
     case ActionKind::Accept:
     case ActionKind::Retake:
-    case ActionKind::Finish: return act_on_path(action.kind, view);
+    case ActionKind::Finish:
+      return act_on_path(action.kind, view);
     case ActionKind::HaveCode:
     case ActionKind::SomebodyElse:
     case ActionKind::Renew:
-    case ActionKind::AddAnother: return act_on_record(action.kind);
+    case ActionKind::AddAnother:
+      return act_on_record(action.kind);
     case ActionKind::TypeKey:
     case ActionKind::TurnFace:
     case ActionKind::StaffEnter:
@@ -135,7 +160,8 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::StaffAnswer:
     case ActionKind::StaffMode:
     case ActionKind::StaffChoose:
-    case ActionKind::None: break;
+    case ActionKind::None:
+      break;
   }
   return std::nullopt;
 }
@@ -148,7 +174,8 @@ void Visit::act_on_page(Action action, const ViewState& view) {
   else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
   else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
   else overlay = Overlay::None;
-  if (action.kind == ActionKind::ChooseLanguage && view.languages[static_cast<std::size_t>(action.value)]) language = static_cast<Language>(action.value);
+  if (action.kind == ActionKind::ChooseLanguage && view.languages[static_cast<std::size_t>(action.value)])
+    language = static_cast<Language>(action.value);
 }
 
 std::optional<Intent> Visit::leave_now(const ViewState& view) {
@@ -198,7 +225,9 @@ std::optional<Intent> Visit::act_on_record(ActionKind kind) {
     step = Step::Name;
     return std::nullopt;
   }
-  errand_ = kind == ActionKind::Renew ? Errand::Renew : kind == ActionKind::AddAnother ? Errand::Add : Errand::New;
+  errand_ = kind == ActionKind::Renew        ? Errand::Renew
+            : kind == ActionKind::AddAnother ? Errand::Add
+                                             : Errand::New;
   return Intent::Pose;
 }
 
@@ -221,7 +250,8 @@ void Visit::follow_language(const ViewState& view) {
 }
 
 bool Visit::person_expected() const {
-  return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position || step == Step::Review;
+  return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position ||
+         step == Step::Review;
 }
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
@@ -231,12 +261,20 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   const Screen before = last_screen_;
   last_screen_ = view.screen;
   if (new_screen) {
-    if (view.screen == Screen::Position) { go(Step::Position, view.now); last_touch_ = view.now; shot_ = false; }
-    else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
-    else if (view.screen == Screen::Review) { go(Step::Review, view.now); last_touch_ = view.now; }
-    else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
-    else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working && view.trouble == Trouble::None) go(Step::Thanks, view.now);
-    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known && step != Step::Attract) {
+    if (view.screen == Screen::Position) {
+      go(Step::Position, view.now);
+      last_touch_ = view.now;
+      shot_ = false;
+    } else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
+    else if (view.screen == Screen::Review) {
+      go(Step::Review, view.now);
+      last_touch_ = view.now;
+    } else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
+    else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working &&
+             view.trouble == Trouble::None)
+      go(Step::Thanks, view.now);
+    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known &&
+             step != Step::Attract) {
       const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
       go(told ? Step::Trouble : Step::Attract, view.now);
     }
@@ -244,9 +282,11 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   // Out of order is said before anybody begins, and to who is in the middle only when they are done.
   const bool idle = view.screen == Screen::Idle;
   if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
-  if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None) go(Step::Attract, view.now);
+  if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None)
+    go(Step::Attract, view.now);
   const bool barred = idle && step == Step::Trouble && bars_the_way(view.out_of_order);
-  if ((step == Step::Thanks || (step == Step::Trouble && idle && !barred)) && view.now - std::max(entered_, last_touch_) > kThanks)
+  if ((step == Step::Thanks || (step == Step::Trouble && idle && !barred)) &&
+      view.now - std::max(entered_, last_touch_) > kThanks)
     go(Step::Attract, view.now);
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
@@ -255,7 +295,8 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       return Intent::Cancel;
     }
     if (silent > patience()) overlay = Overlay::StillThere;
-  } else if ((step == Step::Attract || step == Step::Trouble) && (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
+  } else if ((step == Step::Attract || step == Step::Trouble) &&
+             (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
     forget();
   }
   if (const auto intent = follow_look_up(view)) return intent;

@@ -24,16 +24,31 @@
 
 namespace relievo::ui {
 
-enum class Step : std::uint8_t { Attract, Consent, Name, Known, Position, Working, Review, Thanks, Trouble, Starting };
-inline constexpr std::array<std::string_view, 10> kStepNames{"Attract", "Consent", "Name", "Known", "Position", "Working", "Review", "Thanks", "Trouble", "Starting"};
+enum class Step : std::uint8_t {
+  Attract,
+  Consent,
+  Name,
+  Known,
+  Position,
+  Working,
+  Review,
+  Thanks,
+  Trouble,
+  Starting
+};
+inline constexpr std::array<std::string_view, 10> kStepNames{
+    "Attract", "Consent", "Name", "Known", "Position", "Working", "Review", "Thanks", "Trouble", "Starting"};
 constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
 
-inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15}, kThanks{30};  // the first where nobody has set another
-inline constexpr float kSteadyFor = 0.6F, kCountdown = 1.5F;  // seconds, before the picture is taken by itself; the second as above
+inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15},
+    kThanks{30};  // the first where nobody has set another
+inline constexpr float kSteadyFor = 0.6F,
+                       kCountdown =
+                           1.5F;  // seconds, before the picture is taken by itself; the second as above
 inline constexpr std::size_t kMostNameBytes = 128;
 inline constexpr const char* kConsentWording = "sample-1";  // where the operator has no text of their own
-inline constexpr int kMostLookUps = 5;   // a visit; then nobody is told anything any more
+inline constexpr int kMostLookUps = 5;                      // a visit; then nobody is told anything any more
 inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
 
 class Visit {
@@ -41,12 +56,12 @@ class Visit {
   Step step = Step::Starting;
   Overlay overlay = Overlay::None;
   Language language = Language::English;
-  std::size_t text_size = 0;       // index into kTextPercents
+  std::size_t text_size = 0;  // index into kTextPercents
   bool high_contrast = false;
   bool capitals = true;
-  bool accents = false;            // the keyboard shows á, ß, ø ...
+  bool accents = false;  // the keyboard shows á, ß, ø ...
   FaceLook look;
-  int touches = 0;                 // since "I agree", typing not counted
+  int touches = 0;  // since "I agree", typing not counted
 
   int text_percent() const { return kTextPercents[text_size]; }
   std::string_view name() const { return {name_.data(), length_}; }
@@ -73,11 +88,11 @@ class Visit {
 
  private:
   void go(Step to, hal::Instant now);
-  void forget_person();   // not how they like to read
+  void forget_person();  // not how they like to read
   std::optional<Intent> act_on_path(ActionKind kind, const ViewState& view);
   void act_on_page(Action action, const ViewState& view);
   std::optional<Intent> leave_now(const ViewState& view);
-  std::optional<Intent> back(const ViewState& view);   // what lies over the page first
+  std::optional<Intent> back(const ViewState& view);  // what lies over the page first
   void look_at(ActionKind kind);
   void erase_letter();
   bool person_expected() const;
@@ -97,12 +112,12 @@ class Visit {
   hal::Instant entered_{};
   Screen last_screen_ = Screen::SelfTest;
   Language home_ = Language::English;
-  Settings settings_;              // as the last view had them
+  Settings settings_;  // as the last view had them
   Errand errand_ = Errand::New;
   bool quotes_code_ = false;
   bool looking_up_ = false;
   int look_ups_ = 0;
-  bool shot_ = false;              // asked for, and not yet under way
+  bool shot_ = false;  // asked for, and not yet under way
 };
 
 }  // namespace relievo::ui

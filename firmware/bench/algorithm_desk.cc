@@ -12,12 +12,15 @@ namespace {
 
 constexpr std::size_t kMostTyped = 24;
 
-bool contains(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 bool belongs(std::string_view option, std::string_view kind, std::string_view name) {
   const std::string_view section = option.substr(0, option.find('.'));
   if (kind == "relief") return section == "relief" && name == "check";
-  if (kind == "triangulator") return section == "face" || section == name;  // what is cut off belongs to the points
+  if (kind == "triangulator")
+    return section == "face" || section == name;  // what is cut off belongs to the points
   return section == name;
 }
 
@@ -50,7 +53,8 @@ void AlgorithmDesk::rebuild() {
   kind_values_.clear();
   for (const auto* kind : kinds_) kind_values_.push_back(set_.get(kind->key));
   kind_views_.clear();
-  for (std::size_t i = 0; i < kinds_.size(); ++i) kind_views_.push_back({kinds_[i]->key, kind_values_[i], kinds_[i]->sentence, kinds_[i]->several});
+  for (std::size_t i = 0; i < kinds_.size(); ++i)
+    kind_views_.push_back({kinds_[i]->key, kind_values_[i], kinds_[i]->sentence, kinds_[i]->several});
   const pipeline::OptionDescription& kind = *kinds_[kind_];
   const std::vector<std::string> chosen = pipeline::split_names(kind_values_[kind_]);
   names_.clear();
@@ -66,7 +70,8 @@ void AlgorithmDesk::rebuild() {
   for (const auto* option : shown_) option_values_.push_back(set_.get(option->key));
   options_.clear();
   for (std::size_t i = 0; i < shown_.size(); ++i)
-    options_.push_back({shown_[i]->key, option_values_[i], shown_[i]->sentence, shown_[i]->least, shown_[i]->most, shown_[i]->text, option_values_[i] != shown_[i]->value});
+    options_.push_back({shown_[i]->key, option_values_[i], shown_[i]->sentence, shown_[i]->least,
+                        shown_[i]->most, shown_[i]->text, option_values_[i] != shown_[i]->value});
   if (edited_ >= options_.size()) editing_ = false;
 }
 

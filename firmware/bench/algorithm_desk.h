@@ -37,7 +37,7 @@ class AlgorithmDesk {
   std::vector<pipeline::OptionDescription> all_;
   pipeline::AlgorithmSet set_;
   std::size_t kind_ = 0;
-  std::size_t edited_ = 0;       // index into options_, if any
+  std::size_t edited_ = 0;  // index into options_, if any
   bool editing_ = false;
   std::string typed_, refused_;
   std::vector<const pipeline::OptionDescription*> kinds_, shown_;  // of all_

@@ -22,23 +22,31 @@ struct Share {
   float x, y;
 };
 Share place_of(std::int64_t argument) {
-  return {static_cast<float>(argument >> 12 & 0xFFF) / kTouchSteps, static_cast<float>(argument & 0xFFF) / kTouchSteps};
+  return {static_cast<float>(argument >> 12 & 0xFFF) / kTouchSteps,
+          static_cast<float>(argument & 0xFFF) / kTouchSteps};
 }
 
 }  // namespace
 
 Bench::Bench(Parts parts)
-    : parts_(std::move(parts)), session_(parts_.appliance.session()), shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
-      run_(session_, parts_.pool, parts_.board.clock()), watch_(parts_.appliance.grabber(), session_, parts_.board),
-      calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool, std::move(parts_.show_boards)),
-      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, parts_.board.media(), std::move(parts_.in_use)}), recording_(parts_.errands, parts_.board) {
+    : parts_(std::move(parts)),
+      session_(parts_.appliance.session()),
+      shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
+      run_(session_, parts_.pool, parts_.board.clock()),
+      watch_(parts_.appliance.grabber(), session_, parts_.board),
+      calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool,
+                 std::move(parts_.show_boards)),
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, parts_.board.media(),
+                     std::move(parts_.in_use)}),
+      recording_(parts_.errands, parts_.board) {
   algorithms_.begin(parts_.stages.algorithms());
 }
 
 // Nothing of it runs any longer than it lives.
 Bench::~Bench() {
   parts_.errands.cancel();
-  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper}) parts_.appliance.end_side_job(place);
+  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper})
+    parts_.appliance.end_side_job(place);
 }
 
 // What is measured with a calibration waits for one; the pages say so.
@@ -48,9 +56,7 @@ bool Bench::is_calibrated() {
   return false;
 }
 
-void Bench::say(const Error& error) {
-  problem_ = Sentence(error).packed();
-}
+void Bench::say(const Error& error) { problem_ = Sentence(error).packed(); }
 
 void Bench::opened(ui::BenchPage page) {
   if (page == ui::BenchPage::Cameras) watch_cameras(true);
@@ -68,32 +74,49 @@ void Bench::act(ui::BenchOrder order) {
   const bool ends = order.act == BenchAct::StopCalibration || order.act == BenchAct::CancelCalibration;
   if (ends ? !calibrating : parts_.appliance.state() != State::Technician) return;
   switch (order.act) {
-    case BenchAct::None: break;
-    case BenchAct::Capture: return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
-    case BenchAct::Run: return run(order.argument);
-    case BenchAct::Stop: return stop();
+    case BenchAct::None:
+      break;
+    case BenchAct::Capture:
+      return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
+    case BenchAct::Run:
+      return run(order.argument);
+    case BenchAct::Stop:
+      return stop();
     case BenchAct::ShowStage:
-      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchStage::Count)) stage_ = static_cast<ui::BenchStage>(order.argument);
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchStage::Count))
+        stage_ = static_cast<ui::BenchStage>(order.argument);
       return;
     case BenchAct::Point:
-    case BenchAct::PointRight: return point(order);
+    case BenchAct::PointRight:
+      return point(order);
     case BenchAct::ByHand:
       by_hand_ = !by_hand_;
       point_ = {};
       return;
-    case BenchAct::ApplySet: return apply_set();
-    case BenchAct::KeepResult: return keep_result();
+    case BenchAct::ApplySet:
+      return apply_set();
+    case BenchAct::KeepResult:
+      return keep_result();
     case BenchAct::ShowTable:
-      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchTable::Count)) tables_.show(static_cast<ui::BenchTable>(order.argument), source());
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchTable::Count))
+        tables_.show(static_cast<ui::BenchTable>(order.argument), source());
       return;
-    case BenchAct::TurnPage: return tables_.turn(order.argument, source());
-    case BenchAct::WatchCameras: return watch_cameras(!watching_);
-    case BenchAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
-    case BenchAct::BrighterShot: return watch_.change_light(1);
-    case BenchAct::DarkerShot: return watch_.change_light(-1);
-    case BenchAct::BeginCalibration: return wait_for_cameras(Next::Calibration);
-    case BenchAct::StopCalibration: return calibrate_.finish();
-    case BenchAct::CancelCalibration: return parts_.errands.stop(JobPlace::Capture);
+    case BenchAct::TurnPage:
+      return tables_.turn(order.argument, source());
+    case BenchAct::WatchCameras:
+      return watch_cameras(!watching_);
+    case BenchAct::ShowRelief:
+      return watch_.show_relief(!watch_.shows_relief());
+    case BenchAct::BrighterShot:
+      return watch_.change_light(1);
+    case BenchAct::DarkerShot:
+      return watch_.change_light(-1);
+    case BenchAct::BeginCalibration:
+      return wait_for_cameras(Next::Calibration);
+    case BenchAct::StopCalibration:
+      return calibrate_.finish();
+    case BenchAct::CancelCalibration:
+      return parts_.errands.stop(JobPlace::Capture);
     case BenchAct::StoreCalibration:
     case BenchAct::Columns:
     case BenchAct::Rows:
@@ -101,15 +124,21 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Charuco:
     case BenchAct::ExportCalibration:
     case BenchAct::ImportCalibration:
-    case BenchAct::Activate: return calibrations_.act(order);
-    case BenchAct::Record: return record();
-    case BenchAct::StopRecording: return recording_.stop();
-    case BenchAct::Save: return save();
+    case BenchAct::Activate:
+      return calibrations_.act(order);
+    case BenchAct::Record:
+      return record();
+    case BenchAct::StopRecording:
+      return recording_.stop();
+    case BenchAct::Save:
+      return save();
     case BenchAct::ListSaved:
       problem_.clear();
       return recording_.list();
-    case BenchAct::LeaveSaved: return recording_.hide();
-    case BenchAct::Load: return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+    case BenchAct::LeaveSaved:
+      return recording_.hide();
+    case BenchAct::Load:
+      return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
     case BenchAct::ChooseKind:
     case BenchAct::ChooseName:
     case BenchAct::EditOption:
@@ -118,7 +147,8 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::UseTyped:
     case BenchAct::UseDefault:
     case BenchAct::LeaveOption:
-    case BenchAct::ResetSet: return choose(order);
+    case BenchAct::ResetSet:
+      return choose(order);
   }
 }
 
@@ -144,7 +174,8 @@ void Bench::record() {
   const Products* made = products();
   if (made == nullptr || !made->frame) return;
   const bool set_by_hand = !parts_.errands.busy(JobPlace::Capture) && watch_.light().time.count() > 0;
-  const hal::Exposure light = set_by_hand ? watch_.light() : hal::Exposure{parts_.board.preferred_mode().exposure, 1};
+  const hal::Exposure light =
+      set_by_hand ? watch_.light() : hal::Exposure{parts_.board.preferred_mode().exposure, 1};
   hal::RecordedPair as_taken;
   as_taken.exposure_us = light.time.count();
   as_taken.gain = light.gain;
@@ -155,7 +186,8 @@ void Bench::record() {
 
 // What fills the slot of the test capture waits until nobody else is at the cameras.
 void Bench::begin_next() {
-  if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker)) return;
+  if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker))
+    return;
   const Next what = std::exchange(next_, Next::None);
   problem_.clear();
   point_ = {};
@@ -175,7 +207,8 @@ void Bench::begin_next() {
 void Bench::shoot() {
   phase_ = BenchPhase::Capturing;
   parts_.errands.send(
-      JobPlace::Capture, [this](JobControl& control) { return shot_.run(control); }, [this](const std::optional<Error>& error) { shot_done(error); });
+      JobPlace::Capture, [this](JobControl& control) { return shot_.run(control); },
+      [this](const std::optional<Error>& error) { shot_done(error); });
 }
 
 void Bench::calibrate() {
@@ -192,14 +225,18 @@ void Bench::calibrate() {
 }
 
 // What a loaded reconstruction was made with, else what is in use.
-const pipeline::StereoCalibration* Bench::calibration() const { return loaded_ ? &run_.making().calibration : parts_.stages.calibration(); }
+const pipeline::StereoCalibration* Bench::calibration() const {
+  return loaded_ ? &run_.making().calibration : parts_.stages.calibration();
+}
 
 // Nothing is done again that the algorithms have not changed, but for what is asked for by its stage.
 void Bench::run(std::int64_t latest) {
-  if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated())) return;
+  if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated()))
+    return;
   const State changed = first_change(run_.making().set, algorithms_.set());
   State first = changed == State::Review ? State::Match : changed;
-  if (latest >= 1 && latest <= 4) first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
+  if (latest >= 1 && latest <= 4)
+    first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
   run_.order(algorithms_.set(), *calibration(), first, loaded_ && run_.making().whole_view);
   send_run();
 }
@@ -211,7 +248,8 @@ void Bench::send_run() {
   changed_ = false;
   phase_ = BenchPhase::Running;
   parts_.errands.send(
-      JobPlace::Worker, [this](JobControl& control) { return run_.run(control); }, [this](const std::optional<Error>& error) { run_done(error); });
+      JobPlace::Worker, [this](JobControl& control) { return run_.run(control); },
+      [this](const std::optional<Error>& error) { run_done(error); });
 }
 
 void Bench::save() {
@@ -264,9 +302,11 @@ void Bench::point(ui::BenchOrder order) {
   const Products* made = products();
   if (made == nullptr || !made->pair) return;
   const Share at = place_of(order.argument);
-  if (!by_hand_ && order.act == BenchAct::Point && made->matches) point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
+  if (!by_hand_ && order.act == BenchAct::Point && made->matches)
+    point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
   if (by_hand_ && order.act == BenchAct::Point) point_ = hand_point(*made->pair, at.x, at.y);
-  if (by_hand_ && order.act == BenchAct::PointRight && point_.touched) match_by_hand(*made->pair, at.x, point_);
+  if (by_hand_ && order.act == BenchAct::PointRight && point_.touched)
+    match_by_hand(*made->pair, at.x, point_);
 }
 
 // The keeper writes it down and makes the pipeline; from then on visitors are measured with it.

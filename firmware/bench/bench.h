@@ -5,11 +5,13 @@
 // stages make of them lie in the appliance's own memory while the state is Technician, and are wiped when the
 // technician leaves or is away too long. Its jobs run on the appliance's threads; the screen never waits.
 //
-//   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state --> Empty
-//   any but Capturing and Running --Load--> Running --> Ready or Failed: what was saved, with its calibration and algorithms
+//   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state -->
+//   Empty any but Capturing and Running --Load--> Running --> Ready or Failed: what was saved, with its
+//   calibration and algorithms
 //
 // It borrows the session from the appliance and sends its work as errands (firmware/service/errands.h); it
-// listens only in the states Technician and Calibrate, and forgets everything in any other. Thread: main. Errors: none are returned; the view has them as a sentence.
+// listens only in the states Technician and Calibrate, and forgets everything in any other. Thread: main.
+// Errors: none are returned; the view has them as a sentence.
 #pragma once
 
 #include <functional>
@@ -19,11 +21,11 @@
 
 #include "firmware/appliance.h"
 #include "firmware/bench/algorithm_desk.h"
-#include "firmware/bench/show/bench_tables.h"
 #include "firmware/bench/calibration_desk.h"
 #include "firmware/bench/camera_watch.h"
 #include "firmware/bench/recording_desk.h"
 #include "firmware/bench/run_job.h"
+#include "firmware/bench/show/bench_tables.h"
 #include "firmware/service/errands.h"
 #include "ui/bench/bench_view.h"
 
@@ -38,8 +40,8 @@ class Bench {
     PipelineStages& stages;
     ThreadPool& pool;
     storage::Store& store;
-    ShowBoards show_boards;                               // see CalibrateJob
-    std::function<void(const pipeline::StereoCalibration&)> in_use;   // another calibration is
+    ShowBoards show_boards;                                          // see CalibrateJob
+    std::function<void(const pipeline::StereoCalibration&)> in_use;  // another calibration is
   };
   explicit Bench(Parts parts);
   ~Bench();
@@ -101,10 +103,11 @@ class Bench {
   ui::BenchStage stage_ = ui::BenchStage::Rectified;
   ui::BenchPoint point_;
   Next next_ = Next::None;
-  std::shared_ptr<const SavedBytes> saved_;   // read from the stick, to be loaded
+  std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
   std::optional<Making> saved_making_;
-  bool loaded_ = false;                       // what is in the session was, with a calibration of its own
-  bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false, left_ = true;
+  bool loaded_ = false;  // what is in the session was, with a calibration of its own
+  bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
+       left_ = true;
   std::string problem_;
   std::uint32_t model_number_ = 0;
   ui::BenchView view_;

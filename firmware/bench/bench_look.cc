@@ -28,7 +28,8 @@ void Bench::look() {
   view_.kept = kept_.view();
   view_.compared[0] = kept_pictures_.picture(stage_, 0);
   if (phase_ == ui::BenchPhase::Running) {
-    view_.working_on = static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
+    view_.working_on =
+        static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
     view_.progress = parts_.errands.progress(JobPlace::Worker);
   }
   const Products* made = products();

@@ -13,7 +13,8 @@ namespace {
 // The kiosk's own cameras.
 class GrabbedPairs final : public LivePairs {
  public:
-  GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Board& board, const std::atomic<bool>& cancelled)
+  GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Board& board,
+               const std::atomic<bool>& cancelled)
       : grabber_(grabber), slot_(slot), board_(board), cancelled_(cancelled) {}
   Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(slot_, cancelled_));
@@ -30,19 +31,23 @@ class GrabbedPairs final : public LivePairs {
 // Rgb8, rows without padding.
 class Drawing {
  public:
-  Drawing(std::uint8_t* rgb, const ImageView& view, double scale) : rgb_(rgb), width_(view.width_px), height_(view.height_px), scale_(scale) {}
+  Drawing(std::uint8_t* rgb, const ImageView& view, double scale)
+      : rgb_(rgb), width_(view.width_px), height_(view.height_px), scale_(scale) {}
   void dot(const pipeline::Vec2d& at, std::array<std::uint8_t, 3> colour) {
-    const int x = static_cast<int>(std::lround(at.x * scale_)), y = static_cast<int>(std::lround(at.y * scale_));
+    const int x = static_cast<int>(std::lround(at.x * scale_)),
+              y = static_cast<int>(std::lround(at.y * scale_));
     for (int v = y - 2; v <= y + 2; ++v) {
       for (int u = x - 2; u <= x + 2; ++u) put(u, v, colour);
     }
   }
   void line(const pipeline::Vec2d& from, const pipeline::Vec2d& to, std::array<std::uint8_t, 3> colour) {
     const double dx = (to.x - from.x) * scale_, dy = (to.y - from.y) * scale_;
-    const int steps = std::clamp(static_cast<int>(std::max(std::abs(dx), std::abs(dy))), 1, 4 * budget::kLiveSidePx);
+    const int steps =
+        std::clamp(static_cast<int>(std::max(std::abs(dx), std::abs(dy))), 1, 4 * budget::kLiveSidePx);
     for (int i = 0; i <= steps; ++i) {
       const double t = static_cast<double>(i) / steps;
-      const int x = static_cast<int>(std::lround(from.x * scale_ + t * dx)), y = static_cast<int>(std::lround(from.y * scale_ + t * dy));
+      const int x = static_cast<int>(std::lround(from.x * scale_ + t * dx)),
+                y = static_cast<int>(std::lround(from.y * scale_ + t * dy));
       put(x, y, colour);
       put(x + 1, y, colour);
       put(x, y + 1, colour);
@@ -52,7 +57,8 @@ class Drawing {
  private:
   void put(int x, int y, std::array<std::uint8_t, 3> colour) {
     if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
-    std::copy(colour.begin(), colour.end(), rgb_ + std::ptrdiff_t{3} * (static_cast<std::ptrdiff_t>(y) * width_ + x));
+    std::copy(colour.begin(), colour.end(),
+              rgb_ + std::ptrdiff_t{3} * (static_cast<std::ptrdiff_t>(y) * width_ + x));
   }
   std::uint8_t* rgb_;
   int width_, height_;
@@ -60,10 +66,13 @@ class Drawing {
 };
 
 static_assert(static_cast<int>(ui::BoardAdvice::Done) == static_cast<int>(pipeline::LiveAdvice::Done) &&
-              static_cast<int>(ui::BoardAdvice::HoldStill) == static_cast<int>(pipeline::LiveAdvice::HoldStill) &&
-              static_cast<int>(ui::BoardAdvice::TiltBack) == static_cast<int>(pipeline::LiveAdvice::TiltBack) &&
+              static_cast<int>(ui::BoardAdvice::HoldStill) ==
+                  static_cast<int>(pipeline::LiveAdvice::HoldStill) &&
+              static_cast<int>(ui::BoardAdvice::TiltBack) ==
+                  static_cast<int>(pipeline::LiveAdvice::TiltBack) &&
               static_cast<int>(ui::BoardEnd::Full) == static_cast<int>(pipeline::LiveEnd::Full));
-static_assert(ui::kCoverageCells == pipeline::kCoverageColumns && ui::kCoverageCells == pipeline::kCoverageRows);
+static_assert(ui::kCoverageCells == pipeline::kCoverageColumns &&
+              ui::kCoverageCells == pipeline::kCoverageRows);
 
 constexpr std::array<std::uint8_t, 3> kSeen{64, 240, 120}, kWanted{255, 170, 40};
 
@@ -96,7 +105,8 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
     pairs = std::make_unique<GrabbedPairs>(grabber_, session_.slot(), board_, control.cancelled);
   }
   while (!live.state().done() && !finish_.load(std::memory_order_relaxed)) {
-    if (control.cancelled.load(std::memory_order_relaxed)) return Error{Errc::Cancelled, "the calibration was left"};
+    if (control.cancelled.load(std::memory_order_relaxed))
+      return Error{Errc::Cancelled, "the calibration was left"};
     RELIEVO_TRY_ASSIGN(const auto pair, pairs->next(live.state()));
     if (!pair) break;
     RELIEVO_TRY(live.look(pair->left, pair->right, pair->at));
@@ -117,7 +127,8 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
     }
     if (state.wanted) {
       const pipeline::BoardOutline& outline = (*state.wanted)[i];
-      for (std::size_t k = 0; k < outline.size(); ++k) drawing.line(outline[k], outline[(k + 1) % outline.size()], kWanted);
+      for (std::size_t k = 0; k < outline.size(); ++k)
+        drawing.line(outline[k], outline[(k + 1) % outline.size()], kWanted);
     }
   }
   ui::BenchCalibration now;
@@ -127,8 +138,10 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   now.pairs = state.pairs;
   now.views = state.views;
   now.disagreeing = state.disagreeing;
-  now.bars = {static_cast<float>(state.bars.x), static_cast<float>(state.bars.y), static_cast<float>(state.bars.size), static_cast<float>(state.bars.skew)};
-  for (std::size_t k = 0; k < 2; ++k) std::copy(state.maps[k].count.begin(), state.maps[k].count.end(), now.seen[k].begin());
+  now.bars = {static_cast<float>(state.bars.x), static_cast<float>(state.bars.y),
+              static_cast<float>(state.bars.size), static_cast<float>(state.bars.skew)};
+  for (std::size_t k = 0; k < 2; ++k)
+    std::copy(state.maps[k].count.begin(), state.maps[k].count.end(), now.seen[k].begin());
   now.error_mm = static_cast<float>(state.error_mm);
   now.goal_mm = static_cast<float>(state.goal_mm);
   const std::lock_guard lock(mutex_);

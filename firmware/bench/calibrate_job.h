@@ -5,8 +5,8 @@
 // board before them; its state and its pictures, with the corners seen (green) and the wanted board's outline
 // (orange) drawn in, go to the screen. Ends when the calibration is done, when it is told to finish with the
 // views it has, or cancelled.
-// Errors of run(): LiveCalibration's, the pairs' own, Cancelled. Thread: run() capture; newest(), finish() any;
-// the rest main, while it does not run.
+// Errors of run(): LiveCalibration's, the pairs' own, Cancelled. Thread: run() capture; newest(), finish()
+// any; the rest main, while it does not run.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ class CalibrateJob final : public Job {
     std::optional<pipeline::StereoCalibration> in_use;
     double goal_mm = pipeline::LiveOptions{}.goal_mm;
   };
-  CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool, ShowBoards show)
+  CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool,
+               ShowBoards show)
       : grabber_(grabber), session_(session), board_(board), pool_(pool), show_(std::move(show)) {}
   void order(const Order& order);
   Result<void> run(JobControl& control) override;

@@ -19,9 +19,12 @@ constexpr double kLeastSquareMm = 4, kMostSquareMm = 100;
 
 ui::BenchVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
   switch (verdict) {
-    case pipeline::CalibrationVerdict::Pass: return ui::BenchVerdict::Good;
-    case pipeline::CalibrationVerdict::Usable: return ui::BenchVerdict::Warn;
-    case pipeline::CalibrationVerdict::Refuse: break;
+    case pipeline::CalibrationVerdict::Pass:
+      return ui::BenchVerdict::Good;
+    case pipeline::CalibrationVerdict::Usable:
+      return ui::BenchVerdict::Warn;
+    case pipeline::CalibrationVerdict::Refuse:
+      break;
   }
   return ui::BenchVerdict::Refuse;
 }
@@ -31,14 +34,19 @@ ui::BenchVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
 void CalibrationDesk::act(ui::BenchOrder order) {
   if (running_) return;
   const auto step = static_cast<int>(order.argument);
-  if (order.act == ui::BenchAct::Columns) board_.corners_across = std::clamp(board_.corners_across + step, kLeastCorners, kMostCorners);
-  if (order.act == ui::BenchAct::Rows) board_.corners_down = std::clamp(board_.corners_down + step, kLeastCorners, kMostCorners);
-  if (order.act == ui::BenchAct::Square) board_.square_mm = std::clamp(std::round(10 * board_.square_mm + step) / 10, kLeastSquareMm, kMostSquareMm);
+  if (order.act == ui::BenchAct::Columns)
+    board_.corners_across = std::clamp(board_.corners_across + step, kLeastCorners, kMostCorners);
+  if (order.act == ui::BenchAct::Rows)
+    board_.corners_down = std::clamp(board_.corners_down + step, kLeastCorners, kMostCorners);
+  if (order.act == ui::BenchAct::Square)
+    board_.square_mm =
+        std::clamp(std::round(10 * board_.square_mm + step) / 10, kLeastSquareMm, kMostSquareMm);
   if (order.act == ui::BenchAct::Charuco) board_.charuco = !board_.charuco;
   if (order.act == ui::BenchAct::StoreCalibration) store();
   if (order.act == ui::BenchAct::ExportCalibration) export_in_use();
   if (order.act == ui::BenchAct::ImportCalibration) import_one();
-  if (order.act == ui::BenchAct::Activate) activate(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+  if (order.act == ui::BenchAct::Activate)
+    activate(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
 }
 
 CalibrateJob::Order CalibrationDesk::order() const {
@@ -113,10 +121,15 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
 }
 
 void CalibrationDesk::store() {
-  if (!ended_ || stored_ || !parts_.job.result() || parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse || busy_) return;
+  if (!ended_ || stored_ || !parts_.job.result() ||
+      parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse || busy_)
+    return;
   stored_ = true;
   const pipeline::CalibratorOutput result = *parts_.job.result();
-  adopt([this, result]() -> Result<std::uint32_t> { return parts_.store.save_calibration(result.calibration, "calibrated at the screen", figures_of(result.quality)); });
+  adopt([this, result]() -> Result<std::uint32_t> {
+    return parts_.store.save_calibration(result.calibration, "calibrated at the screen",
+                                         figures_of(result.quality));
+  });
 }
 
 void CalibrationDesk::activate(std::size_t row) {
@@ -134,10 +147,14 @@ void CalibrationDesk::export_in_use() {
   busy_ = true;
   exported_.clear();
   char name[24];
-  std::snprintf(name, sizeof name, "%04u", static_cast<unsigned>(in_use->revision));  // so that their names have their order
+  std::snprintf(name, sizeof name, "%04u",
+                static_cast<unsigned>(in_use->revision));  // so that their names have their order
   const std::string folder = name;
   parts_.errands.send(
-      JobPlace::Keeper, [this, calibration = *in_use, folder](JobControl&) { return export_calibration(calibration, folder, parts_.media); },
+      JobPlace::Keeper,
+      [this, calibration = *in_use, folder](JobControl&) {
+        return export_calibration(calibration, folder, parts_.media);
+      },
       [this, folder](const std::optional<Error>& error) {
         busy_ = false;
         problem_ = error ? Sentence(*error).packed() : "";
@@ -174,7 +191,12 @@ ui::BenchCalibration CalibrationDesk::view() {
   view.history_count = std::min(history_.size(), view.history.size());
   for (std::size_t i = 0; i < view.history_count; ++i) {
     const storage::CalibrationInfo& info = history_[i].info;
-    view.history[i] = {info.revision, info.active, history_[i].made_at, info.note, static_cast<float>(info.rms_px), static_cast<float>(info.figures.depth_sigma_mm)};
+    view.history[i] = {info.revision,
+                       info.active,
+                       history_[i].made_at,
+                       info.note,
+                       static_cast<float>(info.rms_px),
+                       static_cast<float>(info.figures.depth_sigma_mm)};
   }
   return view;
 }

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CalibrationDesk: the technician's page on calibrations: which board is shown, the live calibration with its
-// verdict, what is stored and which of it is in use; calibrations to a stick and from it. A refused calibration cannot be stored.
+// verdict, what is stored and which of it is in use; calibrations to a stick and from it. A refused
+// calibration cannot be stored.
 //
 //   idle --begin()--> running (the machine's state Calibrate) --ended--> verdict --store()--> history
 //
-// Thread: main; store and pipelines are the keeper's. Errors: none are returned, view() has them as a sentence.
+// Thread: main; store and pipelines are the keeper's. Errors: none are returned, view() has them as a
+// sentence.
 #pragma once
 
 #include <string>
@@ -24,7 +26,7 @@ class CalibrationDesk {
  public:
   struct Parts {
     CalibrateJob& job;
-    PipelineStages& stages;   // replaced when another calibration comes into use
+    PipelineStages& stages;  // replaced when another calibration comes into use
     storage::Store& store;
     Errands& errands;
     hal::RemovableMedia& media;

@@ -11,7 +11,8 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr std::uint32_t kReliefVersion = 0x80000000;   // it takes turns with the right picture: no version of the one is the other's
+constexpr std::uint32_t kReliefVersion =
+    0x80000000;  // it takes turns with the right picture: no version of the one is the other's
 constexpr double kThirdOfAStop = 1.2599210498948732;  // cube root of 2
 
 void count(const CameraCounts& from, ui::BenchCamera& to) {
@@ -41,7 +42,8 @@ Result<void> CameraWatchJob::watch(JobControl& control) {
   light_ = {board_.preferred_mode().exposure, 1};
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     if (steps_.load(std::memory_order_relaxed) != 0) set_light();
-    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.free_slot(), control.cancelled));
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
+                       grabber_.grab(session_.free_slot(), control.cancelled));
     RELIEVO_TRY(look(frame, control));
     std::this_thread::sleep_for(budget::kLivePause);
   }
@@ -54,13 +56,15 @@ void CameraWatchJob::set_light() {
   const auto left = board_.left().exposure_limits(), right = board_.right().exposure_limits();
   if (!left || !right) return;
   const hal::ExposureLimits limits = common_limits(*left, *right);
-  const auto wanted = std::chrono::microseconds(std::lround(static_cast<double>(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
+  const auto wanted = std::chrono::microseconds(
+      std::lround(static_cast<double>(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
   const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), light_.gain};
   if (board_.left().set_exposure(next) && board_.right().set_exposure(next)) light_ = next;
 }
 
 // Pictures of another size than the calibrated one have no relief; they are watched all the same.
-bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::BenchCameras& now) {
+bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl& control,
+                                 ui::BenchCameras& now) {
   now.relief_shown = shows_relief();
   if (!now.relief_shown) return false;
   const Result<ImageView> relief = relief_.look(frame, control);
@@ -89,9 +93,11 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   now.skew_us = static_cast<float>(frame.skew_ns) / 1000;
   now.exposure_us = static_cast<float>(light_.time.count());
   now.gain = static_cast<float>(light_.gain);
-  now.can_be_set = board_.left().exposure_limits().has_value() && board_.right().exposure_limits().has_value();
+  now.can_be_set =
+      board_.left().exposure_limits().has_value() && board_.right().exposure_limits().has_value();
   const hal::Instant at = board_.clock().now();
-  if (last_pair_ && at > *last_pair_) now.pairs_per_second = 1 / std::chrono::duration<float>(at - *last_pair_).count();
+  if (last_pair_ && at > *last_pair_)
+    now.pairs_per_second = 1 / std::chrono::duration<float>(at - *last_pair_).count();
   last_pair_ = at;
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < (relief ? 3U : 2U); ++i) feeds_[i].publish({});

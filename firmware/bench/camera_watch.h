@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
-// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the relief when asked. It watches in
-// the session's free slot, beside the test capture, until it is cancelled.
+// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the
+// relief when asked. It watches in the session's free slot, beside the test capture, until it is cancelled.
 // Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
 #pragma once
 
@@ -21,7 +21,8 @@ namespace relievo::firmware {
 
 class CameraWatchJob final : public Job {
  public:
-  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board) : grabber_(grabber), session_(session), board_(board) {}
+  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board)
+      : grabber_(grabber), session_(session), board_(board) {}
   // With the calibration in use; null: there is none, and no relief. While the job does not run.
   void prepare(const pipeline::StereoCalibration* calibration);
   // With every pair its relief, from the next one on.
@@ -46,7 +47,7 @@ class CameraWatchJob final : public Job {
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Board& board_;
-  std::array<LiveFeed, 3> feeds_;   // left, right, relief
+  std::array<LiveFeed, 3> feeds_;  // left, right, relief
   std::array<FocusHelp, 2> focus_;
   ReliefWatch relief_;
   std::atomic<int> steps_{0};

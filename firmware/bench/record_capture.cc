@@ -18,15 +18,18 @@ namespace fs = std::filesystem;
 
 // Rows without padding: what is compared and written is pixels alone.
 ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
-  const auto row_bytes = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(bytes_per_pixel(view.format));
+  const auto row_bytes =
+      static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(bytes_per_pixel(view.format));
   room.resize(row_bytes * static_cast<std::size_t>(view.height_px));
-  for (int y = 0; y < view.height_px; ++y) std::memcpy(room.data() + row_bytes * static_cast<std::size_t>(y), view.row(y), row_bytes);
+  for (int y = 0; y < view.height_px; ++y)
+    std::memcpy(room.data() + row_bytes * static_cast<std::size_t>(y), view.row(y), row_bytes);
   return {room.data(), view.width_px, view.height_px, static_cast<int>(row_bytes), view.format};
 }
 
 bool same(const ImageView& a, const ImageView& b) {
   if (a.width_px != b.width_px || a.height_px != b.height_px || a.format != b.format) return false;
-  const auto row_bytes = static_cast<std::size_t>(a.width_px) * static_cast<std::size_t>(bytes_per_pixel(a.format));
+  const auto row_bytes =
+      static_cast<std::size_t>(a.width_px) * static_cast<std::size_t>(bytes_per_pixel(a.format));
   for (int y = 0; y < a.height_px; ++y) {
     if (std::memcmp(a.row(y), b.row(y), row_bytes) != 0) return false;
   }
@@ -44,11 +47,15 @@ Result<void> read_back(const fs::path& file, const ImageView& written) {
   const Result<hal::Picture> read = hal::read_picture(file);
   const bool unread = !read && (read.error().code == Errc::IoFailed || read.error().code == Errc::NotFound);
   if (unread) return read.error();
-  if (!read || !same(read->view(), written)) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"}.at(file.filename().string());
+  if (!read || !same(read->view(), written))
+    return Error{Errc::IoFailed,
+                 "what was read back from the stick is not what was written: use another stick"}
+        .at(file.filename().string());
   return {};
 }
 
-Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
+Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::RemovableMedia& media,
+                   JobControl& control, ExportTrace& trace) {
   RELIEVO_TRY(reach(ExportStep::Write, 0.1F, control, trace));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   RELIEVO_TRY_ASSIGN(const std::int64_t number, hal::record_pair(folder.path(), pair));
@@ -62,7 +69,8 @@ Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::R
 
 }  // namespace
 
-CaptureCopy::CaptureCopy(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) : pair_(std::move(as_taken)) {
+CaptureCopy::CaptureCopy(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken)
+    : pair_(std::move(as_taken)) {
   pair_.left = copied(frame.left, left_);
   pair_.right = copied(frame.right, right_);
 }
@@ -71,7 +79,8 @@ CaptureCopy::~CaptureCopy() {
   for (std::vector<std::byte>* room : {&left_, &right_}) explicit_bzero(room->data(), room->size());
 }
 
-Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
+Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name,
+                            hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
   trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
@@ -80,7 +89,8 @@ Result<void> record_capture(const hal::RecordedPair& pair, const std::string& na
   const Result<void> written = write(pair, target, media, control, trace);
   // Whatever failed: a stick that is gone is the reason.
   std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error))) return Error{Errc::Disconnected, "the stick was pulled out before the recording had ended"};
+  if (!media.current() || (written && !fs::exists(target, error)))
+    return Error{Errc::Disconnected, "the stick was pulled out before the recording had ended"};
   RELIEVO_TRY(written);
   RELIEVO_TRY(reach(ExportStep::LetGo, 1, control, trace));
   return media.flush_and_eject();

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The technician's test capture on a stick: captures/NAME/ with one recorded pair (hal/recording), which
-// folder:DIR replays bit for bit. It is read back and compared before the folder gets its name, and then the stick
-// is let go; what an earlier recording left half written is cleared away.
-// Thread: keeper; between two steps it looks whether it is to stop. Memory: CaptureCopy's, wiped with it.
-// Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, IoFailed
-// (outcome_of_export() says what it means).
+// folder:DIR replays bit for bit. It is read back and compared before the folder gets its name, and then the
+// stick is let go; what an earlier recording left half written is cleared away. Thread: keeper; between two
+// steps it looks whether it is to stop. Memory: CaptureCopy's, wiped with it. Errors: MediaMissing (no
+// stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, IoFailed (outcome_of_export() says what
+// it means).
 #pragma once
 
 #include <string>
@@ -37,6 +37,7 @@ class CaptureCopy {
 
 inline constexpr const char* kCapturesFolder = "captures";  // on the stick
 
-Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
+Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name,
+                            hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
 
 }  // namespace relievo::firmware

@@ -29,7 +29,8 @@ std::shared_ptr<ExportTrace> RecordingDesk::begin(bool reading) {
   return std::make_shared<ExportTrace>();
 }
 
-void RecordingDesk::ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where) {
+void RecordingDesk::ended(const std::optional<Error>& error, const ExportTrace& trace,
+                          const std::string& where) {
   running_ = false;
   outcome_ = error ? outcome_of_export(*error, trace) : ui::Outcome::Done;
   if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
@@ -45,7 +46,10 @@ void RecordingDesk::record(const pipeline::StereoFrame& frame, hal::RecordedPair
   const auto copy = std::make_shared<const CaptureCopy>(frame, std::move(as_taken));
   const std::string name = name_now();
   errands_.send(
-      JobPlace::Keeper, [this, copy, trace, name](JobControl& control) { return record_capture(copy->pair(), name, board_.media(), control, *trace); },
+      JobPlace::Keeper,
+      [this, copy, trace, name](JobControl& control) {
+        return record_capture(copy->pair(), name, board_.media(), control, *trace);
+      },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
       });
@@ -72,7 +76,10 @@ void RecordingDesk::write(std::shared_ptr<const SavedBytes> document) {
   const auto trace = std::make_shared<ExportTrace>();
   const std::string name = name_now();
   errands_.send(
-      JobPlace::Keeper, [this, document = std::move(document), trace, name](JobControl& control) { return save_reconstruction(*document, name, board_.media(), control, *trace); },
+      JobPlace::Keeper,
+      [this, document = std::move(document), trace, name](JobControl& control) {
+        return save_reconstruction(*document, name, board_.media(), control, *trace);
+      },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
       });
@@ -95,7 +102,8 @@ void RecordingDesk::list() {
       });
 }
 
-void RecordingDesk::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read, std::function<void(const Error&)> refused) {
+void RecordingDesk::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
+                         std::function<void(const Error&)> refused) {
   if (!names_ || row >= names_->size() || running_) return;
   const std::string name = names_->at(row);
   (void)begin(true);
@@ -107,11 +115,13 @@ void RecordingDesk::load(std::size_t row, std::function<void(std::shared_ptr<con
         RELIEVO_TRY_ASSIGN(*saved, read_saved(name, board_.media(), control));
         return {};
       },
-      [this, saved, read = std::move(read), refused = std::move(refused), visit = visit_](const std::optional<Error>& error) {
+      [this, saved, read = std::move(read), refused = std::move(refused),
+       visit = visit_](const std::optional<Error>& error) {
         if (visit != visit_) return;
         running_ = false;
         if (!error) return read(std::move(*saved));
-        if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing) outcome_ = outcome_of_export(*error, {});
+        if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing)
+          outcome_ = outcome_of_export(*error, {});
         else refused(*error);
       });
 }

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // RecordingDesk: the buttons that put the test capture (record_capture.h) or all of the reconstruction
-// (saved_reconstruction.h) on the stick, and bring a saved one back; how far it is, how it ended, and where it lies.
-// One at a time; who leaves ends it, and nothing half written stays.
-// Thread: main; the stick is the keeper's. Errors: none are returned, view() has them, but what is wrong with a
-// document goes to `refused`.
+// (saved_reconstruction.h) on the stick, and bring a saved one back; how far it is, how it ended, and where
+// it lies. One at a time; who leaves ends it, and nothing half written stays. Thread: main; the stick is the
+// keeper's. Errors: none are returned, view() has them, but what is wrong with a document goes to `refused`.
 #pragma once
 
 #include <functional>
@@ -32,7 +31,8 @@ class RecordingDesk {
   void list();
   void hide() { names_.reset(); }
   // `read` hears the bytes of a whole document.
-  void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read, std::function<void(const Error&)> refused);
+  void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
+            std::function<void(const Error&)> refused);
   void stop();
   // There is another capture now.
   void capture_gone();
@@ -52,8 +52,8 @@ class RecordingDesk {
   std::string where_;
   ui::Outcome outcome_ = ui::Outcome::None;
   bool running_ = false, reading_ = false;
-  std::optional<std::vector<std::string>> names_;   // on the stick, while they are shown
-  std::uint32_t visit_ = 0;   // what a visit to the pages before this one asked for is not told here
+  std::optional<std::vector<std::string>> names_;  // on the stick, while they are shown
+  std::uint32_t visit_ = 0;  // what a visit to the pages before this one asked for is not told here
 };
 
 }  // namespace relievo::firmware

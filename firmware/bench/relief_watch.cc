@@ -44,12 +44,16 @@ Result<ImageView> ReliefWatch::look(const pipeline::StereoFrame& frame, JobContr
     room_->output.reset();
     pipeline::LiveReliefOptions options;
     options.reduction = judged_reduction(calibration_->left.width_px);
-    pipeline::StageContext context{room_->output, room_->scratch, room_->pool, control.progress, control.cancelled};
+    pipeline::StageContext context{room_->output, room_->scratch, room_->pool, control.progress,
+                                   control.cancelled};
     RELIEVO_TRY_ASSIGN(const pipeline::Relief relief,
-                       pipeline::run_stage(context, [&](pipeline::StageContext& c) { return pipeline::LiveRelief(options).look(frame, *calibration_, c); }));
+                       pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+                         return pipeline::LiveRelief(options).look(frame, *calibration_, c);
+                       }));
     grey_.resize(relief.depth_mm.size());
     pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, grey_.data());
-    return ImageView{reinterpret_cast<const std::byte*>(grey_.data()), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8};
+    return ImageView{reinterpret_cast<const std::byte*>(grey_.data()), relief.width_px, relief.height_px,
+                     relief.width_px, PixelFormat::Grey8};
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "there is no memory left to draw the relief in"};
   }

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ReliefWatch: the relief the gate judges by, of pairs that somebody at the cameras looks at: where the rig sees depth and where it does
-// not. The session's memory may be the worker's meanwhile, so it takes its own (kOutputBytes, kScratchBytes) with the first pair and gives it back with
-// forget(). Thread: one at a time. Errors of look(): InvalidState (no calibration), those of LiveRelief, OutOfMemory.
+// ReliefWatch: the relief the gate judges by, of pairs that somebody at the cameras looks at: where the rig
+// sees depth and where it does not. The session's memory may be the worker's meanwhile, so it takes its own
+// (kOutputBytes, kScratchBytes) with the first pair and gives it back with forget(). Thread: one at a time.
+// Errors of look(): InvalidState (no calibration), those of LiveRelief, OutOfMemory.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,8 @@ namespace relievo::firmware {
 
 class ReliefWatch {
  public:
-  static constexpr std::size_t kOutputBytes = std::size_t{4} << 20, kScratchBytes = std::size_t{64} << 20;  // touched: 1 MB and 27 MB
+  static constexpr std::size_t kOutputBytes = std::size_t{4} << 20,
+                               kScratchBytes = std::size_t{64} << 20;  // touched: 1 MB and 27 MB
 
   ReliefWatch();
   ~ReliefWatch();

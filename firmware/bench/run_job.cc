@@ -12,11 +12,13 @@
 
 namespace relievo::firmware {
 
-void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first, bool whole_view) {
+void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration,
+                   State first, bool whole_view) {
   making_.set = set;
   making_.calibration = calibration;
   making_.whole_view = whole_view;
-  making_.records.resize(std::min(making_.records.size(), static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
+  making_.records.resize(std::min(making_.records.size(),
+                                  static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
   first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
   document_.reset();
   now_.store(first_, std::memory_order_relaxed);
@@ -39,7 +41,9 @@ Result<void> RunJob::work(JobControl& control) {
   if (document_ != nullptr) return load(control);
   session_.rework(first_);
   for (const StageRecord& record : making_.records) figures_.add(record);
-  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {}, making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
+  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(
+                                        making_.set, making_.calibration, {},
+                                        making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
   PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
   StageJob job(stages, session_, pool_, clock_);
   for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
@@ -56,7 +60,8 @@ Result<void> RunJob::work(JobControl& control) {
     figures_.fail(stage, done.error());
     break;
   }
-  if (session_.products().model && session_.products().model->unjudged) figures_.fail(State::Texture, *session_.products().model->unjudged);
+  if (session_.products().model && session_.products().model->unjudged)
+    figures_.fail(State::Texture, *session_.products().model->unjudged);
   return finish(control);
 }
 
@@ -78,13 +83,16 @@ Result<void> RunJob::load(JobControl& control) {
   RELIEVO_TRY_ASSIGN(const State left_to_do, load_products(document, State::Review, session_, control));
   making_.records = std::move(records);
   for (const StageRecord& record : making_.records) figures_.add(record);
-  if (left_to_do != State::Review) figures_.fail(left_to_do, {Errc::NotFound, "this stage had not been done when it was saved: calculate again"});
+  if (left_to_do != State::Review)
+    figures_.fail(left_to_do,
+                  {Errc::NotFound, "this stage had not been done when it was saved: calculate again"});
   return finish(control);
 }
 
 Result<void> RunJob::finish(JobControl& control) {
   EnrolmentSession::Scratch scratch(session_);
-  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress, control.cancelled};
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
+                                 control.cancelled};
   RELIEVO_TRY(figures_.measure(session_.products(), context));
   pictures_.draw(session_.products());
   return {};

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RunJob: all stages of the pipeline, or the last of them, on the test capture that lies in the session, with the
-// algorithms that were chosen, or a saved reconstruction into the session; then the pictures and figures of what came out. A stage that gives up leaves what the stages
-// before it made, and its reason in the result: for a technician that is an answer, not an error.
-// TestShotJob takes the capture. Both keep their outcome until the next run.
-// Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory; the document's.
-// Thread: order() and outcome() main, while the job does not run; run() worker (TestShotJob: capture).
+// RunJob: all stages of the pipeline, or the last of them, on the test capture that lies in the session, with
+// the algorithms that were chosen, or a saved reconstruction into the session; then the pictures and figures
+// of what came out. A stage that gives up leaves what the stages before it made, and its reason in the
+// result: for a technician that is an answer, not an error. TestShotJob takes the capture. Both keep their
+// outcome until the next run. Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together);
+// OutOfMemory; the document's. Thread: order() and outcome() main, while the job does not run; run() worker
+// (TestShotJob: capture).
 #pragma once
 
 #include <atomic>
@@ -23,9 +24,11 @@ namespace relievo::firmware {
 
 class RunJob final : public Job {
  public:
-  RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock) : session_(session), pool_(pool), clock_(clock) {}
+  RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : session_(session), pool_(pool), clock_(clock) {}
   // The stages from `first` on; those before it are done, and stay.
-  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first, bool whole_view = false);
+  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first,
+             bool whole_view = false);
   // No stage, but what was saved of all of them; `making` is making_of(it).
   void order(std::shared_ptr<const SavedBytes> document, Making making);
   Result<void> run(JobControl& control) override;
@@ -47,7 +50,7 @@ class RunJob final : public Job {
   const hal::Clock& clock_;
   Making making_;
   State first_ = State::Match;
-  std::shared_ptr<const SavedBytes> document_;   // to be loaded
+  std::shared_ptr<const SavedBytes> document_;  // to be loaded
   BenchPictures pictures_;
   BenchFigures figures_;
   std::atomic<State> now_{State::Match};
@@ -57,7 +60,9 @@ class RunJob final : public Job {
 class TestShotJob final : public Job {
  public:
   TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool)
-      : board_(board), nobody_(grabber, session, board, pool, nullptr), grab_(grabber, session, board, nobody_) {}
+      : board_(board),
+        nobody_(grabber, session, board, pool, nullptr),
+        grab_(grabber, session, board, nobody_) {}
   Result<void> run(JobControl& control) override {
     outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
     outcome_ = grab_.run(control);

@@ -15,9 +15,12 @@ constexpr double kAlike = 0.1;
 int level(const ImageView& view, int x, int y) {
   const std::uint8_t* row = view.row(y);
   switch (view.format) {
-    case PixelFormat::Grey8: return row[x];
-    case PixelFormat::Grey16: return row[2 * x + 1];
-    case PixelFormat::Rgb8: break;
+    case PixelFormat::Grey8:
+      return row[x];
+    case PixelFormat::Grey16:
+      return row[2 * x + 1];
+    case PixelFormat::Rgb8:
+      break;
   }
   return row[3 * x + 1];
 }
@@ -54,7 +57,8 @@ Result<Thumbnail> thumbnail(const ImageView& view, const FaceBox& box) {
 
 double movement(const Thumbnail& a, const Thumbnail& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.level.size(); ++i) sum += std::abs(static_cast<double>(a.level[i]) - static_cast<double>(b.level[i]));
+  for (std::size_t i = 0; i < a.level.size(); ++i)
+    sum += std::abs(static_cast<double>(a.level[i]) - static_cast<double>(b.level[i]));
   return sum / static_cast<double>(a.level.size());
 }
 
@@ -64,13 +68,17 @@ Burst::Burst(StereoGrabber& grabber, hal::TriggerLine& trigger, const hal::Clock
           std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(until - clock.now(), budget::kTick));
       }) {}
 
-Result<pipeline::StereoFrame> Burst::take(StereoSlot& slot, const BurstOptions& options, const std::atomic<bool>& cancelled) {
-  if (options.light == hal::Light::Flash || trigger_.lights_with_every_pulse()) wait_(trigger_.flash_allowed_at(), cancelled);
+Result<pipeline::StereoFrame> Burst::take(StereoSlot& slot, const BurstOptions& options,
+                                          const std::atomic<bool>& cancelled) {
+  if (options.light == hal::Light::Flash || trigger_.lights_with_every_pulse())
+    wait_(trigger_.flash_allowed_at(), cancelled);
   return grabber_.grab(slot, cancelled, options.light);
 }
 
-Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options, const std::atomic<bool>& cancelled) {
-  if (options.pairs < 1 || options.pairs > kMostBurstPairs) return Error{Errc::InvalidInput, "a burst is of 1 to 16 pairs"};
+Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
+                                 const std::atomic<bool>& cancelled) {
+  if (options.pairs < 1 || options.pairs > kMostBurstPairs)
+    return Error{Errc::InvalidInput, "a burst is of 1 to 16 pairs"};
   BurstResult result;
   StereoSlot* free = &first;
   StereoSlot* best = &second;
@@ -80,7 +88,8 @@ Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const Bu
   for (int i = 0; i < options.pairs; ++i) {
     const auto frame = take(*free, options, cancelled);
     if (!frame) {
-      const bool over = frame.error().code == Errc::Cancelled || (frame.error().code == Errc::Disconnected && taken == 0);
+      const bool over =
+          frame.error().code == Errc::Cancelled || (frame.error().code == Errc::Disconnected && taken == 0);
       if (over || (i + 1 == options.pairs && taken == 0)) return frame.error();
       if (frame.error().code == Errc::Disconnected) break;  // what has been taken stands
       continue;

@@ -7,10 +7,10 @@
 //
 // A pair's sharpness is the worse view's, since both are matched; its movement is how much the face has
 // changed since the pair before. Sharpness decides, since a face that moves smears; of pairs within a tenth
-// of the sharpest the stillest is better. A pair that cannot be had is passed over; without any the last error is
-// told. With a lamp the burst waits for its rest, so that five flashes take 1.05 s at the least: a person's
-// eyes count more than time. Allocates nothing of its own.
-// Errors: Cancelled, Disconnected before the first pair, what StereoGrabber says. Thread: capture.
+// of the sharpest the stillest is better. A pair that cannot be had is passed over; without any the last
+// error is told. With a lamp the burst waits for its rest, so that five flashes take 1.05 s at the least: a
+// person's eyes count more than time. Allocates nothing of its own. Errors: Cancelled, Disconnected before
+// the first pair, what StereoGrabber says. Thread: capture.
 #pragma once
 
 #include <array>
@@ -30,19 +30,19 @@ namespace relievo::firmware {
 inline constexpr int kMostBurstPairs = 16;
 
 struct BurstOptions {
-  int pairs = budget::kBurstPairs;      // 1 to kMostBurstPairs
+  int pairs = budget::kBurstPairs;  // 1 to kMostBurstPairs
   hal::Light light = hal::Light::Off;
-  std::optional<FaceBox> face;          // in both views; none: their middle
+  std::optional<FaceBox> face;  // in both views; none: their middle
 };
 
 struct BurstPair {
   bool taken = false;
-  double sharpness = 0;   // of the worse view; see FaceLight
-  double movement = 0;    // mean change of the face since the pair before, 0 to 1
+  double sharpness = 0;  // of the worse view; see FaceLight
+  double movement = 0;   // mean change of the face since the pair before, 0 to 1
 };
 
 struct BurstResult {
-  pipeline::StereoFrame frame;          // its views lie in one of the two slots
+  pipeline::StereoFrame frame;  // its views lie in one of the two slots
   int best = 0;
   std::array<BurstPair, kMostBurstPairs> pairs{};
 };
@@ -68,10 +68,12 @@ class Burst {
       : grabber_(grabber), trigger_(trigger), wait_(std::move(wait)) {}
 
   // InvalidInput: the number of pairs. The slots are two.
-  Result<BurstResult> shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options, const std::atomic<bool>& cancelled);
+  Result<BurstResult> shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
+                            const std::atomic<bool>& cancelled);
 
  private:
-  Result<pipeline::StereoFrame> take(StereoSlot& slot, const BurstOptions& options, const std::atomic<bool>& cancelled);
+  Result<pipeline::StereoFrame> take(StereoSlot& slot, const BurstOptions& options,
+                                     const std::atomic<bool>& cancelled);
 
   StereoGrabber& grabber_;
   hal::TriggerLine& trigger_;

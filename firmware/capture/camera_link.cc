@@ -95,7 +95,8 @@ CameraLink::Verdict CameraLink::judge(const Frame& frame, hal::Instant asked) {
   return Verdict::Take;
 }
 
-Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled) {
+Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline,
+                               const std::atomic<bool>& cancelled) {
   if (gone()) return kAway;
   for (;;) {
     Result<Frame> frame = wait(deadline, cancelled);
@@ -105,13 +106,17 @@ Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline, const 
       return frame;
     }
     switch (judge(*frame, asked)) {
-      case Verdict::Take: ++counts_.frames; return frame;
-      case Verdict::Refuse: return Error{Errc::IoFailed, "the camera's picture came damaged: check its cable"};
+      case Verdict::Take:
+        ++counts_.frames;
+        return frame;
+      case Verdict::Refuse:
+        return Error{Errc::IoFailed, "the camera's picture came damaged: check its cable"};
       case Verdict::Skip:
         // A camera that floods with old frames may not hold anybody past the deadline.
         if (clock_.now() >= deadline) {
           ++counts_.missing;
-          return Error{Errc::Timeout, "the camera gives only pictures from before the trigger: check its wire"};
+          return Error{Errc::Timeout,
+                       "the camera gives only pictures from before the trigger: check its wire"};
         }
     }
   }

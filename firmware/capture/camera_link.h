@@ -6,7 +6,8 @@
 //
 //   New --start()--> Running --vanishes--> Lost --start() when due, it answers--> Running
 //                                           |  ^
-//                                           +--+ start(), it does not: the wait doubles, kCameraRetryMost at most
+//                                           +--+ start(), it does not: the wait doubles, kCameraRetryMost at
+//                                           most
 //
 // Thread: capture; gone() any.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CameraLook: takes one pair and forgets it, so that a camera that was unplugged is noticed while nobody stands before it, and one
-// that was plugged in is opened and recognised (StereoGrabber::check_cameras()).
+// CameraLook: takes one pair and forgets it, so that a camera that was unplugged is noticed while nobody
+// stands before it, and one that was plugged in is opened and recognised (StereoGrabber::check_cameras()).
 // Errors: StereoGrabber's. Thread: capture.
 #pragma once
 
@@ -14,7 +14,8 @@ namespace relievo::firmware {
 
 class CameraLook final : public Job {
  public:
-  CameraLook(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode) : grabber_(grabber), session_(session), mode_(mode) {}
+  CameraLook(StereoGrabber& grabber, EnrolmentSession& session, const hal::CaptureMode& mode)
+      : grabber_(grabber), session_(session), mode_(mode) {}
   // Once in kCameraReturn. Thread: main.
   bool due(hal::Instant now) {
     if (now < next_) return false;

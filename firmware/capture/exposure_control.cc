@@ -15,7 +15,8 @@ using std::chrono::microseconds;
 // How much more light is wanted. What is burnt out does not say by how much it is too bright.
 double factor_for(const FaceLight& light) {
   if (light.clipped > 0.05) return 0.4;
-  const double factor = std::min(kBrightTarget / std::max(light.bright, 0.01), kHighlightTarget / std::max(light.highlight, 0.01));
+  const double factor = std::min(kBrightTarget / std::max(light.bright, 0.01),
+                                 kHighlightTarget / std::max(light.highlight, 0.01));
   return std::clamp(light.highlight >= 0.995 ? std::min(factor, 0.85) : factor, 0.25, 4.0);
 }
 
@@ -32,7 +33,8 @@ hal::ExposureLimits common_limits(const hal::ExposureLimits& a, const hal::Expos
           {std::min(a.most.time, b.most.time), std::min(a.most.gain, b.most.gain)}};
 }
 
-hal::Exposure next_exposure(const hal::Exposure& now, const FaceLight& light, const hal::ExposureLimits& limits) {
+hal::Exposure next_exposure(const hal::Exposure& now, const FaceLight& light,
+                            const hal::ExposureLimits& limits) {
   const double factor = factor_for(light);
   if (std::abs(factor - 1) <= kLightTolerance) return now;
   const double wanted_us = light_taken(now) * factor;
@@ -40,7 +42,8 @@ hal::Exposure next_exposure(const hal::Exposure& now, const FaceLight& light, co
   const double most_us = static_cast<double>(longest(limits).count());
   hal::Exposure next;
   next.time = microseconds(std::lround(std::clamp(wanted_us / limits.least.gain, least_us, most_us)));
-  next.gain = std::clamp(wanted_us / static_cast<double>(next.time.count()), limits.least.gain, limits.most.gain);
+  next.gain =
+      std::clamp(wanted_us / static_cast<double>(next.time.count()), limits.least.gain, limits.most.gain);
   return next;
 }
 

@@ -7,9 +7,9 @@
 //      ^                                                  | the light changes                          |
 //      +--------------------------------------------------+--------------------- unlock() ------------+
 //
-// The camera that wants less light counts, so that neither burns out. Exposure time before gain: gain is noise; but no
-// longer than kLongestExposure, since a face moves. Cameras without the controls are left as they are.
-// Errors: what the cameras say; after one the control is Metering. Thread: capture.
+// The camera that wants less light counts, so that neither burns out. Exposure time before gain: gain is
+// noise; but no longer than kLongestExposure, since a face moves. Cameras without the controls are left as
+// they are. Errors: what the cameras say; after one the control is Metering. Thread: capture.
 #pragma once
 
 #include <chrono>
@@ -26,12 +26,14 @@ namespace relievo::firmware {
 inline constexpr double kBrightTarget = 0.72;
 inline constexpr double kHighlightTarget = 0.92;
 inline constexpr double kLightTolerance = 0.08;
-inline constexpr hal::Exposure kFirstExposure{std::chrono::milliseconds{4}, 1};  // until the light has been measured
+inline constexpr hal::Exposure kFirstExposure{std::chrono::milliseconds{4},
+                                              1};  // until the light has been measured
 
 // Where both cameras can go.
 hal::ExposureLimits common_limits(const hal::ExposureLimits& a, const hal::ExposureLimits& b);
 // The next exposure to try, within the limits; the same one where the light is right already.
-hal::Exposure next_exposure(const hal::Exposure& now, const FaceLight& light, const hal::ExposureLimits& limits);
+hal::Exposure next_exposure(const hal::Exposure& now, const FaceLight& light,
+                            const hal::ExposureLimits& limits);
 
 class ExposureControl {
  public:

@@ -17,9 +17,12 @@ constexpr double kHighlightShare = 0.99;
 // Brightness of a pixel, 0 to 255.
 int level(const std::uint8_t* row, int x, PixelFormat format) {
   switch (format) {
-    case PixelFormat::Grey8: return row[x];
-    case PixelFormat::Grey16: return row[2 * x + 1];  // little-endian: the high byte
-    case PixelFormat::Rgb8: break;
+    case PixelFormat::Grey8:
+      return row[x];
+    case PixelFormat::Grey16:
+      return row[2 * x + 1];  // little-endian: the high byte
+    case PixelFormat::Rgb8:
+      break;
   }
   return row[3 * x + 1];
 }

@@ -22,10 +22,10 @@ struct FaceBox {
 FaceBox middle_box(const ImageView& view);
 
 struct FaceLight {
-  double mean = 0;      // 0 to 1, 1 is white
-  double bright = 0;    // 95 of 100 pixels are darker
-  double highlight = 0; // 99 of 100
-  double clipped = 0;   // the share that is white, or within 1 of 100 of it
+  double mean = 0;       // 0 to 1, 1 is white
+  double bright = 0;     // 95 of 100 pixels are darker
+  double highlight = 0;  // 99 of 100
+  double clipped = 0;    // the share that is white, or within 1 of 100 of it
   // The mean squared gradient over the squared deviation, a number a pixel squared: of the same scene the
   // larger the sharper, however bright (Tenenbaum's measure, after Pertuz, Puig, Garcia 2013, made free of
   // brightness). Between scenes it means nothing.

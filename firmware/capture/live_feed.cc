@@ -27,7 +27,9 @@ void shrink(const ImageView& from, int step, int width, int height, std::uint8_t
         const std::uint8_t* at = from.row(y * step + v) + static_cast<std::ptrdiff_t>(x) * step * bytes;
         for (int u = 0; u < step; ++u, at += bytes) {
           // Of 16 bits the upper ones: the second byte.
-          for (int c = 0; c < 3; ++c) sum[c] += from.format == PixelFormat::Rgb8 ? at[c] : at[from.format == PixelFormat::Grey16 ? 1 : 0];
+          for (int c = 0; c < 3; ++c)
+            sum[c] +=
+                from.format == PixelFormat::Rgb8 ? at[c] : at[from.format == PixelFormat::Grey16 ? 1 : 0];
         }
       }
       for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(sum[c] / count);
@@ -51,7 +53,8 @@ ImageView LiveFeed::fill(const ImageView& picture) {
   const int width = picture.width_px / step, height = picture.height_px / step;
   shrink(picture, step, width, height, slot.rgb.data());
   slot.live.relief = {};
-  slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width, PixelFormat::Rgb8};
+  slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width,
+                       PixelFormat::Rgb8};
   return slot.live.picture;
 }
 
@@ -59,7 +62,8 @@ void LiveFeed::fill_relief(const pipeline::Relief& relief) {
   Slot& slot = slots_[filling_];
   if (relief.depth_mm.size() > slot.relief.size()) return;
   pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, slot.relief.data());
-  slot.live.relief = {reinterpret_cast<const std::byte*>(slot.relief.data()), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8};
+  slot.live.relief = {reinterpret_cast<const std::byte*>(slot.relief.data()), relief.width_px,
+                      relief.height_px, relief.width_px, PixelFormat::Grey8};
 }
 
 void LiveFeed::publish(const Guidance& guidance) {

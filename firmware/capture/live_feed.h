@@ -19,8 +19,9 @@
 namespace relievo::firmware {
 
 struct LivePicture {
-  ImageView picture;   // Rgb8; valid until the next newest()
-  ImageView relief;    // Grey8, as valid: how near everything is, near is bright, 0 unknown; empty where nothing judges
+  ImageView picture;  // Rgb8; valid until the next newest()
+  ImageView relief;   // Grey8, as valid: how near everything is, near is bright, 0 unknown; empty where
+                      // nothing judges
   Guidance guidance;
   std::uint32_t number = 0;  // 0: none since the last wipe
 };

@@ -10,9 +10,9 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kJudgedWidthPx = 480;   // about: the pictures the gate measures in
+constexpr int kJudgedWidthPx = 480;  // about: the pictures the gate measures in
 constexpr double kFaceWidthMm = 150, kFaceHeightMm = 190;
-constexpr double kUpMm = 12;   // of the face's middle above the tip of the nose
+constexpr double kUpMm = 12;  // of the face's middle above the tip of the nose
 
 // Where the two cameras' axes come nearest to each other: there a face is seen best.
 double best_distance_mm(const pipeline::StereoCalibration& c) {
@@ -23,19 +23,26 @@ double best_distance_mm(const pipeline::StereoCalibration& c) {
 }
 
 FaceBox box_at(const pipeline::CameraIntrinsics& camera, const pipeline::Vec3d& tip_mm) {
-  const pipeline::Vec2d at = pipeline::source_pixel(camera, {}, 1, {0, 0}, {tip_mm.x / tip_mm.z, (tip_mm.y - kUpMm) / tip_mm.z});
-  const double a_mm = camera.focal_px.x / tip_mm.z, width = kFaceWidthMm * a_mm, height = kFaceHeightMm * a_mm;
-  return {static_cast<int>(std::lround(at.x - width / 2)), static_cast<int>(std::lround(at.y - height / 2)), static_cast<int>(width), static_cast<int>(height)};
+  const pipeline::Vec2d at =
+      pipeline::source_pixel(camera, {}, 1, {0, 0}, {tip_mm.x / tip_mm.z, (tip_mm.y - kUpMm) / tip_mm.z});
+  const double a_mm = camera.focal_px.x / tip_mm.z, width = kFaceWidthMm * a_mm,
+               height = kFaceHeightMm * a_mm;
+  return {static_cast<int>(std::lround(at.x - width / 2)), static_cast<int>(std::lround(at.y - height / 2)),
+          static_cast<int>(width), static_cast<int>(height)};
 }
 
 }  // namespace
 
-FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration, const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm) {
+FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,
+                     const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm) {
   const pipeline::Vec3d in_left = apply(transposed(rectified_from_left), tip_mm);
-  return {box_at(calibration.left, in_left), box_at(calibration.right, apply(calibration.right_from_left, in_left))};
+  return {box_at(calibration.left, in_left),
+          box_at(calibration.right, apply(calibration.right_from_left, in_left))};
 }
 
-int judged_reduction(int width_px) { return std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx))); }
+int judged_reduction(int width_px) {
+  return std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx)));
+}
 
 Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration) {
   RELIEVO_TRY_ASSIGN(LiveJudge judge, open(calibration.left.width_px));
@@ -50,11 +57,13 @@ Result<LiveJudge> LiveJudge::open(int width_px) {
   return LiveJudge(std::move(gate));
 }
 
-Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration, const pipeline::Relief& relief) {
+Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
+                     const pipeline::Relief& relief) {
   const pipeline::GateMeasures& m = answer.measures;
   Guidance guidance;
   guidance.advice = answer.advice;
-  guidance.ideal_width = calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) / calibration.left.width_px;
+  guidance.ideal_width =
+      calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) / calibration.left.width_px;
   guidance.steady_s = std::chrono::duration<double>(answer.steady).count();
   if (m.head.known) {
     guidance.face_x = m.off_right_mm / kFaceWidthMm;
@@ -66,11 +75,14 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
   return guidance;
 }
 
-Result<LiveSight> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context) {
-  if (!calibration_) return Error{Errc::NotCalibrated, "this device has no calibration yet: a technician has to calibrate its cameras"};
+Result<LiveSight> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now,
+                                  pipeline::StageContext& context) {
+  if (!calibration_)
+    return Error{Errc::NotCalibrated,
+                 "this device has no calibration yet: a technician has to calibrate its cameras"};
   RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
-    return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
-  }));
+                       return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
+                     }));
   const pipeline::HeadSight& head = look.answer.measures.head;
   std::optional<FaceBoxes> face;
   if (head.known) face = face_boxes(*calibration_, look.relief.rectified_from_left, head.tip_mm);

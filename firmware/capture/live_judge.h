@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LiveJudge: the capture gate before the person at the screen. It keeps the gate's history of one visit, turns its measures into what
-// the screen shows, and says where the face is in both whole pictures, for the light meter and the burst. The relief it measures
-// with is handed on, to be drawn.
-// Thread: capture. Errors of open() and look(): those of the gate, NotCalibrated; nobody in the picture is no error but an advice.
+// LiveJudge: the capture gate before the person at the screen. It keeps the gate's history of one visit,
+// turns its measures into what the screen shows, and says where the face is in both whole pictures, for the
+// light meter and the burst. The relief it measures with is handed on, to be drawn. Thread: capture. Errors
+// of open() and look(): those of the gate, NotCalibrated; nobody in the picture is no error but an advice.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct FaceBoxes {
 struct LiveSight {
   Guidance guidance;
   std::optional<FaceBoxes> face;
-  pipeline::Relief relief;   // in context.output
+  pipeline::Relief relief;  // in context.output
 };
 
 class LiveJudge {
@@ -36,7 +36,8 @@ class LiveJudge {
   void use(const pipeline::StereoCalibration& calibration) { calibration_ = calibration; }
   // Somebody else may stand here.
   void begin() { history_ = {}; }
-  Result<LiveSight> look(const pipeline::StereoFrame& frame, hal::Instant now, pipeline::StageContext& context);
+  Result<LiveSight> look(const pipeline::StereoFrame& frame, hal::Instant now,
+                         pipeline::StageContext& context);
 
  private:
   explicit LiveJudge(pipeline::CaptureGate gate) : gate_(std::move(gate)) {}
@@ -49,10 +50,13 @@ class LiveJudge {
 // How often its pictures are made smaller before they are judged.
 int judged_reduction(int width_px);
 
-// Where somebody stands, as the screen shows it. Who is too near or too far for the relief is placed by the picture alone.
-Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration, const pipeline::Relief& relief);
+// Where somebody stands, as the screen shows it. Who is too near or too far for the relief is placed by the
+// picture alone.
+Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
+                     const pipeline::Relief& relief);
 
 // Where a head whose nose is at `tip_mm`, in the frame of the relief, is in the pictures of both cameras.
-FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration, const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm);
+FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,
+                     const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm);
 
 }  // namespace relievo::firmware

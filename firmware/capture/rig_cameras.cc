@@ -14,7 +14,8 @@ std::string words(std::string_view kind, std::string_view name) {
   const std::size_t room = pipeline::kMaxCameraWords - kind.size();
   if (name.size() > room) name.remove_prefix(name.size() - room);  // names of sockets differ in their ends
   std::string text(kind);
-  std::transform(name.begin(), name.end(), std::back_inserter(text), [](char c) { return c >= ' ' && c <= '~' ? c : '?'; });
+  std::transform(name.begin(), name.end(), std::back_inserter(text),
+                 [](char c) { return c >= ' ' && c <= '~' ? c : '?'; });
   return text;
 }
 
@@ -24,7 +25,9 @@ std::string words_of(const hal::Camera& camera, bool by_serial) {
 }
 
 // Of nobody known there is nothing to say.
-bool another(const std::string& calibrated, const std::string& found) { return !calibrated.empty() && !found.empty() && calibrated != found; }
+bool another(const std::string& calibrated, const std::string& found) {
+  return !calibrated.empty() && !found.empty() && calibrated != found;
+}
 
 }  // namespace
 
@@ -37,12 +40,23 @@ RigCameras cameras_of(const hal::Camera& left, const hal::Camera& right) {
 Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found) {
   const bool left = another(calibrated.left, found.left), right = another(calibrated.right, found.right);
   if (!left && !right) return {};
-  const std::string at_left = calibrated.left + " → " + found.left, at_right = calibrated.right + " → " + found.right;  // read in every language
+  const std::string at_left = calibrated.left + " → " + found.left,
+                    at_right = calibrated.right + " → " + found.right;  // read in every language
   if (left && right && calibrated.left == found.right && calibrated.right == found.left)
-    return Error{Errc::NotCalibrated, "the left and the right camera have changed places: swap their plugs, or calibrate again"}.at(at_left + "; " + at_right);
-  if (left && right) return Error{Errc::NotCalibrated, "neither camera is the one that was calibrated: put those back, or calibrate again"}.at(at_left + "; " + at_right);
-  if (left) return Error{Errc::NotCalibrated, "the left camera is not the one that was calibrated: put that one back, or calibrate again"}.at(at_left);
-  return Error{Errc::NotCalibrated, "the right camera is not the one that was calibrated: put that one back, or calibrate again"}.at(at_right);
+    return Error{Errc::NotCalibrated,
+                 "the left and the right camera have changed places: swap their plugs, or calibrate again"}
+        .at(at_left + "; " + at_right);
+  if (left && right)
+    return Error{Errc::NotCalibrated,
+                 "neither camera is the one that was calibrated: put those back, or calibrate again"}
+        .at(at_left + "; " + at_right);
+  if (left)
+    return Error{Errc::NotCalibrated,
+                 "the left camera is not the one that was calibrated: put that one back, or calibrate again"}
+        .at(at_left);
+  return Error{Errc::NotCalibrated,
+               "the right camera is not the one that was calibrated: put that one back, or calibrate again"}
+      .at(at_right);
 }
 
 }  // namespace relievo::firmware

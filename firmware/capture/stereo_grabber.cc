@@ -13,10 +13,14 @@ using pipeline::StereoFrame;
 
 std::string_view sentence_of(CameraWatch watch) {
   switch (watch) {
-    case CameraWatch::Well: break;
-    case CameraWatch::LeftGone: return "The left camera does not answer: check its plug. It is tried again by itself.";
-    case CameraWatch::RightGone: return "The right camera does not answer: check its plug. It is tried again by itself.";
-    case CameraWatch::BothGone: return "Neither camera answers: check their plugs and hub. They are tried again by themselves.";
+    case CameraWatch::Well:
+      break;
+    case CameraWatch::LeftGone:
+      return "The left camera does not answer: check its plug. It is tried again by itself.";
+    case CameraWatch::RightGone:
+      return "The right camera does not answer: check its plug. It is tried again by itself.";
+    case CameraWatch::BothGone:
+      return "Neither camera answers: check their plugs and hub. They are tried again by themselves.";
   }
   return {};
 }
@@ -69,7 +73,8 @@ CameraWatch StereoGrabber::watch() const {
   return right_.gone() ? CameraWatch::RightGone : CameraWatch::Well;
 }
 
-Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled, hal::Light light) {
+Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
+                                        hal::Light light) {
   const hal::Instant now = clock_.now();
   Result<StereoFrame> pair = grab_within({slot, now, now + budget::kFrameWait, cancelled}, light);
   if (!pair && pair.error().code != Errc::Cancelled) {
@@ -99,7 +104,8 @@ Result<StereoFrame> StereoGrabber::grab_within(const Shot& shot, hal::Light ligh
 Result<StereoGrabber::Half> StereoGrabber::take(CameraLink& camera, const Shot& shot) {
   RELIEVO_TRY_ASSIGN(const hal::Frame frame, camera.next(shot.asked, shot.deadline, shot.cancelled));
   Half half{{}, frame.exposed_at(), frame.sequence()};
-  RELIEVO_TRY_ASSIGN(half.view, &camera == &left_ ? shot.slot.keep_left(frame.raw()) : shot.slot.keep_right(frame.raw()));
+  RELIEVO_TRY_ASSIGN(
+      half.view, &camera == &left_ ? shot.slot.keep_left(frame.raw()) : shot.slot.keep_right(frame.raw()));
   return half;
 }
 
@@ -124,7 +130,8 @@ Result<StereoFrame> StereoGrabber::grab_once(const Shot& shot) {
 
 Result<StereoFrame> StereoGrabber::pair_of(const Half& left, const Half& right) {
   if (left.view.width_px != right.view.width_px || left.view.height_px != right.view.height_px)
-    return Error{Errc::InvalidInput, "the two cameras give pictures of different sizes: set both to one mode"};
+    return Error{Errc::InvalidInput,
+                 "the two cameras give pictures of different sizes: set both to one mode"};
   const std::uint32_t offset = right.sequence - left.sequence;
   if (offset_ && *offset_ != offset) ++counts_.slipped;
   offset_ = offset;

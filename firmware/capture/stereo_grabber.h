@@ -53,7 +53,13 @@ class StereoGrabber {
  public:
   StereoGrabber(hal::Camera& left, hal::Camera& right, hal::TriggerLine& trigger, const hal::Clock& clock,
                 const GrabberOptions& options = {})
-      : left_camera_(left), right_camera_(right), trigger_(trigger), clock_(clock), options_(options), left_(left, clock, counts_.left), right_(right, clock, counts_.right) {}
+      : left_camera_(left),
+        right_camera_(right),
+        trigger_(trigger),
+        clock_(clock),
+        options_(options),
+        left_(left, clock, counts_.left),
+        right_(right, clock, counts_.right) {}
   explicit StereoGrabber(hal::Board& board)
       : StereoGrabber(board.left(), board.right(), board.trigger(), board.clock(), grabber_options(board)) {}
   ~StereoGrabber() { stop(); }
@@ -65,15 +71,16 @@ class StereoGrabber {
   void stop();
   // The views of the result lie in the slot. With Light::Flash the lamp's rest is the caller's to wait
   // for: hal::TriggerLine::flash_allowed_at().
-  Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled, hal::Light light = hal::Light::Off);
+  Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
+                                     hal::Light light = hal::Light::Off);
 
   CameraWatch watch() const;
   // Those that were opened last; empty before. Thread: any.
   pipeline::RigCameras cameras() const;
   // The cameras of the calibration in use. Thread: any.
   void expect(pipeline::RigCameras calibrated);
-  // Are those opened last the ones expected? As check_cameras(); nothing is refused by start() and grab(), since who calibrates anew or looks
-  // for a fault needs any camera. Thread: any.
+  // Are those opened last the ones expected? As check_cameras(); nothing is refused by start() and grab(),
+  // since who calibrates anew or looks for a fault needs any camera. Thread: any.
   Result<void> check_cameras() const;
   const GrabCounts& counts() const { return counts_; }
 
@@ -103,8 +110,8 @@ class StereoGrabber {
   GrabCounts counts_;
   CameraLink left_;
   CameraLink right_;
-  int recognised_ = 0;                   // after so many openings
-  mutable std::mutex names_;             // of the two below
+  int recognised_ = 0;        // after so many openings
+  mutable std::mutex names_;  // of the two below
   pipeline::RigCameras found_, expected_;
   std::optional<std::uint32_t> offset_;  // right's number minus left's, of the last pair
 };

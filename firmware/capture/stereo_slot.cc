@@ -13,9 +13,12 @@ namespace relievo::firmware {
 Result<ImageView> StereoSlot::keep(Plane& plane, const hal::RawImage& raw) {
   // Before it is known whether all goes well: half a developed picture is to be wiped too.
   if (hal::check_shape(raw)) {
-    const std::size_t pixels = static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px);
+    const std::size_t pixels =
+        static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px);
     plane.used = std::max(plane.used, std::min(3 * pixels, plane.room.size()));
-    scratch_used_ = std::max(scratch_used_, std::min(hal::develop_scratch_bytes(raw.format, raw.width_px, raw.height_px), scratch_.size()));
+    scratch_used_ = std::max(
+        scratch_used_,
+        std::min(hal::develop_scratch_bytes(raw.format, raw.width_px, raw.height_px), scratch_.size()));
   }
   return hal::develop(raw, plane.room, scratch_);
 }

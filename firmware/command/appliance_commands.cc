@@ -16,7 +16,8 @@ namespace {
 
 std::string mib(std::size_t bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%8.1f MiB", static_cast<double>(bytes) / static_cast<double>(budget::kMiB));
+  std::snprintf(text, sizeof text, "%8.1f MiB",
+                static_cast<double>(bytes) / static_cast<double>(budget::kMiB));
   return text;
 }
 

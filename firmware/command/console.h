@@ -20,10 +20,10 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  void say(std::string_view line);                        // results: standard output
-  void progress(std::string_view what, float done);       // 0 to 1
+  void say(std::string_view line);                   // results: standard output
+  void progress(std::string_view what, float done);  // 0 to 1
   void clear_progress();
-  void fail(const Error& error);                          // "relievo: where: what"
+  void fail(const Error& error);  // "relievo: where: what"
 
  private:
   bool terminal_ = false;

@@ -11,8 +11,9 @@
 
 namespace relievo::firmware {
 
-Result<std::string> write_light_model(const pipeline::FaceModel& model, int triangles, const std::filesystem::path& folder,
-                                      storage::ExportFrame frame, const std::filesystem::path& place) {
+Result<std::string> write_light_model(const pipeline::FaceModel& model, int triangles,
+                                      const std::filesystem::path& folder, storage::ExportFrame frame,
+                                      const std::filesystem::path& place) {
   std::pmr::monotonic_buffer_resource memory;
   pipeline::DetailOptions options;
   options.triangles = triangles;
@@ -25,8 +26,10 @@ Result<std::string> write_light_model(const pipeline::FaceModel& model, int tria
   std::error_code unknown;
   const auto glb_bytes = std::filesystem::file_size(folder / "light.glb", unknown);
   char line[160];
-  std::snprintf(line, sizeof line, "light: %zu triangles, %ju bytes as GLB, off the model by %.3f mm rms, %.3f mm at most",
-                light.model.mesh.triangles.size(), static_cast<std::uintmax_t>(glb_bytes), light.rms_error_mm, light.max_error_mm);
+  std::snprintf(line, sizeof line,
+                "light: %zu triangles, %ju bytes as GLB, off the model by %.3f mm rms, %.3f mm at most",
+                light.model.mesh.triangles.size(), static_cast<std::uintmax_t>(glb_bytes), light.rms_error_mm,
+                light.max_error_mm);
   return std::string(line);
 }
 

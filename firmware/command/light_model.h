@@ -14,7 +14,8 @@
 
 namespace relievo::firmware {
 
-Result<std::string> write_light_model(const pipeline::FaceModel& model, int triangles, const std::filesystem::path& folder,
-                                      storage::ExportFrame frame, const std::filesystem::path& place);
+Result<std::string> write_light_model(const pipeline::FaceModel& model, int triangles,
+                                      const std::filesystem::path& folder, storage::ExportFrame frame,
+                                      const std::filesystem::path& place);
 
 }  // namespace relievo::firmware

@@ -56,7 +56,8 @@ Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
-    : target_(std::move(other.target_)), work_(std::exchange(other.work_, {})),
+    : target_(std::move(other.target_)),
+      work_(std::exchange(other.work_, {})),
       made_parent_(std::exchange(other.made_parent_, {})) {}
 
 OutputFolder::~OutputFolder() {

@@ -28,12 +28,13 @@ class OutputFolder {
  private:
   OutputFolder() = default;
   std::filesystem::path target_;
-  std::filesystem::path work_;          // empty once committed or moved from
-  std::filesystem::path made_parent_;   // the topmost folder that was missing, if any
+  std::filesystem::path work_;         // empty once committed or moved from
+  std::filesystem::path made_parent_;  // the topmost folder that was missing, if any
 };
 
 // A small file, whole or not at all. An error names `place`: what the caller was asked for, not where
 // the file lies for the moment.
-Result<void> write_text(const std::filesystem::path& file, std::string_view text, const std::filesystem::path& place);
+Result<void> write_text(const std::filesystem::path& file, std::string_view text,
+                        const std::filesystem::path& place);
 
 }  // namespace relievo::firmware

@@ -8,9 +8,15 @@
 namespace relievo::firmware {
 namespace {
 
-Result<void> run(const CalibrateArgs& args, Services& services) { return run_calibrate_and_store(args, services); }
-Result<void> run(const CalibrateLiveArgs& args, Services& services) { return run_calibrate_live_and_store(args, services); }
-Result<void> run(const PrintPatternArgs& args, Services& services) { return run_print_pattern(args, services); }
+Result<void> run(const CalibrateArgs& args, Services& services) {
+  return run_calibrate_and_store(args, services);
+}
+Result<void> run(const CalibrateLiveArgs& args, Services& services) {
+  return run_calibrate_live_and_store(args, services);
+}
+Result<void> run(const PrintPatternArgs& args, Services& services) {
+  return run_print_pattern(args, services);
+}
 Result<void> run(const CalibrationArgs& args, Services& services) { return run_calibration(args, services); }
 Result<void> run(const ReconstructArgs& args, Services& services) { return run_reconstruct(args, services); }
 Result<void> run(const CompareArgs& args, Services& services) { return run_compare(args, services); }
@@ -30,7 +36,8 @@ Path store_folder(const Path& named) { return named.empty() ? default_store_fold
 
 Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
   // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.
-  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound) return there.error();
+  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound)
+    return there.error();
   return services.open_store(folder, true);
 }
 

@@ -31,7 +31,8 @@ struct Services {
   Photograph photograph;
   // A board in a hand before the simulated rig. Errors: InvalidInput (no such board).
   std::function<Result<HeldBoard>(const CalibrateLiveArgs& args)> hold_board;
-  // The calibration of the simulated rig of open_board("sim"), as exactly known as it is; may be empty: it has to be calibrated.
+  // The calibration of the simulated rig of open_board("sim"), as exactly known as it is; may be empty: it
+  // has to be calibrated.
   std::function<Result<pipeline::StereoCalibration>()> simulated_calibration;
   // Window, device, or nothing to be seen: as the environment says. Errors: LibraryFailed.
   std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display;

@@ -20,28 +20,30 @@ using ui::BenchStage;
 using ui::BenchView;
 using ui::StaffPage;
 
-constexpr std::array<std::string_view, 8> kHeads{"n", "x₁ px", "y₁ px", "x₂ px", "d px", "σ px", "1 − ρ", "×"};
-constexpr std::array<std::string_view, 80> kCells{"11", "812.00", "304.00", "771.318", "40.682", "0.041", "0.012", "",
-                                                  "12", "814.00", "304.00", "773.297", "40.703", "0.044", "0.015", "",
-                                                  "13", "816.00", "304.00", "779.911", "36.089", "0.310", "0.428", "similarity",
-                                                  "14", "818.00", "304.00", "777.269", "40.731", "0.043", "0.014", "",
-                                                  "15", "820.00", "304.00", "779.256", "40.744", "0.042", "0.011", "",
-                                                  "16", "822.00", "304.00", "781.240", "40.760", "0.045", "0.016", "",
-                                                  "17", "824.00", "304.00", "782.098", "41.902", "0.188", "0.093", "uniqueness",
-                                                  "18", "826.00", "304.00", "785.219", "40.781", "0.044", "0.013", "",
-                                                  "19", "828.00", "304.00", "787.203", "40.797", "0.041", "0.012", "",
-                                                  "20", "830.00", "304.00", "789.185", "40.815", "0.046", "0.017", ""};
+constexpr std::array<std::string_view, 8> kHeads{"n",    "x₁ px", "y₁ px", "x₂ px",
+                                                 "d px", "σ px",  "1 − ρ", "×"};
+constexpr std::array<std::string_view, 80> kCells{
+    "11",      "812.00",     "304.00",  "771.318", "40.682",  "0.041",      "0.012",   "",        "12",
+    "814.00",  "304.00",     "773.297", "40.703",  "0.044",   "0.015",      "",        "13",      "816.00",
+    "304.00",  "779.911",    "36.089",  "0.310",   "0.428",   "similarity", "14",      "818.00",  "304.00",
+    "777.269", "40.731",     "0.043",   "0.014",   "",        "15",         "820.00",  "304.00",  "779.256",
+    "40.744",  "0.042",      "0.011",   "",        "16",      "822.00",     "304.00",  "781.240", "40.760",
+    "0.045",   "0.016",      "",        "17",      "824.00",  "304.00",     "782.098", "41.902",  "0.188",
+    "0.093",   "uniqueness", "18",      "826.00",  "304.00",  "785.219",    "40.781",  "0.044",   "0.013",
+    "",        "19",         "828.00",  "304.00",  "787.203", "40.797",     "0.041",   "0.012",   "",
+    "20",      "830.00",     "304.00",  "789.185", "40.815",  "0.046",      "0.017",   ""};
 constexpr std::array<std::string_view, 4> kCalibrationHeads{"", "1", "2", "1 → 2"};
-constexpr std::array<std::string_view, 40> kCalibrationCells{"fx px", "2318.442", "2321.107", "R  +0.98172  +0.00218  -0.19030",
-                                                             "fy px", "2317.905", "2320.664", "R  -0.00301  +0.99999  -0.00409",
-                                                             "cx px", "958.310", "961.774", "R  +0.19029  +0.00459  +0.98172",
-                                                             "cy px", "601.228", "598.913", "t  -108.114  +0.062  +10.530 mm",
-                                                             "k₁", "-0.081427", "-0.080966", "rms  0.118 px",
-                                                             "k₂", "+0.104310", "+0.101772", "№  4",
-                                                             "p₁", "+0.000214", "-0.000087", "",
-                                                             "p₂", "-0.000391", "+0.000146", "",
-                                                             "k₃", "-0.021508", "-0.019944", "",
-                                                             "px", "1920 × 1200", "1920 × 1200", ""};
+constexpr std::array<std::string_view, 40> kCalibrationCells{
+    "fx px", "2318.442",    "2321.107",    "R  +0.98172  +0.00218  -0.19030",
+    "fy px", "2317.905",    "2320.664",    "R  -0.00301  +0.99999  -0.00409",
+    "cx px", "958.310",     "961.774",     "R  +0.19029  +0.00459  +0.98172",
+    "cy px", "601.228",     "598.913",     "t  -108.114  +0.062  +10.530 mm",
+    "k₁",    "-0.081427",   "-0.080966",   "rms  0.118 px",
+    "k₂",    "+0.104310",   "+0.101772",   "№  4",
+    "p₁",    "+0.000214",   "-0.000087",   "",
+    "p₂",    "-0.000391",   "+0.000146",   "",
+    "k₃",    "-0.021508",   "-0.019944",   "",
+    "px",    "1920 × 1200", "1920 × 1200", ""};
 
 ui::BenchResult made_up_result() {
   ui::BenchResult r;
@@ -53,7 +55,8 @@ ui::BenchResult made_up_result() {
   r.accepted = 148220;
   constexpr std::array<std::string_view, 3> kNames{"similarity", "uniqueness", "continuity"};
   constexpr std::array<std::uint64_t, 3> kRejected{17310, 2204, 3270};
-  constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{{{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
+  constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{
+      {{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
   r.rule_count = 3;
   for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kNames[i], kColours[i], kRejected[i]};
   r.median_sigma_mm = 0.061F;
@@ -68,10 +71,15 @@ void lend(const ui::ViewState& review, BenchStage stage, BenchView& view) {
   view.stage = stage;
   view.shown = {};
   if (stage <= BenchStage::Rectified) {
-    if (review.frame != nullptr) view.shown = {ui::BenchPicture{review.frame->left, 900001}, ui::BenchPicture{review.frame->right, 900002}};
+    if (review.frame != nullptr)
+      view.shown = {ui::BenchPicture{review.frame->left, 900001},
+                    ui::BenchPicture{review.frame->right, 900002}};
     return;
   }
-  const std::size_t last = stage == BenchStage::Matches || stage == BenchStage::Disparity ? 0 : static_cast<std::size_t>(stage) - static_cast<std::size_t>(BenchStage::Cloud) + 1;
+  const std::size_t last =
+      stage == BenchStage::Matches || stage == BenchStage::Disparity
+          ? 0
+          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(BenchStage::Cloud) + 1;
   view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
 }
 
@@ -116,7 +124,9 @@ ui::BenchCameras watched(const ui::ViewState& review) {
   ui::BenchCameras c;
   c.watched = c.can_be_set = true;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (review.frame != nullptr) c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right, 900020 + static_cast<std::uint32_t>(i)};
+    if (review.frame != nullptr)
+      c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right,
+                             900020 + static_cast<std::uint32_t>(i)};
     c.camera[i].mean = i == 0 ? 0.46F : 0.44F;
     c.camera[i].clipped = i == 0 ? 0.004F : 0.031F;
     c.camera[i].focus = i == 0 ? 0.98F : 0.84F;
@@ -136,19 +146,23 @@ ui::BenchCalibration calibrated(const ui::ViewState& review, bool running) {
   c.ended = !running;
   c.advice = ui::BoardAdvice::TiltRight;
   c.end = ui::BoardEnd::GoalReached;
-  for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i) c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right, 900030 + static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
+    c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right,
+                     900030 + static_cast<std::uint32_t>(i)};
   c.pairs = 88;
   c.views = 11;
   c.bars = {0.82F, 0.64F, 1, 0.37F};
-  for (std::size_t i = 0; i < 64; ++i) c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : static_cast<std::uint32_t>(i % 24) * 3;
+  for (std::size_t i = 0; i < 64; ++i)
+    c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : static_cast<std::uint32_t>(i % 24) * 3;
   c.error_mm = 0.118F;
   c.goal_mm = 0.1F;
   c.verdict = ui::BenchVerdict::Good;
   c.depth_error_mm = 0.094F;
   c.rms_px = 0.021F;
   c.baseline_mm = 108.63F;
-  static const std::vector<std::string> kGood{"all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm depth is uncertain by {} mm and was found within {} mm of "
-                                              "where the known squares put it; lengths are uncertain by {} %\t0.021\t0.018\t560\t0.094\t0.061\t0.0113"};
+  static const std::vector<std::string> kGood{
+      "all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm depth is uncertain by {} mm and was found within {} mm of "
+      "where the known squares put it; lengths are uncertain by {} %\t0.021\t0.018\t560\t0.094\t0.061\t0.0113"};
   if (!running) c.reasons = kGood;
   c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
   c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
@@ -177,14 +191,16 @@ struct Lent {
   StaffPage page;
   BenchView view;
   ui::ServiceView staff;
-  std::string_view note;   // said against the calibration
+  std::string_view note;  // said against the calibration
   bool edges = false;
 };
 
 // What is lent to the pages, for as long as they are looked at.
 struct Lender {
   std::deque<Lent> lent;
-  void add(std::string_view name, StaffPage page, const BenchView& view) { lent.push_back({name, page, view, {}, {}, false}); }
+  void add(std::string_view name, StaffPage page, const BenchView& view) {
+    lent.push_back({name, page, view, {}, {}, false});
+  }
 };
 
 void add_stages(Lender& all, const ui::ViewState& review) {
@@ -214,7 +230,9 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view.saved = {true, {}};
   all.add("bench_none_saved", StaffPage::Stages, view);
   view.saved = {};
-  for (const auto& [name, stage] : {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches}, std::pair{"bench_surface", BenchStage::Mesh}}) {
+  for (const auto& [name, stage] :
+       {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches},
+        std::pair{"bench_surface", BenchStage::Mesh}}) {
     lend(review, stage, view);
     all.add(name, StaffPage::Stages, view);
   }
@@ -262,16 +280,19 @@ void add_calibrations(Lender& all, const ui::ViewState& review) {
   view.calibration = calibrated(review, false);
   view.calibration.ended = false;
   all.add("bench_moved", StaffPage::Calibrate, view);
-  all.lent.back().note = "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
+  all.lent.back().note =
+      "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
   all.add("bench_exchanged", StaffPage::Calibrate, view);
-  all.lent.back().note = "the left camera is not the one that was calibrated: put that one back, or calibrate again\tserial 4061 → serial 4088";
+  all.lent.back().note =
+      "the left camera is not the one that was calibrated: put that one back, or calibrate again\tserial 4061 → serial 4088";
 }
 
 void add_failures(Lender& all, const ui::ViewState& review) {
   BenchView view = ready(review);
   lend(review, BenchStage::Rectified, view);
   view.result.failed_at = 3;
-  view.result.failure = "that looks like a picture of a face: please look into the cameras yourself\t1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5";
+  view.result.failure =
+      "that looks like a picture of a face: please look into the cameras yourself\t1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5";
   view.result.made = {};
   all.add("bench_failed", StaffPage::Stages, view);
   view.model = nullptr;
@@ -280,7 +301,8 @@ void add_failures(Lender& all, const ui::ViewState& review) {
 
 }  // namespace
 
-void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review, const ui::ViewState& idle, const ui::Visit& visit) {
+void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
+                        const ui::ViewState& idle, const ui::Visit& visit) {
   static Lender all;
   all.lent.clear();
   add_stages(all, review);

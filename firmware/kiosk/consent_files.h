@@ -24,14 +24,15 @@
 
 namespace relievo::firmware {
 
-inline constexpr std::size_t kMostConsentBytes = 20'000;   // of one text
+inline constexpr std::size_t kMostConsentBytes = 20'000;  // of one text
 inline constexpr std::size_t kMostConsentPoints = 24;
 
 // Nothing where there is no such folder: then the sample is shown, and says that it is one.
 Result<std::optional<ui::ConsentTexts>> read_consent(const std::filesystem::path& folder);
 
 // One folder of LANGUAGE.txt, under that name.
-Result<ui::ConsentTexts> read_consent_version(const std::filesystem::path& folder, const std::string& version);
+Result<ui::ConsentTexts> read_consent_version(const std::filesystem::path& folder,
+                                              const std::string& version);
 // A file as it is taken for text: UTF-8 without its mark, ends of lines as here, at most kMostConsentBytes.
 Result<std::string> read_consent_text(const std::filesystem::path& file);
 bool is_hidden(const std::filesystem::path& path);

@@ -14,12 +14,14 @@ using ui::Screen;
 using ui::Step;
 using ui::Trouble;
 
-constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre", "Iñaki Muñoz",
-                                                      "ليلى حسن", "נועה לוי", "Wang Wei", "Sato Yuki"};
+constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre",
+                                                     "Iñaki Muñoz",  "ليلى حسن",      "נועה לוי",
+                                                     "Wang Wei",     "Sato Yuki"};
 
 class Gallery {
  public:
-  Gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast) : review_(review) {
+  Gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast)
+      : review_(review) {
     visit_.language = language;
     visit_.text_size = text_size;
     visit_.high_contrast = high_contrast;
@@ -51,7 +53,9 @@ class Gallery {
     visit.type(code);
     return visit;
   }
-  void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) { exhibits.push_back({name, view, visit, {}}); }
+  void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) {
+    exhibits.push_back({name, view, visit, {}});
+  }
 
   void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
     ui::ViewState view = idle();
@@ -152,7 +156,8 @@ void add_troubles(Gallery& g, const ui::ViewState& idle) {
 
 }  // namespace
 
-std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast) {
+std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
+                             bool high_contrast) {
   Gallery g(review, language, text_size, high_contrast);
   const ui::ViewState idle = g.idle();
   add_beginning(g, idle);

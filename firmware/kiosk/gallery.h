@@ -16,9 +16,10 @@ struct Exhibit {
   std::string_view name;
   ui::ViewState view;
   ui::Visit visit;
-  ui::Service service;   // closed, but for the staff's pages
+  ui::Service service;  // closed, but for the staff's pages
 };
 
-std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast);
+std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
+                             bool high_contrast);
 
 }  // namespace relievo::firmware

@@ -42,7 +42,8 @@ Kiosk::~Kiosk() {
 }
 
 // None: nobody has calibrated this device yet.
-Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args, Services& services) {
+Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args,
+                                                                           Services& services) {
   const hal::CaptureMode mode = board_->preferred_mode();
   std::string named;
   Result<pipeline::StereoCalibration> found = Error{Errc::NotCalibrated, "none was named"};
@@ -50,7 +51,8 @@ Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const
     found = pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
     named = args.calibration.filename().string();
   } else if (found = store_->active_calibration(); !found && found.error().code == Errc::NotCalibrated) {
-    if (args.board != "sim" || !services.simulated_calibration) return std::optional<pipeline::StereoCalibration>();
+    if (args.board != "sim" || !services.simulated_calibration)
+      return std::optional<pipeline::StereoCalibration>();
     found = services.simulated_calibration();
     named = "of the simulated rig";
   }
@@ -66,15 +68,18 @@ Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const
 Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
   const Result<std::string> kept = store_->setting(kAlgorithmsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty()) return choose_algorithms(args.algorithms);
+  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty())
+    return choose_algorithms(args.algorithms);
   return pipeline::AlgorithmSet::from_text(*kept);
 }
 
 // Without a calibration everything is made that needs none: the rest comes with the first one (make_bench).
 Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) {
-  RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration, find_calibration(args, services));
+  RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration,
+                     find_calibration(args, services));
   RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms(args));
-  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px : board_->preferred_mode().width_px));
+  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px
+                                                             : board_->preferred_mode().width_px));
   judge_ = std::make_unique<LiveJudge>(std::move(judge));
   stages_ = std::make_unique<PipelineStages>(set);
   if (!calibration) return {};
@@ -100,19 +105,26 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
-  const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) { return keep(subject, model); };
-  appliance_ = std::make_unique<Appliance>(Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
-    Result<void> asked = look_up();
-    // Whom the records cannot answer for is somebody new; a code they cannot answer for is none.
-    if (!asked) found_.store(quoted_.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode);
-    return asked;
-  }});
+  const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) {
+    return keep(subject, model);
+  };
+  appliance_ = std::make_unique<Appliance>(
+      Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
+                         Result<void> asked = look_up();
+                         // Whom the records cannot answer for is somebody new; a code they cannot answer for
+                         // is none.
+                         if (!asked)
+                           found_.store(quoted_.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode);
+                         return asked;
+                       }});
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
-  camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
+  camera_look_ =
+      std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
-  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), revision_, services.set_clock}));
+  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), revision_,
+                                        services.set_clock}));
   desk_->set_bench(make_bench(args, services));
   code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
   look();
@@ -130,27 +142,40 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
       return make_hand_pairs(std::move(hand), held.seed);
     };
   }
-  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_, *store_, std::move(show), [this](const pipeline::StereoCalibration& calibration) {
-    revision_ = calibration.revision;
-    judge_->use(calibration);
-    appliance_->grabber().expect(calibration.cameras);
-    appliance_->calibrated_anew();
-  }});
+  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_,
+                                              *store_, std::move(show),
+                                              [this](const pipeline::StereoCalibration& calibration) {
+                                                revision_ = calibration.revision;
+                                                judge_->use(calibration);
+                                                appliance_->grabber().expect(calibration.cameras);
+                                                appliance_->calibrated_anew();
+                                              }});
 }
 
 // On the keeper, while the main thread only draws.
 Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, consented_.least_room_mib));
-  Report report{"store revision " + std::to_string(revision_), stages_->algorithms().to_text(), appliance_->records(), {}, peak_rss_bytes(),
-                model.quality, appliance_->drift(), {}, model.landmarks, model.head_from_camera};
+  Report report{"store revision " + std::to_string(revision_),
+                stages_->algorithms().to_text(),
+                appliance_->records(),
+                {},
+                peak_rss_bytes(),
+                model.quality,
+                appliance_->drift(),
+                {},
+                model.landmarks,
+                model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   const std::string json = report_json(report), algorithms = report.algorithms;
-  const storage::Consent consent{consented_.wording, consented_.language, std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
+  const storage::Consent consent{consented_.wording, consented_.language,
+                                 std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
   // Somebody new, unless a code was quoted: that two people have one name must mix nothing up.
   const bool known = consented_.errand != ui::Errand::New;
-  const storage::SubjectChoice whose = known ? storage::SubjectChoice(record_) : storage::NewSubject{std::string(subject)};
+  const storage::SubjectChoice whose =
+      known ? storage::SubjectChoice(record_) : storage::NewSubject{std::string(subject)};
   RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id,
-                     store_->add_enrolment(whose, {model, consent, revision_, algorithms, json, consented_.errand == ui::Errand::Renew}));
+                     store_->add_enrolment(whose, {model, consent, revision_, algorithms, json,
+                                                   consented_.errand == ui::Errand::Renew}));
   RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
   RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_->subject(stored.subject));
   receipt_ = receipt_of(whom);
@@ -164,7 +189,9 @@ Result<void> Kiosk::look_up() {
     said = ui::Known::NoSuchCode;
     CodeGuard guard(*store_, board_->clock());
     RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
-    const Result<storage::Subject> subject = listens ? find_by_receipt(*store_, quoted_) : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
+    const Result<storage::Subject> subject =
+        listens ? find_by_receipt(*store_, quoted_)
+                : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
     if (!subject && subject.error().code != Errc::NotFound) return subject.error();
     if (subject && subject->name == claimed_) {
       RELIEVO_TRY(guard.was_right());
@@ -180,15 +207,16 @@ Result<void> Kiosk::look_up() {
   return {};
 }
 
-// A consent must not bear a date before the newest record's, nor one before this program was; and nobody is photographed
-// by cameras that cannot measure.
+// A consent must not bear a date before the newest record's, nor one before this program was; and nobody is
+// photographed by cameras that cannot measure.
 ui::Trouble Kiosk::out_of_order() const {
   using namespace std::chrono_literals;
   constexpr std::chrono::sys_days kNoEarlier{std::chrono::year{2026} / 1 / 1};
   const auto now = board_->clock().wall_now();
   if (now < kNoEarlier || now < newest_record_ - 24h) return ui::Trouble::Clock;
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
-  if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces) return ui::Trouble::Calibration;
+  if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces)
+    return ui::Trouble::Calibration;
   return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
@@ -199,13 +227,15 @@ void Kiosk::look() {
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) desk_->consent().adopt();
   view_.consent = desk_->consent().now();
-  for (std::size_t i = 0; i < ui::kLanguages; ++i) languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
+  for (std::size_t i = 0; i < ui::kLanguages; ++i)
+    languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
   view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
   view_.settings = desk_->settings();
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
-  while (!view_.languages[static_cast<std::size_t>(view_.home)]) view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
+  while (!view_.languages[static_cast<std::size_t>(view_.home)])
+    view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = found_.load(std::memory_order_acquire);
   const Result<void> cameras = appliance_->grabber().check_cameras();
   exchanged_ = cameras ? "" : Sentence(cameras.error()).packed();
@@ -217,23 +247,31 @@ void Kiosk::look() {
 
 void Kiosk::feed(const ui::Input& input) {
   const float w = static_cast<float>(ui_->width_px()), h = static_cast<float>(ui_->height_px());
-  const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move || input.kind == ui::Input::Kind::Up) && input.finger != ui::kMouse;
+  const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move ||
+                       input.kind == ui::Input::Kind::Up) &&
+                      input.finger != ui::kMouse;
   if (finger && desk_->touch().takes_fingers()) {
     const ui::Node* cross = ui_->tree().find("cross");
     if (input.kind != ui::Input::Kind::Down || cross == nullptr) return;
     desk_->touched();
-    return desk_->touch().touched({input.x / w, input.y / h}, {(cross->rect.x + cross->rect.w / 2) / w, (cross->rect.y + cross->rect.h / 2) / h});
+    return desk_->touch().touched({input.x / w, input.y / h}, {(cross->rect.x + cross->rect.w / 2) / w,
+                                                               (cross->rect.y + cross->rect.h / 2) / h});
   }
   ui_->feed(finger ? desk_->touch().placed(input, ui_->width_px(), ui_->height_px()) : input, view_);
   if (ui_->service().open) desk_->touched();
 }
 
 void Kiosk::ask(ui::Intent intent) {
-  const bool measures = stages_->calibration() != nullptr && exchanged_.empty() && appliance_->moved_in_a_row() < budget::kMovedFaces;
-  if (!measures && appliance_->state() == State::Idle && (intent == ui::Intent::Pose || intent == ui::Intent::Begin)) return;
+  const bool measures = stages_->calibration() != nullptr && exchanged_.empty() &&
+                        appliance_->moved_in_a_row() < budget::kMovedFaces;
+  if (!measures && appliance_->state() == State::Idle &&
+      (intent == ui::Intent::Pose || intent == ui::Intent::Begin))
+    return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
     const ui::Wish wish = ui_->wish();
-    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(wish.wording), std::string(wish.language), wish.agreed_at, wish.errand, view_.settings.of(ui::Setting::LeastRoomMib)};
+    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(wish.wording),
+                  std::string(wish.language), wish.agreed_at, wish.errand,
+                  view_.settings.of(ui::Setting::LeastRoomMib)};
     appliance_->set_subject(wish.errand == ui::Errand::New ? wish.name : std::string_view(claimed_));
   }
   if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
@@ -259,10 +297,14 @@ void Kiosk::forget_asked() {
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
-  if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now)) (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
+  if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
+    (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
   desk_->turn();
-  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician) moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())}, desk_->errands(), desk_->log());
-  if (told_ && ui_->visit().step != ui::Step::Trouble) restarted_ = false;  // told once: it was read, or nobody is there
+  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician)
+    moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},
+                       desk_->errands(), desk_->log());
+  if (told_ && ui_->visit().step != ui::Step::Trouble)
+    restarted_ = false;  // told once: it was read, or nobody is there
   look();
   if (auto shown = code_sight_->turn(ui_->visit(), view_.now)) {
     ui_->visit().enter(*shown, view_.now);

@@ -59,7 +59,8 @@ class Kiosk {
   };
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
-  Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args, Services& services);
+  Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args,
+                                                                      Services& services);
   Result<pipeline::AlgorithmSet> chosen_algorithms(const KioskArgs& args);
   Result<void> set_up_measuring(const KioskArgs& args, Services& services);
   std::unique_ptr<Bench> make_bench(const KioskArgs& args, Services& services);
@@ -85,16 +86,16 @@ class Kiosk {
   // the keeper looks up: then Asking is to be seen, and found_ is written last.
   std::string claimed_, quoted_;
   std::unique_ptr<CameraLook> camera_look_;
-  std::string exchanged_;       // which cameras are not the calibrated ones, in a sentence; empty: they are
+  std::string exchanged_;  // which cameras are not the calibrated ones, in a sentence; empty: they are
   storage::SubjectId record_{};
   std::atomic<ui::Known> found_{ui::Known::NotAsked};
   bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;
-  Path folder_;                 // of the store
+  Path folder_;  // of the store
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
   bool restarted_ = false, told_ = false;
   storage::WallTime newest_record_{};
-  std::string receipt_;         // written by the keeper while the state is Store
+  std::string receipt_;  // written by the keeper while the state is Store
   ui::ViewState view_;
   bool forgotten_ = false;
   std::unique_ptr<Appliance> appliance_;  // its threads use everything above

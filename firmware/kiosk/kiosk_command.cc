@@ -30,8 +30,10 @@ Result<void> keep_picture(ui::Renderer& renderer, const ui::Display& display, co
   hal::Picture picture;
   picture.width_px = display.width_px();
   picture.height_px = display.height_px();
-  picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px));
-  renderer.read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, picture.width_px, picture.height_px);
+  picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) *
+                       static_cast<std::size_t>(picture.height_px));
+  renderer.read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
+                     picture.width_px, picture.height_px);
   return hal::write_picture(file, picture.view());
 }
 
@@ -45,7 +47,9 @@ class Glass {
     const bool forgets = kiosk.take_forgotten();
     const int width = display_.width_px(), height = display_.height_px();
     const ui::DrawList& list = kiosk.ui().draw_list();
-    if (!wanted && !forgets && width == width_ && height == height_ && now - drawn_at_ < kAtLeastEvery && list == drawn_) return false;
+    if (!wanted && !forgets && width == width_ && height == height_ && now - drawn_at_ < kAtLeastEvery &&
+        list == drawn_)
+      return false;
     if (forgets) renderer_.forget();
     renderer_.draw(list, kiosk.ui().text().atlas(), width, height);
     drawn_ = list;
@@ -100,10 +104,15 @@ Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
   return {};
 }
 
-Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAction> script, const Path& pictures, Services& services) {
+Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAction> script,
+                        const Path& pictures, Services& services) {
   ScriptPlayer::Hands hands{[&display](const ui::Input& finger) { display.push(finger); }, {}};
-  if (services.plug_stick) hands.plug = [&kiosk, &services](const std::string& folder) { return services.plug_stick(kiosk.board(), folder); };
-  Scripted scripted{ScriptPlayer(std::move(script), std::move(hands)), VisitFigures(services.allocations), pictures};
+  if (services.plug_stick)
+    hands.plug = [&kiosk, &services](const std::string& folder) {
+      return services.plug_stick(kiosk.board(), folder);
+    };
+  Scripted scripted{ScriptPlayer(std::move(script), std::move(hands)), VisitFigures(services.allocations),
+                    pictures};
   RELIEVO_TRY(run_on(display, kiosk, &scripted));
   for (const std::string& line : scripted.figures.lines()) services.console.say(line);
   return {};
@@ -122,7 +131,8 @@ Result<void> run_kiosk(const KioskArgs& args, Services& services) {
   if (!args.screenshots.empty() && (std::filesystem::create_directories(args.screenshots, error), error))
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
   RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
-  RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px, pictures ? 800 : args.height_px}));
+  RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
+                                                                pictures ? 800 : args.height_px}));
   if (scripted) return run_script(*display, *kiosk, std::move(script), args.screenshots, services);
   return pictures ? take_screenshots(args, *kiosk, services.console) : run_on(*display, *kiosk, nullptr);
 }

@@ -30,12 +30,14 @@ Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
 
 void MovedFaces::keep(std::uint32_t revision, const Said& said, Errands& errands, EventLog& log) {
   if (revision == revision_ && said == kept_) return;
-  const bool news = said != kept_;   // another calibration of which nothing is said needs no line
+  const bool news = said != kept_;  // another calibration of which nothing is said needs no line
   revision_ = revision;
   kept_ = said;
   if (!news && said == Said{}) return;
   errands.send(
-      JobPlace::Keeper, [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " + said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
+      JobPlace::Keeper,
+      [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
+                    said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [&log](const std::optional<Error>& error) {
         if (error) log.fault(*error);
       },

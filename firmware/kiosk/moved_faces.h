@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // MovedFaces: how many faces on end have said that the cameras have moved since they were calibrated, kept in
-// the store's setting "moved_faces" with the calibration it was said of, and what the last of them said for the
-// technician (packed, hal/base/sentence.h): who switches the device off and on makes no calibration true. What was
-// said of another calibration is no more.
-// Thread: main; the store is written on the keeper. Errors of read(): the store's.
+// the store's setting "moved_faces" with the calibration it was said of, and what the last of them said for
+// the technician (packed, hal/base/sentence.h): who switches the device off and on makes no calibration true.
+// What was said of another calibration is no more. Thread: main; the store is written on the keeper. Errors
+// of read(): the store's.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class MovedFaces {
   explicit MovedFaces(storage::Store& store) : store_(store) {}
   struct Said {
     int faces = 0;
-    std::string note;   // empty: nothing against the calibration
+    std::string note;  // empty: nothing against the calibration
     bool operator==(const Said&) const = default;
   };
   // As it was kept of this calibration; nothing: of another. Before any thread uses the store.

@@ -33,9 +33,11 @@ std::optional<Quoted> read(std::string_view code) {
   std::string digits;
   for (const char c : code)
     if (c != '-' && c != ' ') digits += c;
-  const bool whole = !code.empty() && code.front() != '-' && code.back() != '-' && code.front() != ' ' && code.back() != ' ';
+  const bool whole =
+      !code.empty() && code.front() != '-' && code.back() != '-' && code.front() != ' ' && code.back() != ' ';
   if (whole && digits.size() == kDrawnDigits + kCheckDigits) {
-    const auto number = checked(std::string_view(digits).substr(0, kDrawnDigits), std::string_view(digits).substr(kDrawnDigits));
+    const auto number = checked(std::string_view(digits).substr(0, kDrawnDigits),
+                                std::string_view(digits).substr(kDrawnDigits));
     return number ? std::optional(Quoted{*number, true}) : std::nullopt;
   }
   const std::size_t dash = code.find('-');
@@ -54,7 +56,8 @@ std::string receipt_of(const storage::Subject& subject) {
     return text;
   }
   const auto part = [&](std::int64_t unit) { return static_cast<int>(subject.receipt / unit % 10'000); };
-  std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1), check_digits(subject.receipt));
+  std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1),
+                check_digits(subject.receipt));
   return text;
 }
 
@@ -66,7 +69,8 @@ Result<storage::Subject> find_by_receipt(storage::Store& store, std::string_view
   if (!quoted) return none;
   if (quoted->drawn) {
     RELIEVO_TRY_ASSIGN(auto found, store.subjects({.limit = 1, .receipt = quoted->number}));
-    return found.empty() ? Result<storage::Subject>(none) : Result<storage::Subject>(std::move(found.front()));
+    return found.empty() ? Result<storage::Subject>(none)
+                         : Result<storage::Subject>(std::move(found.front()));
   }
   // The numbers of records can be counted: they open only what has nothing better.
   RELIEVO_TRY_ASSIGN(storage::Subject subject, store.subject(storage::SubjectId{quoted->number}));

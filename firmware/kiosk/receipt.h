@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The code a person gets for their erasure: the twelve digits drawn for them and two check digits (ISO/IEC
-// 7064, MOD 97-10), as "4821-9037-5512-71". One wrong or swapped digit is noticed. Digits only: every keyboard
-// has them, and none looks like another. Who was enrolled before codes were drawn has the number of their
-// record, as "000123-09"; such a code leads to nobody who has a drawn one.
+// 7064, MOD 97-10), as "4821-9037-5512-71". One wrong or swapped digit is noticed. Digits only: every
+// keyboard has them, and none looks like another. Who was enrolled before codes were drawn has the number of
+// their record, as "000123-09"; such a code leads to nobody who has a drawn one.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ namespace relievo::firmware {
 
 std::string receipt_of(const storage::Subject& subject);
 
-// Whether it is such a code at all. Dashes and spaces between the digits may be others, or none, in a drawn one.
+// Whether it is such a code at all. Dashes and spaces between the digits may be others, or none, in a drawn
+// one.
 bool is_receipt(std::string_view code);
 // Thread: the keeper. NotFound: it is no such code, or nobody's; the store's errors.
 Result<storage::Subject> find_by_receipt(storage::Store& store, std::string_view code);

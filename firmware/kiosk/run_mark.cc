@@ -10,7 +10,9 @@ Result<std::unique_ptr<RunMark>> RunMark::set(const std::filesystem::path& folde
   const std::filesystem::path file = folder / "relievo.running";
   std::error_code error;
   const bool there = std::filesystem::exists(file, error);
-  if (!there && !std::ofstream(file)) return Error{Errc::IoFailed, "cannot be written: check the folder's rights and the disk"}.at(file.string());
+  if (!there && !std::ofstream(file))
+    return Error{Errc::IoFailed, "cannot be written: check the folder's rights and the disk"}.at(
+        file.string());
   return std::unique_ptr<RunMark>(new RunMark(file, there));
 }
 

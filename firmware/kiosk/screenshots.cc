@@ -35,14 +35,19 @@ void tap(Kiosk& kiosk, std::string_view id) {
   kiosk.feed({ui::Input::Kind::Up, 1, x, y});
 }
 
-// What a person would do who reads it: pass by that the run before this one ended in the middle, and try again what took
-// too long on a busy machine or was refused. What nobody can pass by, and what happens again and again, ends it.
+// What a person would do who reads it: pass by that the run before this one ended in the middle, and try
+// again what took too long on a busy machine or was refused. What nobody can pass by, and what happens again
+// and again, ends it.
 Result<void> may_be_passed_by(Kiosk& kiosk, int& troubles) {
   const ui::ViewState& view = kiosk.view();
-  if (view.out_of_order == ui::Trouble::Clock) return Error{Errc::InvalidState, "the clock is wrong: set it, then take the pictures"};
-  if (ui::bars_the_way(view.out_of_order)) return Error{Errc::NotCalibrated, "these cameras measure nothing now: calibrate them, or give --store a new folder"};
+  if (view.out_of_order == ui::Trouble::Clock)
+    return Error{Errc::InvalidState, "the clock is wrong: set it, then take the pictures"};
+  if (ui::bars_the_way(view.out_of_order))
+    return Error{Errc::NotCalibrated,
+                 "these cameras measure nothing now: calibrate them, or give --store a new folder"};
   if (view.out_of_order != ui::Trouble::Restarted && ++troubles > kMostTroubles)
-    return kiosk.appliance().problem() ? *kiosk.appliance().problem() : Error{Errc::InvalidState, "the enrolment ended early"};
+    return kiosk.appliance().problem() ? *kiosk.appliance().problem()
+                                       : Error{Errc::InvalidState, "the enrolment ended early"};
   return {};
 }
 
@@ -64,7 +69,8 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
     if (step == ui::Step::Consent) tap(kiosk, "agree");
     const ImageView& picture = kiosk.view().live.picture;
     if (step == ui::Step::Position && !picture.empty()) {
-      const auto bytes = static_cast<std::size_t>(picture.stride_bytes) * static_cast<std::size_t>(picture.height_px);
+      const auto bytes =
+          static_cast<std::size_t>(picture.stride_bytes) * static_cast<std::size_t>(picture.height_px);
       live.bytes.assign(picture.bytes, picture.bytes + bytes);
       live.width_px = picture.width_px;
       live.height_px = picture.height_px;
@@ -89,15 +95,20 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
 class Sheet {
  public:
   // More pages, more of them beside each other, and smaller where the sheet would be too large a picture.
-  Sheet(std::size_t count, Size size) : across_(std::max(kThumbAcross, (static_cast<int>(count) + kMostRows - 1) / kMostRows)) {
+  Sheet(std::size_t count, Size size)
+      : across_(std::max(kThumbAcross, (static_cast<int>(count) + kMostRows - 1) / kMostRows)) {
     const int rows = (static_cast<int>(count) + across_ - 1) / across_;
     for (thumb_w_ = kThumbWidthPx;; thumb_w_ -= 8) {
       thumb_h_ = thumb_w_ * size.height_px / size.width_px;
       sheet_.width_px = across_ * (thumb_w_ + 8);
       sheet_.height_px = rows * (thumb_h_ + 8);
-      if (std::max(sheet_.width_px, sheet_.height_px) <= hal::kMaxPictureSidePx && static_cast<long>(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx) break;
+      if (std::max(sheet_.width_px, sheet_.height_px) <= hal::kMaxPictureSidePx &&
+          static_cast<long>(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx)
+        break;
     }
-    sheet_.bytes.assign(std::size_t{3} * static_cast<std::size_t>(sheet_.width_px) * static_cast<std::size_t>(sheet_.height_px), std::byte{90});
+    sheet_.bytes.assign(std::size_t{3} * static_cast<std::size_t>(sheet_.width_px) *
+                            static_cast<std::size_t>(sheet_.height_px),
+                        std::byte{90});
   }
   void add(const hal::Picture& picture) {
     const int x0 = count_ % across_ * (thumb_w_ + 8) + 4, y0 = count_ / across_ * (thumb_h_ + 8) + 4;
@@ -119,8 +130,10 @@ class Sheet {
         for (int c = 0; c < 3; ++c) sum[c] += from.view().row(v)[3 * u + c];
       }
     }
-    const std::size_t at = 3 * (static_cast<std::size_t>(to_y) * static_cast<std::size_t>(sheet_.width_px) + static_cast<std::size_t>(to_x));
-    for (std::size_t c = 0; c < 3; ++c) sheet_.bytes[at + c] = static_cast<std::byte>(sum[c] / ((u1 - u0) * (v1 - v0)));
+    const std::size_t at = 3 * (static_cast<std::size_t>(to_y) * static_cast<std::size_t>(sheet_.width_px) +
+                                static_cast<std::size_t>(to_x));
+    for (std::size_t c = 0; c < 3; ++c)
+      sheet_.bytes[at + c] = static_cast<std::byte>(sum[c] / ((u1 - u0) * (v1 - v0)));
   }
 
   hal::Picture sheet_;
@@ -145,28 +158,39 @@ std::string file_of(int number, std::string_view name) {
 
 class Photographer {
  public:
-  Photographer(std::unique_ptr<ui::Renderer> renderer, std::unique_ptr<ui::TextEngine> text, const KioskArgs& args)
-      : renderer_(std::move(renderer)), ui_(std::move(text)), folder_(args.screenshots), only_(only_of(args.only)) {}
+  Photographer(std::unique_ptr<ui::Renderer> renderer, std::unique_ptr<ui::TextEngine> text,
+               const KioskArgs& args)
+      : renderer_(std::move(renderer)),
+        ui_(std::move(text)),
+        folder_(args.screenshots),
+        only_(only_of(args.only)) {}
 
-  Result<void> take(const ui::ViewState& review, Size size, std::size_t text_size, ui::Language language, bool contrast, Console& console) {
+  Result<void> take(const ui::ViewState& review, Size size, std::size_t text_size, ui::Language language,
+                    bool contrast, Console& console) {
     char words[64];
-    std::snprintf(words, sizeof words, "%dx%d_%d%s_%s", size.width_px, size.height_px, ui::kTextPercents[text_size], contrast ? "_contrast" : "", ui::info_of(language).code);
+    std::snprintf(words, sizeof words, "%dx%d_%d%s_%s", size.width_px, size.height_px,
+                  ui::kTextPercents[text_size], contrast ? "_contrast" : "", ui::info_of(language).code);
     if (std::string_view(words).find(only_.pages) == std::string_view::npos) return {};
     const auto exhibits = gallery(review, language, text_size, contrast);
     std::error_code error;
     std::filesystem::create_directories(folder_ / words, error);
-    if (error) return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at((folder_ / words).string());
+    if (error)
+      return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(
+          (folder_ / words).string());
     ui_.resize(size.width_px, size.height_px);
     RELIEVO_TRY_ASSIGN(const auto target, ui::Offscreen::make(size.width_px, size.height_px));
     int number = 0;
-    const auto is_wanted = [&](const Exhibit& exhibit) { return file_of(++number, exhibit.name).find(only_.page) != std::string::npos; };
+    const auto is_wanted = [&](const Exhibit& exhibit) {
+      return file_of(++number, exhibit.name).find(only_.page) != std::string::npos;
+    };
     const std::ptrdiff_t count = std::ranges::count_if(exhibits, is_wanted);
     if (count == 0) return {};
     Sheet sheet(static_cast<std::size_t>(count), size);
     hal::Picture picture;
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
-    picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
+    picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(size.width_px) *
+                         static_cast<std::size_t>(size.height_px));
     number = 0;
     for (const Exhibit& exhibit : exhibits) {
       const std::string page = file_of(++number, exhibit.name);
@@ -174,7 +198,8 @@ class Photographer {
       ui_.show(exhibit.view, exhibit.visit, exhibit.service);
       target->begin();
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);
-      renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, size.width_px, size.height_px);
+      renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
+                           size.width_px, size.height_px);
       target->end();
       const Path file = folder_ / words / page;
       RELIEVO_TRY(hal::write_picture(Path(file) += ".png", picture.view()));
@@ -211,7 +236,8 @@ Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& cons
       }
     }
   }
-  // High contrast changes colours alone: one size, one language; asked for by name, every other language, too.
+  // High contrast changes colours alone: one size, one language; asked for by name, every other language,
+  // too.
   const bool asked = args.only.find("contrast") != std::string::npos;
   for (std::size_t i = 0; i < (asked ? ui::kLanguages : 1); ++i) {
     RELIEVO_TRY(photographer.take(review, kSizes[0], 0, static_cast<ui::Language>(i), true, console));

@@ -14,7 +14,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kTriangles = 9000;       // seen from across a room
+constexpr int kTriangles = 9000;  // seen from across a room
 constexpr int kTexturePx = 768;
 constexpr int kJpegPercent = 88;
 constexpr const char *kMeshFile = "showpiece.face", *kTextureFile = "showpiece.jpg";
@@ -29,7 +29,10 @@ hal::Picture smaller(const pipeline::TextureAtlas& atlas) {
       for (int c = 0; c < 3; ++c) {
         int sum = 0;
         for (int k = 0; k < step * step; ++k)
-          sum += atlas.rgb[3 * (static_cast<std::size_t>(y * step + k / step) * static_cast<std::size_t>(atlas.width_px) + static_cast<std::size_t>(x * step + k % step)) + static_cast<std::size_t>(c)];
+          sum += atlas.rgb[3 * (static_cast<std::size_t>(y * step + k / step) *
+                                    static_cast<std::size_t>(atlas.width_px) +
+                                static_cast<std::size_t>(x * step + k % step)) +
+                           static_cast<std::size_t>(c)];
         picture.bytes.push_back(static_cast<std::byte>(sum / (step * step)));
       }
     }
@@ -40,7 +43,9 @@ hal::Picture smaller(const pipeline::TextureAtlas& atlas) {
 Result<void> write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush()) return Error{Errc::IoFailed, "cannot be written: is the folder there, and is there room?"}.at(file.string());
+  if (!out.flush())
+    return Error{Errc::IoFailed, "cannot be written: is the folder there, and is there room?"}.at(
+        file.string());
   return {};
 }
 
@@ -49,11 +54,14 @@ Result<void> write_bytes(const std::filesystem::path& file, const std::vector<st
 Result<std::unique_ptr<Showpiece>> Showpiece::read(const std::filesystem::path& folder) {
   auto piece = std::make_unique<Showpiece>();
   std::ifstream in(folder / kMeshFile, std::ios::binary);
-  if (!in) return Error{Errc::NotFound, "is not there: the page that invites shows no head"}.at((folder / kMeshFile).string());
+  if (!in)
+    return Error{Errc::NotFound, "is not there: the page that invites shows no head"}.at(
+        (folder / kMeshFile).string());
   const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
   RELIEVO_TRY_ASSIGN(auto model, storage::decode_model(std::as_bytes(std::span(bytes)), &piece->memory_));
   RELIEVO_TRY_ASSIGN(const hal::Picture skin, hal::read_picture(folder / kTextureFile));
-  if (skin.format != PixelFormat::Rgb8) return Error{Errc::InvalidInput, "is no colour picture"}.at((folder / kTextureFile).string());
+  if (skin.format != PixelFormat::Rgb8)
+    return Error{Errc::InvalidInput, "is no colour picture"}.at((folder / kTextureFile).string());
   model.texture.width_px = skin.width_px;
   model.texture.height_px = skin.height_px;
   model.texture.rgb.resize(skin.bytes.size());

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Showpiece: the head on the page that invites. A simulated person, photographed by the simulated rig and measured as every visitor is:
-// it promises nothing that a visitor's own does not keep. Two files: the mesh as the store keeps models, with a texture of one
-// texel, and the texture as a JPEG.
-// Errors: NotFound, StoreCorrupt, those of the picture file. Thread: main.
+// Showpiece: the head on the page that invites. A simulated person, photographed by the simulated rig and
+// measured as every visitor is: it promises nothing that a visitor's own does not keep. Two files: the mesh
+// as the store keeps models, with a texture of one texel, and the texture as a JPEG. Errors: NotFound,
+// StoreCorrupt, those of the picture file. Thread: main.
 #pragma once
 
 #include <filesystem>

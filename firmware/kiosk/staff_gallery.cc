@@ -18,15 +18,18 @@ using ui::ServiceView;
 using ui::StaffPage;
 using ui::StaffRole;
 
-constexpr ui::StatisticsView kStatistics{"2026-03-02", 412, 455, 398, 371, 27, {21, 14, 9, 0, 2, 6, 5}, 2.75, 4.25};
+constexpr ui::StatisticsView kStatistics{"2026-03-02", 412, 455, 398, 371, 27, {21, 14, 9, 0, 2, 6, 5},
+                                         2.75,         4.25};
 constexpr std::array kGauges{
     ui::GaugeRow{ui::Gauge::Stages, {}, 311, 960, Mood::Good},
     ui::GaugeRow{ui::Gauge::Process, {}, 894, 1536, Mood::Good},
     ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn},
     ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 61, 0, Mood::Good},
 };
-constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself", kSlow = "took longer than its limit: try again";
-constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}}, ui::LogLine{"2026-03-14 09:02:44", true, kSlow, kSlow, {}}};
+constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself",
+                           kSlow = "took longer than its limit: try again";
+constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
+                             ui::LogLine{"2026-03-14 09:02:44", true, kSlow, kSlow, {}}};
 constexpr ui::HealthView kHealth{kGauges, kFaults};
 
 constexpr std::array kPeople{
@@ -38,19 +41,24 @@ constexpr std::array kPeople{
 };
 constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, {}, false, false, 0, 0};
 constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, {}, false, false, 0, 0};
-constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false, false, 0, 0};
-constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false, true, 0, 0};
+constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
+                               false,   false, 0,    0};
+constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
+                                 false,   true,  0,    0};
 
-constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running, ui::CheckState::NotTested},
+constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad,
+                                    ui::CheckState::Running, ui::CheckState::NotTested},
                                    {"", "", "the store holds no calibration: calibrate first", "", ""}};
 constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
 constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
-constexpr std::array kLines{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
-                            ui::LogLine{"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}},
-                            ui::LogLine{"2026-03-14 10:20:31", false, "technician signed in", "technician signed in", {}},
-                            ui::LogLine{"2026-03-14 10:20:20", false, "a wrong PIN was typed", "a wrong PIN was typed", {}},
-                            ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}},
-                            ui::LogLine{"2026-03-13 07:58:02", false, "started", "started", {}}};
+constexpr std::array kLines{
+    ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
+    ui::LogLine{
+        "2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}},
+    ui::LogLine{"2026-03-14 10:20:31", false, "technician signed in", "technician signed in", {}},
+    ui::LogLine{"2026-03-14 10:20:20", false, "a wrong PIN was typed", "a wrong PIN was typed", {}},
+    ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}},
+    ui::LogLine{"2026-03-13 07:58:02", false, "started", "started", {}}};
 constexpr ui::LogView kLog{kLines};
 
 ui::Settings kept_for_a_year() {
@@ -63,9 +71,12 @@ const ui::ConsentTexts& own_text() {
   static const ui::ConsentTexts kOwn = [] {
     ui::ConsentTexts own;
     own.version = "2026-03";
-    const auto say = [&](ui::Language language, const char* title) { own.in[static_cast<std::size_t>(language)] = ui::ConsentText{title, {{"1", "2"}}}; };
+    const auto say = [&](ui::Language language, const char* title) {
+      own.in[static_cast<std::size_t>(language)] = ui::ConsentText{title, {{"1", "2"}}};
+    };
     say(ui::Language::English, "What we do with your portrait");
-    say(ui::Language::German, "Was mit Ihrem Bildnis geschieht, wie lange es aufbewahrt wird und wie Sie es löschen lassen");
+    say(ui::Language::German,
+        "Was mit Ihrem Bildnis geschieht, wie lange es aufbewahrt wird und wie Sie es löschen lassen");
     say(ui::Language::Arabic, "ماذا يحدث لصورتك");
     return own;
   }();
@@ -87,10 +98,14 @@ struct Shown {
 };
 
 void add_touch(std::deque<Shown>& all) {
-  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false}, kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
-      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false}, kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true, false, 0, 0, false};
+  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false},
+      kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
+      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false},
+      kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true, false, 0, 0, false};
   ServiceView touch = at(StaffRole::Technician);
-  for (const auto& [name, view] : {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest}, std::pair{"staff_touch_kept", &kKept}, std::pair{"staff_touch_misfit", &kMisfit}}) {
+  for (const auto& [name, view] :
+       {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest},
+        std::pair{"staff_touch_kept", &kKept}, std::pair{"staff_touch_misfit", &kMisfit}}) {
     touch.touch = view;
     all.push_back({name, StaffPage::Touch, 0, touch});
   }
@@ -101,8 +116,12 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
   static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, {}, false, false, 5, 2};
   using ui::Outcome;
   records.records = &kTwoOfFive;
-  for (const auto& [name, outcome] : {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull}, std::pair{"staff_stick_locked", Outcome::StickLocked},
-                                      std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld}, std::pair{"staff_stick_unchecked", Outcome::StickUnchecked}, std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
+  for (const auto& [name, outcome] :
+       {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull},
+        std::pair{"staff_stick_locked", Outcome::StickLocked},
+        std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld},
+        std::pair{"staff_stick_unchecked", Outcome::StickUnchecked},
+        std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
     records.work.outcome = outcome;
     all.push_back({name, StaffPage::Records, 0, records});
   }
@@ -120,7 +139,10 @@ void add_door(std::deque<Shown>& all) {
   all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
   all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
   fresh.access.clock_right = true;
-  static const ui::ConsentShelfView kUntouched{}, kWrong{false, ui::Outcome::Refused, "zh.txt", "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
+  static const ui::ConsentShelfView kUntouched{},
+      kWrong{
+          false, ui::Outcome::Refused, "zh.txt",
+          "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
   fresh.consent = &kUntouched;
   all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
   fresh.consent = &kWrong;

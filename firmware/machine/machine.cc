@@ -8,21 +8,32 @@ namespace relievo::firmware {
 
 std::optional<std::chrono::milliseconds> limit_of(State state) {
   switch (state) {
-    case State::SelfTest: return budget::kSelfTestLimit;
-    case State::Position: return budget::kPositionLimit;
-    case State::Capture: return budget::kCaptureLimit;
+    case State::SelfTest:
+      return budget::kSelfTestLimit;
+    case State::Position:
+      return budget::kPositionLimit;
+    case State::Capture:
+      return budget::kCaptureLimit;
     case State::Match:
     case State::Reconstruct:
     case State::Mesh:
-    case State::Texture: return budget::kStageLimit;
-    case State::Review: return budget::kReviewLimit;
-    case State::Store: return budget::kStoreLimit;
-    case State::Export: return budget::kExportLimit;
-    case State::Calibrate: return budget::kCalibrateLimit;
-    case State::Technician: return budget::kTechnicianLimit;
-    case State::Fault: return budget::kFaultRetry;
+    case State::Texture:
+      return budget::kStageLimit;
+    case State::Review:
+      return budget::kReviewLimit;
+    case State::Store:
+      return budget::kStoreLimit;
+    case State::Export:
+      return budget::kExportLimit;
+    case State::Calibrate:
+      return budget::kCalibrateLimit;
+    case State::Technician:
+      return budget::kTechnicianLimit;
+    case State::Fault:
+      return budget::kFaultRetry;
     case State::Idle:
-    case State::Count: break;
+    case State::Count:
+      break;
   }
   return std::nullopt;
 }

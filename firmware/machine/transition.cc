@@ -6,44 +6,76 @@ namespace relievo::firmware {
 
 std::string_view name_of(State state) {
   switch (state) {
-    case State::SelfTest: return "SelfTest";
-    case State::Idle: return "Idle";
-    case State::Calibrate: return "Calibrate";
-    case State::Position: return "Position";
-    case State::Capture: return "Capture";
-    case State::Match: return "Match";
-    case State::Reconstruct: return "Reconstruct";
-    case State::Mesh: return "Mesh";
-    case State::Texture: return "Texture";
-    case State::Review: return "Review";
-    case State::Store: return "Store";
-    case State::Export: return "Export";
-    case State::Technician: return "Technician";
-    case State::Fault: return "Fault";
-    case State::Count: break;
+    case State::SelfTest:
+      return "SelfTest";
+    case State::Idle:
+      return "Idle";
+    case State::Calibrate:
+      return "Calibrate";
+    case State::Position:
+      return "Position";
+    case State::Capture:
+      return "Capture";
+    case State::Match:
+      return "Match";
+    case State::Reconstruct:
+      return "Reconstruct";
+    case State::Mesh:
+      return "Mesh";
+    case State::Texture:
+      return "Texture";
+    case State::Review:
+      return "Review";
+    case State::Store:
+      return "Store";
+    case State::Export:
+      return "Export";
+    case State::Technician:
+      return "Technician";
+    case State::Fault:
+      return "Fault";
+    case State::Count:
+      break;
   }
   return "?";
 }
 
 std::string_view name_of(Event event) {
   switch (event) {
-    case Event::Passed: return "Passed";
-    case Event::Failed: return "Failed";
-    case Event::PoseAsked: return "PoseAsked";
-    case Event::Begin: return "Begin";
-    case Event::Triggered: return "Triggered";
-    case Event::StageDone: return "StageDone";
-    case Event::StageFailed: return "StageFailed";
-    case Event::AdviceGiven: return "AdviceGiven";
-    case Event::Accept: return "Accept";
-    case Event::Retake: return "Retake";
-    case Event::Cancel: return "Cancel";
-    case Event::Timeout: return "Timeout";
-    case Event::TechnicianIn: return "TechnicianIn";
-    case Event::TechnicianOut: return "TechnicianOut";
-    case Event::CalibrateAsked: return "CalibrateAsked";
-    case Event::ExportAsked: return "ExportAsked";
-    case Event::Count: break;
+    case Event::Passed:
+      return "Passed";
+    case Event::Failed:
+      return "Failed";
+    case Event::PoseAsked:
+      return "PoseAsked";
+    case Event::Begin:
+      return "Begin";
+    case Event::Triggered:
+      return "Triggered";
+    case Event::StageDone:
+      return "StageDone";
+    case Event::StageFailed:
+      return "StageFailed";
+    case Event::AdviceGiven:
+      return "AdviceGiven";
+    case Event::Accept:
+      return "Accept";
+    case Event::Retake:
+      return "Retake";
+    case Event::Cancel:
+      return "Cancel";
+    case Event::Timeout:
+      return "Timeout";
+    case Event::TechnicianIn:
+      return "TechnicianIn";
+    case Event::TechnicianOut:
+      return "TechnicianOut";
+    case Event::CalibrateAsked:
+      return "CalibrateAsked";
+    case Event::ExportAsked:
+      return "ExportAsked";
+    case Event::Count:
+      break;
   }
   return "?";
 }

@@ -3,9 +3,11 @@
 //
 // The whole life of the appliance, as one table.
 //
-//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store -> Idle
+//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store ->
+//   Idle
 //                |                                                                |
-//                +-> Technician -> Calibrate | Export                              +-> Capture or Position (again)
+//                +-> Technician -> Calibrate | Export                              +-> Capture or Position
+//                (again)
 // A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
 // A person at the screen finds their place first, with a live picture, and goes back there for advice.
 //   Fault is entered when the machine cannot; it tests itself again.
@@ -23,24 +25,40 @@
 namespace relievo::firmware {
 
 enum class State : std::uint8_t {
-  SelfTest, Idle, Calibrate, Position, Capture, Match, Reconstruct, Mesh, Texture, Review, Store, Export,
-  Technician, Fault, Count
+  SelfTest,
+  Idle,
+  Calibrate,
+  Position,
+  Capture,
+  Match,
+  Reconstruct,
+  Mesh,
+  Texture,
+  Review,
+  Store,
+  Export,
+  Technician,
+  Fault,
+  Count
 };
 
 enum class Event : std::uint8_t {
-  Passed,          // the self test found everything in place
-  Failed,          // the machine cannot: a camera gone, a library at its end
-  PoseAsked,       // a person wants to see where to stand
-  Begin,           // take the picture
-  Triggered,       // both pictures are here
-  StageDone,       // the job of the present state is done
-  StageFailed,     // it could not, and another try may help
-  AdviceGiven,     // it could not, and the person in front of the screen is told why
-  Accept, Retake,  // the person's answer to the model
+  Passed,       // the self test found everything in place
+  Failed,       // the machine cannot: a camera gone, a library at its end
+  PoseAsked,    // a person wants to see where to stand
+  Begin,        // take the picture
+  Triggered,    // both pictures are here
+  StageDone,    // the job of the present state is done
+  StageFailed,  // it could not, and another try may help
+  AdviceGiven,  // it could not, and the person in front of the screen is told why
+  Accept,
+  Retake,  // the person's answer to the model
   Cancel,
-  Timeout,         // the state lasted longer than budget.h allows
-  TechnicianIn, TechnicianOut,
-  CalibrateAsked, ExportAsked,
+  Timeout,  // the state lasted longer than budget.h allows
+  TechnicianIn,
+  TechnicianOut,
+  CalibrateAsked,
+  ExportAsked,
   Count
 };
 
@@ -169,7 +187,8 @@ inline constexpr std::size_t kStates = static_cast<std::size_t>(State::Count);
 consteval bool deterministic() {
   for (std::size_t i = 0; i < kTransitions.size(); ++i) {
     for (std::size_t j = i + 1; j < kTransitions.size(); ++j) {
-      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event) return false;
+      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event)
+        return false;
     }
   }
   return true;

@@ -17,7 +17,8 @@ constexpr std::size_t kSamples = 100'000;
 
 double percentile(std::vector<double>& values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto k = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+  const auto k =
+      std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
@@ -41,7 +42,8 @@ Surface measured_part(const pipeline::FaceMesh& mesh) {
 std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
   const auto corner = [&](const auto& t, std::size_t k) { return wide(surface.vertices_mm[t[k]]); };
   const auto area = [&](const auto& t) {
-    return 0.5 * length(cross(difference(corner(t, 1), corner(t, 0)), difference(corner(t, 2), corner(t, 0))));
+    return 0.5 *
+           length(cross(difference(corner(t, 1), corner(t, 0)), difference(corner(t, 2), corner(t, 0))));
   };
   double total = 0;
   for (const auto& t : surface.triangles) total += area(t);
@@ -62,13 +64,15 @@ std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
       const bool fold = a + b > 1;
       const double u = fold ? 1 - a : a;
       const double v = fold ? 1 - b : b;
-      points.push_back(sum(scaled(corner(t, 0), 1 - u - v), sum(scaled(corner(t, 1), u), scaled(corner(t, 2), v))));
+      points.push_back(
+          sum(scaled(corner(t, 0), 1 - u - v), sum(scaled(corner(t, 1), u), scaled(corner(t, 2), v))));
     }
   }
   return points;
 }
 
-void measure_surface(const Surface& model, const TruthView& truth, const TriangleGrid& true_surface, Measurement& m) {
+void measure_surface(const Surface& model, const TruthView& truth, const TriangleGrid& true_surface,
+                     Measurement& m) {
   std::vector<double> accuracy;
   std::vector<double> interior;
   std::size_t far = 0;

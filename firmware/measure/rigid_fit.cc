@@ -44,9 +44,9 @@ pipeline::Rotation rotation_of(const Vec3d& w) {  // Rodrigues
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   const double v = 1 - c;
-  return {{c + u.x * u.x * v, u.x * u.y * v - u.z * s, u.x * u.z * v + u.y * s,
-           u.y * u.x * v + u.z * s, c + u.y * u.y * v, u.y * u.z * v - u.x * s,
-           u.z * u.x * v - u.y * s, u.z * u.y * v + u.x * s, c + u.z * u.z * v}};
+  return {{c + u.x * u.x * v, u.x * u.y * v - u.z * s, u.x * u.z * v + u.y * s, u.y * u.x * v + u.z * s,
+           c + u.y * u.y * v, u.y * u.z * v - u.x * s, u.z * u.x * v - u.y * s, u.z * u.y * v + u.x * s,
+           c + u.z * u.z * v}};
 }
 
 pipeline::Rotation product(const pipeline::Rotation& a, const pipeline::Rotation& b) {
@@ -87,7 +87,8 @@ RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surfa
     Row6 x{};
     if (used < 100 || !solve(system, x)) break;
     const pipeline::Rotation turn = rotation_of({x[0], x[1], x[2]});
-    const Vec3d moved = sum(apply(turn, difference(t.translation_mm, middle)), sum(middle, {x[3], x[4], x[5]}));
+    const Vec3d moved =
+        sum(apply(turn, difference(t.translation_mm, middle)), sum(middle, {x[3], x[4], x[5]}));
     t = {product(turn, t.rotation), moved};
     if (length({x[0], x[1], x[2]}) + length({x[3], x[4], x[5]}) < 1e-7) break;
   }

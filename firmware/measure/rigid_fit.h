@@ -13,7 +13,7 @@ namespace relievo::firmware::measure {
 
 struct RigidFit {
   pipeline::RigidTransform surface_from_points;
-  double moved_mm = 0;    // the middle point's way
+  double moved_mm = 0;  // the middle point's way
   double turned_deg = 0;
 };
 

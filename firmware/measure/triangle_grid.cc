@@ -62,7 +62,8 @@ TriangleGrid::TriangleGrid(const Surface& surface) : surface_(surface) {
   }
   origin_mm_ = low;
   // Twice over the triangles: count a cell's, then place them.
-  const std::size_t count = static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_);
+  const std::size_t count =
+      static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_);
   begin_.assign(count + 1, 0);
   const auto for_each_cell = [&](const std::array<std::uint32_t, 3>& t, const auto& visit) {
     Cell from{nx_, ny_, nz_};
@@ -100,7 +101,8 @@ std::size_t TriangleGrid::index_of(const Cell& c) const {
          static_cast<std::size_t>(c.x);
 }
 
-void TriangleGrid::look(const Cell& cell, const Vec3d& p, double& best, std::uint32_t& which, Vec3d& at) const {
+void TriangleGrid::look(const Cell& cell, const Vec3d& p, double& best, std::uint32_t& which,
+                        Vec3d& at) const {
   if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= nx_ || cell.y >= ny_ || cell.z >= nz_) return;
   const std::size_t index = index_of(cell);
   for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
@@ -120,7 +122,8 @@ void TriangleGrid::look_at_ring(const Cell& c, int ring, const Vec3d& p, double&
   for (int z = -ring; z <= ring; ++z) {
     for (int y = -ring; y <= ring; ++y) {
       const bool face = std::abs(z) == ring || std::abs(y) == ring;
-      for (int x = -ring; x <= ring; x += face || ring == 0 ? 1 : 2 * ring) look({c.x + x, c.y + y, c.z + z}, p, best, which, at);
+      for (int x = -ring; x <= ring; x += face || ring == 0 ? 1 : 2 * ring)
+        look({c.x + x, c.y + y, c.z + z}, p, best, which, at);
     }
   }
 }
@@ -136,7 +139,8 @@ std::optional<Nearest> TriangleGrid::nearest(const Vec3d& p, double reach_mm) co
   if (which == std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
   const auto& t = surface_.triangles[which];
   const Vec3d a = wide(surface_.vertices_mm[t[0]]);
-  const Vec3d n = cross(difference(wide(surface_.vertices_mm[t[1]]), a), difference(wide(surface_.vertices_mm[t[2]]), a));
+  const Vec3d n =
+      cross(difference(wide(surface_.vertices_mm[t[1]]), a), difference(wide(surface_.vertices_mm[t[2]]), a));
   const double size = length(n);
   return Nearest{best, at, size > 0 ? scaled(n, 1 / size) : Vec3d{0, 0, 1}};
 }

@@ -33,11 +33,14 @@ class TriangleGrid {
   std::optional<Nearest> nearest(const Vec3d& point_mm, double reach_mm) const;
 
  private:
-  struct Cell { int x, y, z; };
+  struct Cell {
+    int x, y, z;
+  };
   Cell cell_of(const Vec3d& point_mm) const;
   std::size_t index_of(const Cell& cell) const;
   void look(const Cell& cell, const Vec3d& point_mm, double& best, std::uint32_t& which, Vec3d& at) const;
-  void look_at_ring(const Cell& centre, int ring, const Vec3d& point_mm, double& best, std::uint32_t& which, Vec3d& at) const;
+  void look_at_ring(const Cell& centre, int ring, const Vec3d& point_mm, double& best, std::uint32_t& which,
+                    Vec3d& at) const;
 
   const Surface& surface_;
   double cell_mm_ = 1;

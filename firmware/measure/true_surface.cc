@@ -14,7 +14,10 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 constexpr std::size_t kVertexBytes = 12;
 constexpr std::size_t kTriangleBytes = 13;  // a count of 3, three numbers
 
-Error bad() { return Error{Errc::InvalidInput, "is no head of the simulated rig: 'relievo simulate face --truth' writes one"}; }
+Error bad() {
+  return Error{Errc::InvalidInput,
+               "is no head of the simulated rig: 'relievo simulate face --truth' writes one"};
+}
 
 // Takes `text` off the front.
 bool skip(std::string_view& rest, std::string_view text) {
@@ -43,9 +46,10 @@ T take(const char*& from) {
 Result<Surface> parse_true_surface(std::string_view rest) {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  const bool known = skip(rest, "ply\nformat binary_little_endian 1.0\nelement vertex ") && number(rest, vertices) &&
-                     skip(rest, "\nproperty float x\nproperty float y\nproperty float z\nelement face ") &&
-                     number(rest, triangles) && skip(rest, "\nproperty list uchar int vertex_indices\nend_header\n");
+  const bool known =
+      skip(rest, "ply\nformat binary_little_endian 1.0\nelement vertex ") && number(rest, vertices) &&
+      skip(rest, "\nproperty float x\nproperty float y\nproperty float z\nelement face ") &&
+      number(rest, triangles) && skip(rest, "\nproperty list uchar int vertex_indices\nend_header\n");
   if (!known || vertices > kMaxFileBytes || triangles > kMaxFileBytes) return bad();
   if (rest.size() != vertices * kVertexBytes + triangles * kTriangleBytes) return bad();
   Surface surface;

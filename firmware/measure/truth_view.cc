@@ -13,14 +13,15 @@
 namespace relievo::firmware::measure {
 namespace {
 
-constexpr double kNoseRadiusMm = 95;      // the crop of 3D face recognition
+constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
 constexpr int kInteriorHalfWindowPx = 11;
 
 // Brown-Conrady, as pipeline/model/calibration.h names it.
 Vec3d bent(const double d[5], double x, double y) {
   const double r2 = x * x + y * y;
   const double s = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
-  return {x * s + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x), y * s + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y, 1};
+  return {x * s + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x),
+          y * s + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y, 1};
 }
 
 // The point at depth 1 that the pixel sees: the lens undone by fixed-point steps.
@@ -38,7 +39,8 @@ Vec3d straight(const pipeline::CameraIntrinsics& c, double u, double v) {
 }
 
 Error bad(const std::filesystem::path& file) {
-  return Error{Errc::InvalidInput, "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
+  return Error{Errc::InvalidInput,
+               "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
       .at(file.string());
 }
 
@@ -50,7 +52,9 @@ std::size_t header(std::string_view text, int& width_px, int& height_px) {
   auto [after_width, e1] = std::from_chars(text.data(), last, width_px);
   if (e1 != std::errc() || after_width == last || *after_width != ' ') return 0;
   auto [after_height, e2] = std::from_chars(after_width + 1, last, height_px);
-  if (e2 != std::errc() || std::string_view(after_height, static_cast<std::size_t>(last - after_height)) != " z") return 0;
+  if (e2 != std::errc() ||
+      std::string_view(after_height, static_cast<std::size_t>(last - after_height)) != " z")
+    return 0;
   const bool sane = width_px > 0 && height_px > 0 && width_px <= 16384 && height_px <= 16384;
   return sane ? end + 1 : 0;
 }
@@ -63,9 +67,12 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
   truth.left_ = rig.left;
   const auto file = folder / "truth.bin";
   RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, std::size_t{1} << 30));
-  const std::size_t start = header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
-  const std::size_t count = static_cast<std::size_t>(truth.width_px_) * static_cast<std::size_t>(truth.height_px_);
-  if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_) return bad(file);
+  const std::size_t start =
+      header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
+  const std::size_t count =
+      static_cast<std::size_t>(truth.width_px_) * static_cast<std::size_t>(truth.height_px_);
+  if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_)
+    return bad(file);
   truth.points_mm_.resize(count);
   truth.flags_.resize(count);
   std::memcpy(truth.flags_.data(), bytes.data() + start + count * 4, count);
@@ -76,7 +83,8 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
       std::memcpy(&z, bytes.data() + start + i * 4, 4);
       const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : scaled(straight(truth.left_, x, y), z);
       truth.points_mm_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-      truth.flags_[i] = std::isnan(z) ? std::uint8_t{0} : static_cast<std::uint8_t>(truth.flags_[i] & kJudged);
+      truth.flags_[i] =
+          std::isnan(z) ? std::uint8_t{0} : static_cast<std::uint8_t>(truth.flags_[i] & kJudged);
     }
   }
   truth.keep_near_nose();
@@ -92,7 +100,9 @@ void TruthView::keep_near_nose() {
     if (tip == flags_.size() || points_mm_[i].z < points_mm_[tip].z) tip = i;
   }
   for (std::size_t i = 0; i < flags_.size() && tip < flags_.size(); ++i) {
-    if ((flags_[i] & kJudged) == kJudged && distance(wide(points_mm_[i]), wide(points_mm_[tip])) <= kNoseRadiusMm) continue;
+    if ((flags_[i] & kJudged) == kJudged &&
+        distance(wide(points_mm_[i]), wide(points_mm_[tip])) <= kNoseRadiusMm)
+      continue;
     flags_[i] = static_cast<std::uint8_t>(flags_[i] & ~kSteep);
   }
 }
@@ -102,7 +112,8 @@ void TruthView::mark_interior() {
   std::vector<int> across(flags_.size());  // length of the judged run that ends here
   for (int y = 0; y < height_px_; ++y) {
     int run = 0;
-    for (int x = 0; x < width_px_; ++x) across[at(x, y)] = run = (flags_[at(x, y)] & kJudged) == kJudged ? run + 1 : 0;
+    for (int x = 0; x < width_px_; ++x)
+      across[at(x, y)] = run = (flags_[at(x, y)] & kJudged) == kJudged ? run + 1 : 0;
   }
   for (int x = kInteriorHalfWindowPx; x + kInteriorHalfWindowPx < width_px_; ++x) {
     int run = 0;  // rows whose whole width of window is judged
@@ -145,7 +156,8 @@ std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {
   std::vector<Vec3d> points;
   const auto judged = static_cast<std::size_t>(
       std::count_if(flags_.begin(), flags_.end(), [](std::uint8_t f) { return (f & kJudged) == kJudged; }));
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(judged) / static_cast<double>(count))));
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(judged) / static_cast<double>(count))));
   for (int y = 0; y < height_px_; y += step) {
     for (int x = 0; x < width_px_; x += step) {
       if ((flags_[at(x, y)] & kJudged) == kJudged) points.push_back(wide(points_mm_[at(x, y)]));

@@ -22,11 +22,11 @@ namespace relievo::firmware::measure {
 class TruthView {
  public:
   // truth.bin's own bits, and one of ours.
-  static constexpr std::uint8_t kSkin = 1;        // skin of the face
-  static constexpr std::uint8_t kBothSee = 2;     // seen by both cameras
-  static constexpr std::uint8_t kSteep = 4;       // cleared where either camera looks on too steeply
+  static constexpr std::uint8_t kSkin = 1;     // skin of the face
+  static constexpr std::uint8_t kBothSee = 2;  // seen by both cameras
+  static constexpr std::uint8_t kSteep = 4;    // cleared where either camera looks on too steeply
   static constexpr std::uint8_t kJudged = kSkin | kBothSee | kSteep;
-  static constexpr std::uint8_t kInterior = 8;    // judged, and so is the 23 pixel window around it
+  static constexpr std::uint8_t kInterior = 8;  // judged, and so is the 23 pixel window around it
 
   static Result<TruthView> read(const std::filesystem::path& folder);
 
@@ -39,14 +39,16 @@ class TruthView {
   std::vector<Vec3d> judged_points(std::size_t count) const;
 
  private:
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(x); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(x);
+  }
   void keep_near_nose();
   void mark_interior();
 
   int width_px_ = 0;
   int height_px_ = 0;
   pipeline::CameraIntrinsics left_;
-  std::vector<Vec3f> points_mm_;      // left camera's frame; z is NaN where nothing is
+  std::vector<Vec3f> points_mm_;  // left camera's frame; z is NaN where nothing is
   std::vector<std::uint8_t> flags_;
 };
 

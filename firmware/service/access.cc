@@ -13,8 +13,8 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr std::string_view kNone = "-";         // no PIN has been chosen
-constexpr int kFreeTries = 4;                  // each makes the next wait a little
+constexpr std::string_view kNone = "-";  // no PIN has been chosen
+constexpr int kFreeTries = 4;            // each makes the next wait a little
 constexpr seconds kFirstLock{300}, kLongestLock{3600};
 
 }  // namespace
@@ -36,7 +36,9 @@ bool is_simple(std::string_view pin) {
   return same || up || down;
 }
 
-std::int64_t Access::now_s() const { return std::chrono::floor<seconds>(clock_.wall_now()).time_since_epoch().count(); }
+std::int64_t Access::now_s() const {
+  return std::chrono::floor<seconds>(clock_.wall_now()).time_since_epoch().count();
+}
 
 Result<Access::Record> Access::read() {
   const Result<std::string> text = store_.setting(kAccessSetting);
@@ -45,7 +47,8 @@ Result<Access::Record> Access::read() {
   std::istringstream in(*text);
   Record record;
   std::string version;
-  if (!(in >> version >> record.technician >> record.clerk >> record.wrong >> record.wrong_at_s) || version != "1" || record.wrong < 0)
+  if (!(in >> version >> record.technician >> record.clerk >> record.wrong >> record.wrong_at_s) ||
+      version != "1" || record.wrong < 0)
     return Error{Errc::StoreCorrupt, "the staff's PINs cannot be read: restore a copy of the store"};
   if (record.technician == kNone) record.technician.clear();
   if (record.clerk == kNone) record.clerk.clear();
@@ -55,7 +58,8 @@ Result<Access::Record> Access::read() {
 Result<void> Access::write(const Record& record) {
   std::ostringstream out;
   const auto word = [](const std::string& kept) { return kept.empty() ? std::string(kNone) : kept; };
-  out << "1 " << word(record.technician) << ' ' << word(record.clerk) << ' ' << record.wrong << ' ' << record.wrong_at_s;
+  out << "1 " << word(record.technician) << ' ' << word(record.clerk) << ' ' << record.wrong << ' '
+      << record.wrong_at_s;
   return store_.set_setting(kAccessSetting, out.str());
 }
 
@@ -113,7 +117,8 @@ Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
 Result<void> Access::set(ui::StaffRole role, std::string_view pin) {
   RELIEVO_TRY(check_new(role, pin));
   RELIEVO_TRY_ASSIGN(Record record, read());
-  if (record.technician.empty() || record.clerk.empty()) return Error{Errc::InvalidState, "choose both PINs first"};
+  if (record.technician.empty() || record.clerk.empty())
+    return Error{Errc::InvalidState, "choose both PINs first"};
   RELIEVO_TRY_ASSIGN(role == ui::StaffRole::Technician ? record.technician : record.clerk, stretched(pin));
   return write(record);
 }

@@ -22,9 +22,9 @@ namespace relievo::firmware {
 inline constexpr const char* kAccessSetting = "access";
 
 struct Attempt {
-  ui::StaffRole role = ui::StaffRole::None;   // None: wrong, or too early
+  ui::StaffRole role = ui::StaffRole::None;  // None: wrong, or too early
   bool wrong = false;
-  std::chrono::seconds wait{0};               // until the next try
+  std::chrono::seconds wait{0};  // until the next try
 };
 
 // How long the next try is put off after so many wrong ones in a row.
@@ -53,9 +53,9 @@ class Access {
 
  private:
   struct Record {
-    std::string technician, clerk;   // stretched
+    std::string technician, clerk;  // stretched
     int wrong = 0;
-    std::int64_t wrong_at_s = 0;     // seconds since 1970, of the last wrong try
+    std::int64_t wrong_at_s = 0;  // seconds since 1970, of the last wrong try
   };
   Result<Record> read();
   Result<void> write(const Record& record);

@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 Error not_kept() { return {Errc::IoFailed, "cannot be kept on this device: look at the room on its disk"}; }
 
-// The files of a version, from one folder to another; only the text is taken, not what else a file system knows of a file.
+// The files of a version, from one folder to another; only the text is taken, not what else a file system
+// knows of a file.
 Result<void> copy_texts(const fs::path& from, const fs::path& to) {
   std::error_code error;
   for (fs::directory_iterator entry(from, error), end; !error && entry != end; entry.increment(error)) {
@@ -28,19 +29,26 @@ Result<void> copy_texts(const fs::path& from, const fs::path& to) {
 }
 
 // None: the stick has what is in force.
-Result<std::optional<ui::ConsentTexts>> take_from(const fs::path& stick, const fs::path& own, const std::optional<ui::ConsentTexts>& now) {
+Result<std::optional<ui::ConsentTexts>> take_from(const fs::path& stick, const fs::path& own,
+                                                  const std::optional<ui::ConsentTexts>& now) {
   RELIEVO_TRY_ASSIGN(const auto found, read_consent(stick / "consent"));
   if (!found) return Error{Errc::NotFound, "the stick has no folder named consent"};
-  if (now && found->version < now->version) return Error{Errc::InvalidInput, "comes before the version in force: give the new one a name that comes after it"}.at(found->version);
+  if (now && found->version < now->version)
+    return Error{Errc::InvalidInput,
+                 "comes before the version in force: give the new one a name that comes after it"}
+        .at(found->version);
   if (now && found->version == now->version) {
     if (*found == *now) return std::optional<ui::ConsentTexts>{};
-    return Error{Errc::InvalidInput, "is in force already, with other words: give the new one a name of its own"}.at(found->version);
+    return Error{Errc::InvalidInput,
+                 "is in force already, with other words: give the new one a name of its own"}
+        .at(found->version);
   }
   Result<OutputFolder> folder = OutputFolder::begin(own / found->version);
   if (!folder) return not_kept().at(found->version);
   RELIEVO_TRY(copy_texts(stick / "consent" / found->version, folder->path()));
   const Result<ui::ConsentTexts> kept = read_consent_version(folder->path(), found->version);
-  if (!kept || !(*kept == *found)) return Error{Errc::IoFailed, "was read twice and was not the same: use another stick"}.at(found->version);
+  if (!kept || !(*kept == *found))
+    return Error{Errc::IoFailed, "was read twice and was not the same: use another stick"}.at(found->version);
   if (!folder->commit() || !storage::sync_directory(own)) return not_kept().at(found->version);
   return std::optional(*found);
 }
@@ -70,7 +78,8 @@ void ConsentShelf::take() {
         if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
         auto result = take_from(medium->root, folder_, now);
         // Whatever failed: a stick that is gone is the reason.
-        if (!result && !media_.current()) return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+        if (!result && !media_.current())
+          return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
         RELIEVO_TRY_ASSIGN(*taken, std::move(result));
         return {};
       },

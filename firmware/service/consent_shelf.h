@@ -27,7 +27,8 @@ namespace relievo::firmware {
 class ConsentShelf {
  public:
   // `folder` is the store's.
-  ConsentShelf(const std::filesystem::path& folder, hal::RemovableMedia& media, Errands& errands, EventLog& log)
+  ConsentShelf(const std::filesystem::path& folder, hal::RemovableMedia& media, Errands& errands,
+               EventLog& log)
       : folder_(folder / "consent"), media_(media), errands_(errands), log_(log) {}
 
   // Before any thread uses it.
@@ -52,8 +53,8 @@ class ConsentShelf {
   std::optional<ui::ConsentTexts> now_, next_;
   bool taking_ = false;
   ui::Outcome outcome_ = ui::Outcome::None;
-  std::string file_;             // that is wrong, its name alone
-  std::string_view fault_;       // what is wrong with it; a literal, the key of its words
+  std::string file_;        // that is wrong, its name alone
+  std::string_view fault_;  // what is wrong with it; a literal, the key of its words
 };
 
 }  // namespace relievo::firmware

@@ -18,20 +18,28 @@ using ui::StaffRole;
 
 constexpr std::chrono::seconds kWarning{15};  // before somebody is signed out
 
-bool is_service(State state) { return state == State::Technician || state == State::Calibrate || state == State::Export; }
+bool is_service(State state) {
+  return state == State::Technician || state == State::Calibrate || state == State::Export;
+}
 
 }  // namespace
 
 ui::Outcome outcome_of(const Error& error) {
   switch (error.code) {
-    case Errc::Cancelled: return ui::Outcome::Cancelled;
-    case Errc::MediaMissing: return ui::Outcome::NoStick;
-    case Errc::MediaFull: return ui::Outcome::StickFull;
-    case Errc::Disconnected: return ui::Outcome::StickGone;
-    case Errc::NotFound: return ui::Outcome::NotFound;
+    case Errc::Cancelled:
+      return ui::Outcome::Cancelled;
+    case Errc::MediaMissing:
+      return ui::Outcome::NoStick;
+    case Errc::MediaFull:
+      return ui::Outcome::StickFull;
+    case Errc::Disconnected:
+      return ui::Outcome::StickGone;
+    case Errc::NotFound:
+      return ui::Outcome::NotFound;
     case Errc::InvalidInput:
     case Errc::InvalidState:
-    case Errc::Unsupported: return ui::Outcome::Refused;
+    case Errc::Unsupported:
+      return ui::Outcome::Refused;
     case Errc::Timeout:
     case Errc::NotCalibrated:
     case Errc::NoFace:
@@ -41,18 +49,24 @@ ui::Outcome outcome_of(const Error& error) {
     case Errc::OutOfMemory:
     case Errc::StoreCorrupt:
     case Errc::StoreNewer:
-    case Errc::IoFailed: break;
+    case Errc::IoFailed:
+      break;
   }
   return ui::Outcome::Failed;
 }
 
 Desk::Desk(Parts parts)
-    : parts_(std::move(parts)), log_(parts_.board.clock(), parts_.folder / kLogFile), errands_(parts_.appliance),
-      settings_(parts_.store, errands_, log_, parts_.board.clock()), retention_(parts_.store, errands_, log_, parts_.board.clock()),
+    : parts_(std::move(parts)),
+      log_(parts_.board.clock(), parts_.folder / kLogFile),
+      errands_(parts_.appliance),
+      settings_(parts_.store, errands_, log_, parts_.board.clock()),
+      retention_(parts_.store, errands_, log_, parts_.board.clock()),
       touch_(parts_.store, errands_, log_, parts_.board.clock()),
       consent_(parts_.folder, parts_.board.media(), errands_, log_),
-      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_, statistics_, settings_, retention_, touch_, consent_, parts_.folder, parts_.calibration},
-      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, consent_, parts_.board.is_live()}) {
+      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_,          statistics_,
+             settings_,        retention_,   touch_,       consent_, parts_.folder, parts_.calibration},
+      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, consent_,
+             parts_.board.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });
 }
@@ -60,7 +74,8 @@ Desk::Desk(Parts parts)
 Desk::~Desk() {
   parts_.appliance.on_change({});
   close_page();
-  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper}) parts_.appliance.end_side_job(place);  // it uses what is below
+  for (const JobPlace place : {JobPlace::Capture, JobPlace::Worker, JobPlace::Keeper})
+    parts_.appliance.end_side_job(place);  // it uses what is below
 }
 
 Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
@@ -72,7 +87,9 @@ Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
   const Result<std::string> kept = desk->parts_.store.setting(kStatisticsSetting);
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !desk->statistics_.read(*kept))
-    desk->statistics_.begin(text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.board.clock().wall_now())).substr(0, 10));
+    desk->statistics_.begin(
+        text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.board.clock().wall_now()))
+            .substr(0, 10));
   desk->log_.say("started");
   return desk;
 }
@@ -86,7 +103,8 @@ void Desk::noted(const Change& change) {
   std::chrono::nanoseconds total{0};
   for (const StageRecord& record : parts_.appliance.records()) total += record.took;
   const auto& problem = parts_.appliance.problem();
-  const bool wrong = change.event == Event::Failed || change.event == Event::StageFailed || change.event == Event::AdviceGiven || change.event == Event::Timeout;
+  const bool wrong = change.event == Event::Failed || change.event == Event::StageFailed ||
+                     change.event == Event::AdviceGiven || change.event == Event::Timeout;
   statistics_.noted(change, problem ? &*problem : nullptr, total);
   if (wrong && problem) log_.fault(*problem);
 }
@@ -98,7 +116,8 @@ void Desk::touched() { last_touch_ = parts_.board.clock().now(); }
 void Desk::ask(const ui::StaffWish& wish) {
   touched();
   if (wish.verb == ui::kPageLeft) return leave();
-  const bool door = wish.page == StaffPage::Pin || wish.page == StaffPage::FirstStart || wish.page == StaffPage::Pins;
+  const bool door =
+      wish.page == StaffPage::Pin || wish.page == StaffPage::FirstStart || wish.page == StaffPage::Pins;
   if (!inside() && wish.page != StaffPage::Pin && wish.page != StaffPage::FirstStart) return;
   if (wish.verb == ui::kPageOpened) {
     close_page();
@@ -135,7 +154,9 @@ void Desk::leave() {
 }
 
 int Desk::seconds_left() const {
-  const auto left = std::chrono::ceil<std::chrono::seconds>(last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) - parts_.board.clock().now());
+  const auto left = std::chrono::ceil<std::chrono::seconds>(
+      last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) -
+      parts_.board.clock().now());
   return static_cast<int>(std::max<std::int64_t>(0, left.count()));
 }
 
@@ -170,13 +191,15 @@ void Desk::save_what_changed() {
         RELIEVO_TRY(log_.save());
         return text.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, text);
       },
-      [](const std::optional<Error>&) {}, Errands::Whose::Device);  // a full disk must not fill the log with its own complaint
+      [](const std::optional<Error>&) {},
+      Errands::Whose::Device);  // a full disk must not fill the log with its own complaint
 }
 
 const ui::ServiceView& Desk::view() {
   view_ = {};
   view_.role = role_;
-  if (inside() && parts_.appliance.state() == State::Technician && seconds_left() <= kWarning.count()) view_.leaves_in_s = seconds_left();
+  if (inside() && parts_.appliance.state() == State::Technician && seconds_left() <= kWarning.count())
+    view_.leaves_in_s = seconds_left();
   door_.show(view_.access);
   consent_.show(consent_view_);
   view_.consent = &consent_view_;

@@ -32,7 +32,7 @@ class Desk {
     Appliance& appliance;
     hal::Board& board;
     storage::Store& store;
-    std::filesystem::path folder;   // of the store: for the log's file and the disk's room
+    std::filesystem::path folder;      // of the store: for the log's file and the disk's room
     const std::uint32_t& calibration;  // the revision that is measured with, 0 for none
     SetClock set_clock;
   };

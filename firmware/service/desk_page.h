@@ -33,7 +33,7 @@ namespace relievo::firmware {
 struct DeskTools {
   Appliance& appliance;
   hal::Board& board;
-  storage::Store& store;   // on the keeper only
+  storage::Store& store;  // on the keeper only
   Errands& errands;
   EventLog& log;
   Statistics& statistics;
@@ -41,9 +41,9 @@ struct DeskTools {
   RetentionWatch& retention;
   TouchTrial& touch;
   ConsentShelf& consent;
-  std::filesystem::path folder;   // of the store
-  const std::uint32_t& calibration;  // the revision that is measured with, 0 for none; main thread
-  ui::StaffRole role = ui::StaffRole::None;   // of who is signed in
+  std::filesystem::path folder;              // of the store
+  const std::uint32_t& calibration;          // the revision that is measured with, 0 for none; main thread
+  ui::StaffRole role = ui::StaffRole::None;  // of who is signed in
 };
 
 class DeskPage {

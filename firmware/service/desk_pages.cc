@@ -14,7 +14,9 @@
 namespace relievo::firmware {
 
 void fill_desk_pages(DeskTools& tools, std::span<std::unique_ptr<DeskPage>> pages) {
-  const auto at = [&](ui::StaffPage page) -> std::unique_ptr<DeskPage>& { return pages[static_cast<std::size_t>(page)]; };
+  const auto at = [&](ui::StaffPage page) -> std::unique_ptr<DeskPage>& {
+    return pages[static_cast<std::size_t>(page)];
+  };
   at(ui::StaffPage::Records) = std::make_unique<RecordsDesk>(tools);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsDesk>(tools);
   at(ui::StaffPage::Consent) = std::make_unique<ConsentDesk>(tools);

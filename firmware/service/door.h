@@ -30,7 +30,7 @@ class Door {
     EventLog& log;
     SetClock set_clock;
     ConsentShelf& consent;
-    bool demands_set_up = false;   // see ui::AccessView::demanded
+    bool demands_set_up = false;  // see ui::AccessView::demanded
   };
   explicit Door(Parts parts);
   ~Door() { forget(); }
@@ -49,7 +49,7 @@ class Door {
 
  private:
   struct Pins {
-    std::string one, clerk;   // the operator's, where both are chosen
+    std::string one, clerk;  // the operator's, where both are chosen
   };
   void check(std::string_view pin);
   void offer(std::string_view pin, ui::StaffRole role);
@@ -68,16 +68,18 @@ class Door {
   ConsentShelf& consent_;
   Access access_;
   const bool demands_set_up_;
-  bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false, consent_right_ = false;
-  ui::StaffRole forgotten_ = ui::StaffRole::None;   // whose PIN is to be chosen anew
+  bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false,
+       consent_right_ = false;
+  ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
   ui::PinStep step_ = ui::PinStep::Technician;
   ui::PinFault fault_ = ui::PinFault::None;
   hal::Instant wait_until_{};
-  std::string first_, technician_;   // typed once; the technician's, until the operator's is there
+  std::string first_, technician_;  // typed once; the technician's, until the operator's is there
   ui::StaffRole entered_ = ui::StaffRole::None;
   mutable std::string clock_text_;
-  mutable std::chrono::sys_time<std::chrono::minutes> clock_text_at_{};  // made once a minute, not once a frame
+  mutable std::chrono::sys_time<std::chrono::minutes>
+      clock_text_at_{};  // made once a minute, not once a frame
 };
 
 }  // namespace relievo::firmware

@@ -7,7 +7,8 @@
 namespace relievo::firmware {
 
 Errands::Errands(Appliance& appliance) : appliance_(appliance) {
-  appliance_.on_side_report([this](JobPlace place, const std::optional<Error>& error) { heard(place, error); });
+  appliance_.on_side_report(
+      [this](JobPlace place, const std::optional<Error>& error) { heard(place, error); });
 }
 
 Errands::~Errands() {
@@ -28,7 +29,8 @@ void Errands::turn() {
   for (std::size_t i = 0; i < kJobPlaces; ++i) {
     Lane& lane = lanes_[i];
     if (lane.running != nullptr || lane.waiting.empty()) continue;
-    if (!appliance_.start_side_job(static_cast<JobPlace>(i), *lane.waiting.front())) continue;  // a visitor has the thread
+    if (!appliance_.start_side_job(static_cast<JobPlace>(i), *lane.waiting.front()))
+      continue;  // a visitor has the thread
     lane.running = std::move(lane.waiting.front());
     lane.waiting.pop_front();
   }

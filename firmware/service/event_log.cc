@@ -39,7 +39,8 @@ LogEntry entry_of(std::string_view line) {
   return entry;
 }
 
-EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file) : clock_(clock), file_(std::move(file)) {
+EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file)
+    : clock_(clock), file_(std::move(file)) {
   std::ifstream in(file_);
   for (std::string line; std::getline(in, line);) {
     Line& next = ring_[(first_ + count_) % kLines];
@@ -50,12 +51,15 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file) : clock_
   }
 }
 
-void EventLog::say(Literal key, std::initializer_list<std::string_view> values) { put(Sentence(key, values), false); }
+void EventLog::say(Literal key, std::initializer_list<std::string_view> values) {
+  put(Sentence(key, values), false);
+}
 
 void EventLog::fault(const Error& error) { put(Sentence(error.what), true); }
 
 void EventLog::put(const Sentence& sentence, bool fault) {
-  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) + std::string(fault ? kFault : kGap) + sentence.text();
+  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) +
+                     std::string(fault ? kFault : kGap) + sentence.text();
   const std::string apart = '\t' + sentence.packed();
   if (text.size() > kTextBytes) text.resize(kTextBytes);
   if (text.size() + apart.size() <= kLineBytes) text += apart;

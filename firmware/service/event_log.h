@@ -5,9 +5,8 @@
 // and a file that keeps the newest lines over a restart. Nobody's name goes into it: of an error only
 // its sentence is written, never the place, which may be somebody's.
 //
-// A line is noted as a Sentence, so that the page can say it in the reader's language. In the file, behind the English
-// text and a tab: the sentence packed.
-// Thread: any. Errors of save(): MediaFull, IoFailed.
+// A line is noted as a Sentence, so that the page can say it in the reader's language. In the file, behind
+// the English text and a tab: the sentence packed. Thread: any. Errors of save(): MediaFull, IoFailed.
 #pragma once
 
 #include <array>
@@ -28,12 +27,13 @@ namespace relievo::firmware {
 
 inline constexpr const char* kLogFile = "relievo.log";  // in the folder of the store
 
-// A line, taken apart. A text that no key is known of (an older file's) has none: then `sentence` is all there is.
+// A line, taken apart. A text that no key is known of (an older file's) has none: then `sentence` is all
+// there is.
 struct LogEntry {
-  std::string at;                    // date and time
+  std::string at;  // date and time
   bool fault = false;
-  std::string sentence;              // English
-  std::string key;                   // of the catalogues, with {} for each value
+  std::string sentence;  // English
+  std::string key;       // of the catalogues, with {} for each value
   std::vector<std::string> values;
 };
 LogEntry entry_of(std::string_view line);
@@ -49,10 +49,10 @@ class EventLog {
   void say(Literal key, std::initializer_list<std::string_view> values = {});
   void fault(const Error& error);
 
-  std::vector<LogEntry> entries() const;     // oldest first
-  std::vector<LogEntry> faults() const;      // since the start, newest first
+  std::vector<LogEntry> entries() const;  // oldest first
+  std::vector<LogEntry> faults() const;   // since the start, newest first
   bool unsaved() const;
-  Result<void> save();                       // on the keeper
+  Result<void> save();  // on the keeper
 
  private:
   struct Line {

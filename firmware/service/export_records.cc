@@ -44,15 +44,18 @@ Result<Sums> sums_of(const fs::path& folder) {
 }
 
 std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
-  return "code: " + receipt_of(subject) + "\nname: " + subject.name + "\nkept since: " + text_of(subject.created_at) +
-         "\nportraits: " + std::to_string(subject.enrolments) + "\nthis one: " + text_of(newest.created_at) + "\nconsent: " + newest.consent.wording +
-         " (" + newest.consent.language + ") " + text_of(newest.consent.given_at) + "\n";
+  return "code: " + receipt_of(subject) + "\nname: " + subject.name +
+         "\nkept since: " + text_of(subject.created_at) +
+         "\nportraits: " + std::to_string(subject.enrolments) + "\nthis one: " + text_of(newest.created_at) +
+         "\nconsent: " + newest.consent.wording + " (" + newest.consent.language + ") " +
+         text_of(newest.consent.given_at) + "\n";
 }
 
 // One export: the errors of its steps, and its progress.
 class Export {
  public:
-  Export(storage::Store& store, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) : store_(store), media_(media), control_(control), trace_(trace) {}
+  Export(storage::Store& store, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace)
+      : store_(store), media_(media), control_(control), trace_(trace) {}
 
   Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
     RELIEVO_TRY(reach(ExportStep::Load, done));
@@ -70,12 +73,15 @@ class Export {
     if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
-    if (!enrolments.back().report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
+    if (!enrolments.back().report_json.empty())
+      RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
     RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path()));
     RELIEVO_TRY(reach(ExportStep::ReadBack, done + 0.6F * share));
     RELIEVO_TRY(media_.settle(folder.path()));
     RELIEVO_TRY_ASSIGN(const Sums read, sums_of(folder.path()));
-    if (read != written) return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"};
+    if (read != written)
+      return Error{Errc::IoFailed,
+                   "what was read back from the stick is not what was written: use another stick"};
     RELIEVO_TRY(reach(ExportStep::Write, done + 0.9F * share));
     RELIEVO_TRY(replace_folder(folder, target));
     made_.emplace_back(target, written);
@@ -102,7 +108,10 @@ class Export {
     for (const auto& [record, sums] : made_) {
       const Result<Sums> kept = sums_of(record);
       if (kept && *kept == sums) ++trace_.whole;
-      else if (same) same = kept ? Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"} : kept.error();
+      else if (same)
+        same = kept ? Error{Errc::IoFailed,
+                            "what was read back from the stick is not what was written: use another stick"}
+                    : kept.error();
     }
     if (!media_.current()) return pulled();
     if (same) trace_.step = ExportStep::LetGo;
@@ -127,7 +136,9 @@ class Export {
 
 }  // namespace
 
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control, ExportTrace& trace) {
+Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
+                            const std::vector<storage::SubjectId>& subjects, JobControl& control,
+                            ExportTrace& trace) {
   trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
@@ -147,8 +158,10 @@ Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, c
 ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
   const int number = error.sys_errno;
   const bool not_allowed = number == EROFS || number == EACCES || number == EPERM;
-  const bool gone = number == ENOENT || number == ENODEV || number == ENXIO || number == ESTALE || error.code == Errc::MediaMissing;
-  const bool of_the_stick = error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
+  const bool gone = number == ENOENT || number == ENODEV || number == ENXIO || number == ESTALE ||
+                    error.code == Errc::MediaMissing;
+  const bool of_the_stick =
+      error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
   if (trace.step == ExportStep::Again && error.code == Errc::Unsupported) return ui::Outcome::StickUnchecked;
   if (trace.step >= ExportStep::Write && of_the_stick) {
     if (gone) return ui::Outcome::StickGone;

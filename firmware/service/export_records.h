@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Records on a stick: relievo/CODE/ with the newest portrait's files and record.txt, one folder a
-// person, each whole or not there; read back once more after the stick was let go and taken up again. What was written is read back and compared before a folder gets its
-// name; what an earlier export left half written is cleared away by the next.
-// Thread: the keeper; between two people and two steps it looks whether it is to stop.
-// Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, NotFound,
-// IoFailed (outcome_of_export() says what it means), the store's.
+// person, each whole or not there; read back once more after the stick was let go and taken up again. What
+// was written is read back and compared before a folder gets its name; what an earlier export left half
+// written is cleared away by the next. Thread: the keeper; between two people and two steps it looks whether
+// it is to stop. Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled,
+// NotFound, IoFailed (outcome_of_export() says what it means), the store's.
 #pragma once
 
 #include <vector>
@@ -23,10 +23,12 @@ enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo, Again
 // How far an export came. Written by the keeper; main reads it when the errand has ended.
 struct ExportTrace {
   ExportStep step = ExportStep::Find;
-  int whole = 0;   // records on the stick, read back and under their names
+  int whole = 0;  // records on the stick, read back and under their names
 };
 
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media, const std::vector<storage::SubjectId>& subjects, JobControl& control, ExportTrace& trace);
+Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
+                            const std::vector<storage::SubjectId>& subjects, JobControl& control,
+                            ExportTrace& trace);
 
 // What its error means to who asked: the same error is another thing at another step.
 ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace);

@@ -17,12 +17,14 @@ constexpr std::size_t kMemory = std::size_t{19} << 20;
 Result<std::string> stretched(std::string_view pin) {
   std::array<char, crypto_pwhash_STRBYTES> text{};
   if (sodium_init() < 0 || crypto_pwhash_str(text.data(), pin.data(), pin.size(), kPasses, kMemory) != 0)
-    return Error{Errc::OutOfMemory, "there is not enough memory to keep a PIN safely: restart, then try again"};
+    return Error{Errc::OutOfMemory,
+                 "there is not enough memory to keep a PIN safely: restart, then try again"};
   return std::string(text.data());
 }
 
 bool is_pin_of(std::string_view pin, const std::string& kept) {
-  return !kept.empty() && kept.size() < crypto_pwhash_STRBYTES && sodium_init() >= 0 && crypto_pwhash_str_verify(kept.c_str(), pin.data(), pin.size()) == 0;
+  return !kept.empty() && kept.size() < crypto_pwhash_STRBYTES && sodium_init() >= 0 &&
+         crypto_pwhash_str_verify(kept.c_str(), pin.data(), pin.size()) == 0;
 }
 
 void wipe_text(std::string& text) {

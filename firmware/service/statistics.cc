@@ -9,18 +9,25 @@ namespace relievo::firmware {
 namespace {
 
 bool is_visit(State state) {
-  return state == State::Position || state == State::Capture || state == State::Match || state == State::Reconstruct || state == State::Mesh ||
-         state == State::Texture || state == State::Review;
+  return state == State::Position || state == State::Capture || state == State::Match ||
+         state == State::Reconstruct || state == State::Mesh || state == State::Texture ||
+         state == State::Review;
 }
 
 ui::Refusal refusal_of(const Error& error) {
   switch (error.code) {
-    case Errc::NoFace: return ui::Refusal::NoFace;
-    case Errc::TooFewMatches: return ui::Refusal::TooFewMatches;
-    case Errc::PoorGeometry: return ui::Refusal::PoorGeometry;
-    case Errc::OutOfMemory: return ui::Refusal::Memory;
-    case Errc::Disconnected: return ui::Refusal::Camera;
-    case Errc::Timeout: return ui::Refusal::Slow;
+    case Errc::NoFace:
+      return ui::Refusal::NoFace;
+    case Errc::TooFewMatches:
+      return ui::Refusal::TooFewMatches;
+    case Errc::PoorGeometry:
+      return ui::Refusal::PoorGeometry;
+    case Errc::OutOfMemory:
+      return ui::Refusal::Memory;
+    case Errc::Disconnected:
+      return ui::Refusal::Camera;
+    case Errc::Timeout:
+      return ui::Refusal::Slow;
     case Errc::InvalidInput:
     case Errc::NotFound:
     case Errc::NotCalibrated:
@@ -32,7 +39,8 @@ ui::Refusal refusal_of(const Error& error) {
     case Errc::IoFailed:
     case Errc::Cancelled:
     case Errc::InvalidState:
-    case Errc::Unsupported: break;
+    case Errc::Unsupported:
+      break;
   }
   return ui::Refusal::Other;
 }
@@ -42,7 +50,8 @@ ui::Refusal refusal_of(const Error& error) {
 void Statistics::noted(const Change& change, const Error* problem, std::chrono::nanoseconds total) {
   const auto count = [this](std::uint64_t& number) { ++number, ++changes_; };
   const bool refused = is_visit(change.from) && change.from != State::Review &&
-                       (change.event == Event::AdviceGiven || change.event == Event::StageFailed || change.event == Event::Failed || change.event == Event::Timeout);
+                       (change.event == Event::AdviceGiven || change.event == Event::StageFailed ||
+                        change.event == Event::Failed || change.event == Event::Timeout);
   if (change.from == State::Idle && is_visit(change.to)) count(visits_);
   if (change.from == State::Capture && change.event == Event::Triggered) count(captures_);
   if (change.to == State::Review && change.from == State::Texture) {
@@ -51,12 +60,14 @@ void Statistics::noted(const Change& change, const Error* problem, std::chrono::
   }
   if (change.from == State::Store && change.event == Event::StageDone) count(stored_);
   if (is_visit(change.from) && change.to == State::Idle) count(left_);
-  if (refused && change.from != State::Position) count(refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)]);
+  if (refused && change.from != State::Position)
+    count(refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)]);
 }
 
 std::string Statistics::text() const {
   std::ostringstream out;
-  out << "1 " << since_ << ' ' << visits_ << ' ' << captures_ << ' ' << models_ << ' ' << stored_ << ' ' << left_;
+  out << "1 " << since_ << ' ' << visits_ << ' ' << captures_ << ' ' << models_ << ' ' << stored_ << ' '
+      << left_;
   for (const std::uint64_t n : refused_) out << ' ' << n;
   for (const std::uint64_t n : times_) out << ' ' << n;
   return out.str();
@@ -66,7 +77,8 @@ bool Statistics::read(std::string_view text) {
   std::istringstream in{std::string(text)};
   Statistics seen;
   std::string version;
-  in >> version >> seen.since_ >> seen.visits_ >> seen.captures_ >> seen.models_ >> seen.stored_ >> seen.left_;
+  in >> version >> seen.since_ >> seen.visits_ >> seen.captures_ >> seen.models_ >> seen.stored_ >>
+      seen.left_;
   for (std::uint64_t& n : seen.refused_) in >> n;
   for (std::uint64_t& n : seen.times_) in >> n;
   if (!in || version != "1") return false;
@@ -88,7 +100,15 @@ double Statistics::seconds_within(double share) const {
 }
 
 ui::StatisticsView Statistics::view() const {
-  return {since_, visits_, captures_, models_, stored_, left_, refused_, seconds_within(0.5), seconds_within(0.9)};
+  return {since_,
+          visits_,
+          captures_,
+          models_,
+          stored_,
+          left_,
+          refused_,
+          seconds_within(0.5),
+          seconds_within(0.9)};
 }
 
 }  // namespace relievo::firmware

@@ -34,7 +34,7 @@ class Statistics {
   ui::StatisticsView view() const;
 
  private:
-  static constexpr std::size_t kSteps = 128;          // of kStep each; the last one takes the rest
+  static constexpr std::size_t kSteps = 128;  // of kStep each; the last one takes the rest
   static constexpr std::chrono::milliseconds kStep{250};
   double seconds_within(double share) const;
 

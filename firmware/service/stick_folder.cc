@@ -15,12 +15,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBefore = ".before";
 
-fs::path before(const fs::path& target) { return target.parent_path() / ("." + target.filename().string() + kBefore); }
+fs::path before(const fs::path& target) {
+  return target.parent_path() / ("." + target.filename().string() + kBefore);
+}
 
 // The name in ".NAME.part123" or ".NAME.before"; empty in any other.
 std::string name_in(const std::string& entry) {
-  const std::size_t end = entry.ends_with(kBefore) ? entry.size() - std::string_view(kBefore).size() : entry.rfind(".part");
-  return entry.starts_with('.') && end != std::string::npos && end > 1 ? entry.substr(1, end - 1) : std::string();
+  const std::size_t end =
+      entry.ends_with(kBefore) ? entry.size() - std::string_view(kBefore).size() : entry.rfind(".part");
+  return entry.starts_with('.') && end != std::string::npos && end > 1 ? entry.substr(1, end - 1)
+                                                                       : std::string();
 }
 
 }  // namespace
@@ -30,7 +34,10 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   const bool replaces = fs::exists(target, error);
   if (replaces) {
     fs::rename(target, before(target), error);
-    if (error) return Error{Errc::IoFailed, "the folder of an earlier export cannot be replaced: use another stick", error.value()}.at(target.native());
+    if (error)
+      return Error{Errc::IoFailed, "the folder of an earlier export cannot be replaced: use another stick",
+                   error.value()}
+          .at(target.native());
   }
   if (const Result<void> done = made.commit(); !done) {
     if (replaces) fs::rename(before(target), target, error);
@@ -50,7 +57,8 @@ void tidy_folder(const fs::path& folder, bool (*ours)(std::string_view name)) {
   }
   for (const fs::path& one : left) {
     const fs::path target = folder / name_in(one.filename().string());
-    if (one.filename().string().ends_with(kBefore) && !fs::exists(target, error)) fs::rename(one, target, error);
+    if (one.filename().string().ends_with(kBefore) && !fs::exists(target, error))
+      fs::rename(one, target, error);
     else fs::remove_all(one, error);
   }
 }

@@ -15,8 +15,10 @@ namespace relievo::firmware {
 
 // `made` becomes `target`; a folder that has this name already goes when the new one is there, not before.
 Result<void> replace_folder(OutputFolder& made, const std::filesystem::path& target);
-// Clears away what is half written (".NAME.part…"), and brings back a folder whose successor did not come. Names that are not `ours`
-// are somebody else's.
-void tidy_folder(const std::filesystem::path& folder, bool (*ours)(std::string_view name) = [](std::string_view) { return true; });
+// Clears away what is half written (".NAME.part…"), and brings back a folder whose successor did not come.
+// Names that are not `ours` are somebody else's.
+void tidy_folder(
+    const std::filesystem::path& folder,
+    bool (*ours)(std::string_view name) = [](std::string_view) { return true; });
 
 }  // namespace relievo::firmware

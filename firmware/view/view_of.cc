@@ -7,21 +7,35 @@ namespace {
 
 ui::Screen screen_of(State state) {
   switch (state) {
-    case State::SelfTest: return ui::Screen::SelfTest;
-    case State::Idle: return ui::Screen::Idle;
-    case State::Calibrate: return ui::Screen::Calibrate;
-    case State::Position: return ui::Screen::Position;
-    case State::Capture: return ui::Screen::Capture;
-    case State::Match: return ui::Screen::Match;
-    case State::Reconstruct: return ui::Screen::Reconstruct;
-    case State::Mesh: return ui::Screen::Mesh;
-    case State::Texture: return ui::Screen::Texture;
-    case State::Review: return ui::Screen::Review;
-    case State::Store: return ui::Screen::Store;
-    case State::Export: return ui::Screen::Export;
-    case State::Technician: return ui::Screen::Technician;
+    case State::SelfTest:
+      return ui::Screen::SelfTest;
+    case State::Idle:
+      return ui::Screen::Idle;
+    case State::Calibrate:
+      return ui::Screen::Calibrate;
+    case State::Position:
+      return ui::Screen::Position;
+    case State::Capture:
+      return ui::Screen::Capture;
+    case State::Match:
+      return ui::Screen::Match;
+    case State::Reconstruct:
+      return ui::Screen::Reconstruct;
+    case State::Mesh:
+      return ui::Screen::Mesh;
+    case State::Texture:
+      return ui::Screen::Texture;
+    case State::Review:
+      return ui::Screen::Review;
+    case State::Store:
+      return ui::Screen::Store;
+    case State::Export:
+      return ui::Screen::Export;
+    case State::Technician:
+      return ui::Screen::Technician;
     case State::Fault:
-    case State::Count: break;
+    case State::Count:
+      break;
   }
   return ui::Screen::Fault;
 }
@@ -29,24 +43,31 @@ ui::Screen screen_of(State state) {
 ui::Trouble trouble_of(const Error& problem, State state) {
   if (state == State::Review || state == State::Store) return ui::Trouble::Storage;
   switch (problem.code) {
-    case Errc::Disconnected: return ui::Trouble::Camera;
-    case Errc::NotCalibrated: return ui::Trouble::Calibration;
+    case Errc::Disconnected:
+      return ui::Trouble::Camera;
+    case Errc::NotCalibrated:
+      return ui::Trouble::Calibration;
     case Errc::NoFace:
     case Errc::TooFewMatches:
     case Errc::PoorGeometry:
     case Errc::LibraryFailed:
     case Errc::OutOfMemory:
-    case Errc::InvalidInput: return ui::Trouble::Refused;
+    case Errc::InvalidInput:
+      return ui::Trouble::Refused;
     case Errc::MediaFull:
     case Errc::MediaMissing:
     case Errc::StoreCorrupt:
-    case Errc::StoreNewer: return ui::Trouble::Storage;
-    case Errc::Timeout: return ui::Trouble::TookTooLong;
-    case Errc::Cancelled: return ui::Trouble::None;
+    case Errc::StoreNewer:
+      return ui::Trouble::Storage;
+    case Errc::Timeout:
+      return ui::Trouble::TookTooLong;
+    case Errc::Cancelled:
+      return ui::Trouble::None;
     case Errc::NotFound:
     case Errc::IoFailed:
     case Errc::InvalidState:
-    case Errc::Unsupported: break;
+    case Errc::Unsupported:
+      break;
   }
   return ui::Trouble::Other;
 }
@@ -66,11 +87,15 @@ ui::LiveView live_of(const LivePicture& live) {
 // Stages whose thread has reported; the one under way draws its own.
 std::size_t stages_done(State state) {
   switch (state) {
-    case State::Reconstruct: return 1;
-    case State::Mesh: return 2;
-    case State::Texture: return 3;
+    case State::Reconstruct:
+      return 1;
+    case State::Mesh:
+      return 2;
+    case State::Texture:
+      return 3;
     case State::Review:
-    case State::Store: return 4;
+    case State::Store:
+      return 4;
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
@@ -80,7 +105,8 @@ std::size_t stages_done(State state) {
     case State::Export:
     case State::Technician:
     case State::Fault:
-    case State::Count: break;
+    case State::Count:
+      break;
   }
   return 0;
 }

@@ -12,10 +12,12 @@ namespace {
 
 constexpr int kMeterEvery = 3;  // live pairs: a camera that runs on its own obeys one or two later
 
-constexpr double kSkinShare = 0.5;   // of the face's box, about its middle: a window beside the cheeks is not lit for, also where the box is not quite right
+constexpr double kSkinShare = 0.5;  // of the face's box, about its middle: a window beside the cheeks is not
+                                    // lit for, also where the box is not quite right
 
 FaceBox skin_in(const FaceBox& face) {
-  const int width = static_cast<int>(kSkinShare * face.width_px), height = static_cast<int>(kSkinShare * face.height_px);
+  const int width = static_cast<int>(kSkinShare * face.width_px),
+            height = static_cast<int>(kSkinShare * face.height_px);
   return {face.x_px + (face.width_px - width) / 2, face.y_px + (face.height_px - height) / 2, width, height};
 }
 
@@ -57,7 +59,8 @@ Result<void> PoseJob::run(JobControl& control) {
 Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& control) {
   const Arena::Mark mark(session_.output());
   EnrolmentSession::Scratch scratch(session_);
-  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress, control.cancelled};
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
+                                 control.cancelled};
   RELIEVO_TRY_ASSIGN(LiveSight sight, judge_->look(frame, board_.clock().now(), context));
   session_.live().fill_relief(sight.relief);
   face_ = sight.face;
@@ -89,8 +92,10 @@ Result<void> GrabJob::run(JobControl& control) {
   ExposureControl& exposure = pose_.exposure();
   // Still metering: both have the same exposure all the same, and nobody changes it now.
   if (exposure.state() != ExposureControl::State::Metering) RELIEVO_TRY(exposure.lock());
-  Result<BurstResult> burst = burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
-  if (!burst && burst.error().code == Errc::InvalidInput && options.face) {  // the face box reaches out of a picture
+  Result<BurstResult> burst =
+      burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
+  if (!burst && burst.error().code == Errc::InvalidInput &&
+      options.face) {  // the face box reaches out of a picture
     options.face.reset();
     burst = burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
   }

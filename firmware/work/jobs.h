@@ -33,12 +33,18 @@ class OpenCamerasJob final : public Job {
   const hal::Clock& clock_;
 };
 
-// Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small. Meanwhile both
-// cameras are set to the light on the face.
+// Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small.
+// Meanwhile both cameras are set to the light on the face.
 class PoseJob final : public Job {
  public:
-  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool, LiveJudge* judge)
-      : grabber_(grabber), session_(session), board_(board), pool_(pool), judge_(judge), exposure_(board.left(), board.right()) {}
+  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool,
+          LiveJudge* judge)
+      : grabber_(grabber),
+        session_(session),
+        board_(board),
+        pool_(pool),
+        judge_(judge),
+        exposure_(board.left(), board.right()) {}
   Result<void> run(JobControl& control) override;
   // For the shot that follows on the same thread: where the face was last, and the exposure, to be locked.
   const std::optional<FaceBoxes>& face() const { return face_; }
@@ -63,7 +69,11 @@ class PoseJob final : public Job {
 class GrabJob final : public Job {
  public:
   GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, PoseJob& pose)
-      : grabber_(grabber), session_(session), board_(board), pose_(pose), burst_(grabber, board.trigger(), board.clock()) {}
+      : grabber_(grabber),
+        session_(session),
+        board_(board),
+        pose_(pose),
+        burst_(grabber, board.trigger(), board.clock()) {}
   Result<void> run(JobControl& control) override;
 
  private:

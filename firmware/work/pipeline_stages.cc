@@ -17,12 +17,14 @@ std::uint64_t pixels(const ImageView& view) {
 }
 
 std::uint64_t accepted(const pipeline::MatchSet& matches) {
-  return static_cast<std::uint64_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
-                                                  [](const pipeline::Match& m) { return m.rejected_by == 0; }));
+  return static_cast<std::uint64_t>(
+      std::count_if(matches.matches.begin(), matches.matches.end(),
+                    [](const pipeline::Match& m) { return m.rejected_by == 0; }));
 }
 
 bool may_be_the_pictures(Errc code) {
-  return code == Errc::NoFace || code == Errc::TooFewMatches || code == Errc::PoorGeometry || code == Errc::NotCalibrated;
+  return code == Errc::NoFace || code == Errc::TooFewMatches || code == Errc::PoorGeometry ||
+         code == Errc::NotCalibrated;
 }
 
 Error moved(const pipeline::DriftJudgement& drift) {
@@ -33,13 +35,17 @@ Error moved(const pipeline::DriftJudgement& drift) {
 
 }  // namespace
 
-// A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is told.
+// A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is
+// told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
-  if (!pipeline_) return Error{Errc::NotCalibrated, "this device has no calibration yet: a technician has to calibrate its cameras"};
+  if (!pipeline_)
+    return Error{Errc::NotCalibrated,
+                 "this device has no calibration yet: a technician has to calibrate its cameras"};
   Result<void> done = run_stage_of(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
-  if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame) return done;
+  if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
+    return done;
   if (std::optional<Error> cause = pipeline_->explain(*products.frame, context)) return *cause;
   return done;
 }
@@ -47,10 +53,14 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
 Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipeline::StageContext& context,
                                           StageRecord& record) const {
   switch (stage) {
-    case State::Match: return match(products, context, record);
-    case State::Reconstruct: return reconstruct(products, context, record);
-    case State::Mesh: return mesh(products, context, record);
-    case State::Texture: return texture(products, context, record);
+    case State::Match:
+      return match(products, context, record);
+    case State::Reconstruct:
+      return reconstruct(products, context, record);
+    case State::Mesh:
+      return mesh(products, context, record);
+    case State::Texture:
+      return texture(products, context, record);
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
@@ -61,12 +71,14 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
     case State::Export:
     case State::Technician:
     case State::Fault:
-    case State::Count: break;
+    case State::Count:
+      break;
   }
   return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
 }
 
-Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context,
+                                   StageRecord& record) const {
   RELIEVO_ASSERT(products.frame.has_value());
   record.in = pixels(products.frame->left) + pixels(products.frame->right);
   RELIEVO_TRY_ASSIGN(products.pair, pipeline_->rectify(*products.frame, context));
@@ -86,7 +98,8 @@ Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageCont
   return {};
 }
 
-Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& context,
+                                  StageRecord& record) const {
   RELIEVO_ASSERT(products.cloud.has_value() && products.pair.has_value());
   record.in = products.cloud->points.size();
   RELIEVO_TRY_ASSIGN(products.mesh, pipeline_->mesh(*products.cloud, *products.pair, context));
@@ -94,7 +107,8 @@ Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& co
   return {};
 }
 
-Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context, StageRecord& record) const {
+Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context,
+                                     StageRecord& record) const {
   RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value() && products.matches.has_value());
   record.in = products.mesh->triangles.size();
   RELIEVO_TRY_ASSIGN(products.model, pipeline_->texture(std::move(*products.mesh), *products.pair, context));

@@ -6,8 +6,9 @@
 //
 //   algorithms alone --replace()--> calibrated --replace()--> other algorithms, another calibration
 //
-// Errors: the stage's own, or what was wrong with the pictures where that explains it (pair_diagnosis.h); NotCalibrated without a
-// calibration, and after Match where the cameras have moved too far to be measured with, unless told to go on. Thread: worker.
+// Errors: the stage's own, or what was wrong with the pictures where that explains it (pair_diagnosis.h);
+// NotCalibrated without a calibration, and after Match where the cameras have moved too far to be measured
+// with, unless told to go on. Thread: worker.
 #pragma once
 
 #include <optional>
@@ -17,28 +18,37 @@
 
 namespace relievo::firmware {
 
-// Cameras that have moved too far to be measured with; a surface of which it is not known whether it is a face.
+// Cameras that have moved too far to be measured with; a surface of which it is not known whether it is a
+// face.
 enum class WhenMoved : std::uint8_t { Refuse, GoOn };
 enum class WhenUnjudged : std::uint8_t { Refuse, GoOn };
 
 class PipelineStages final : public StageRunner {
  public:
-  explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse, WhenUnjudged when_unjudged = WhenUnjudged::Refuse)
-      : set_(pipeline.algorithms()), pipeline_(std::move(pipeline)), when_moved_(when_moved), when_unjudged_(when_unjudged) {}
+  explicit PipelineStages(pipeline::Pipeline pipeline, WhenMoved when_moved = WhenMoved::Refuse,
+                          WhenUnjudged when_unjudged = WhenUnjudged::Refuse)
+      : set_(pipeline.algorithms()),
+        pipeline_(std::move(pipeline)),
+        when_moved_(when_moved),
+        when_unjudged_(when_unjudged) {}
   // Of a device that nobody has calibrated yet.
   explicit PipelineStages(const pipeline::AlgorithmSet& set) : set_(set) {}
   const pipeline::AlgorithmSet& algorithms() const { return set_; }
   // None: there is none yet. Until replace().
-  const pipeline::StereoCalibration* calibration() const { return pipeline_ ? &pipeline_->calibration() : nullptr; }
+  const pipeline::StereoCalibration* calibration() const {
+    return pipeline_ ? &pipeline_->calibration() : nullptr;
+  }
   // While no job runs.
   void replace(pipeline::Pipeline pipeline) {
     set_ = pipeline.algorithms();
     pipeline_ = std::move(pipeline);
   }
-  Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override;
+  Result<void> run(State stage, Products& products, pipeline::StageContext& context,
+                   StageRecord& record) override;
 
  private:
-  Result<void> run_stage_of(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) const;
+  Result<void> run_stage_of(State stage, Products& products, pipeline::StageContext& context,
+                            StageRecord& record) const;
   Result<void> match(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> reconstruct(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;

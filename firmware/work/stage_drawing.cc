@@ -22,41 +22,54 @@ struct Corner {
   Rgb colour;
 };
 
-double edge(const Corner& a, const Corner& b, double x, double y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
+double edge(const Corner& a, const Corner& b, double x, double y) {
+  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
 
-void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<float>& depth, StageCanvas& canvas) {
+void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<float>& depth,
+              StageCanvas& canvas) {
   const double area = edge(a, b, c.x, c.y);
   if (std::abs(area) < 1e-9) return;
-  const int x0 = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))), x1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
-  const int y0 = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))), y1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.y, b.y, c.y}))));
+  const int x0 = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))),
+            x1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
+  const int y0 = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))),
+            y1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.y, b.y, c.y}))));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const double u = edge(b, c, x, y) / area, v = edge(c, a, x, y) / area, w = 1 - u - v;
       if (u < 0 || v < 0 || w < 0) continue;
       const double z = u * a.z + v * b.z + w * c.z;
-      float& nearest = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.side()) + static_cast<std::size_t>(x)];
+      float& nearest = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.side()) +
+                             static_cast<std::size_t>(x)];
       if (z >= nearest) continue;
       nearest = static_cast<float>(z);
-      canvas.put(x, y, {u * a.colour.r + v * b.colour.r + w * c.colour.r, u * a.colour.g + v * b.colour.g + w * c.colour.g,
-                        u * a.colour.b + v * b.colour.b + w * c.colour.b});
+      canvas.put(
+          x, y,
+          {u * a.colour.r + v * b.colour.r + w * c.colour.r, u * a.colour.g + v * b.colour.g + w * c.colour.g,
+           u * a.colour.b + v * b.colour.b + w * c.colour.b});
     }
   }
 }
 
-// Points lie closer together than pixels: of those in a cell of the canvas the one nearest to its middle is drawn, as a
-// disc with a soft rim. Fewer or harder ones would beat against the pixels of the screen the picture is scaled to.
+// Points lie closer together than pixels: of those in a cell of the canvas the one nearest to its middle is
+// drawn, as a disc with a soft rim. Fewer or harder ones would beat against the pixels of the screen the
+// picture is scaled to.
 constexpr int kCellPx = 5;
 constexpr double kDotRadiusPx = 1.9, kDotRimPx = 1.2;
 
 class Dots {
  public:
-  explicit Dots(StageCanvas& canvas) : canvas_(canvas), across_((canvas.side() + kCellPx - 1) / kCellPx), cells_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {}
+  explicit Dots(StageCanvas& canvas)
+      : canvas_(canvas),
+        across_((canvas.side() + kCellPx - 1) / kCellPx),
+        cells_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {}
 
   void add(double x, double y, double far_share) {
     if (x < 0 || y < 0 || x >= canvas_.side() || y >= canvas_.side()) return;
     const int column = static_cast<int>(x) / kCellPx, row = static_cast<int>(y) / kCellPx;
     const double off = std::hypot(x - (column + 0.5) * kCellPx, y - (row + 0.5) * kCellPx);
-    Dot& held = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+    Dot& held = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) +
+                       static_cast<std::size_t>(column)];
     if (off < held.off) held = {x, y, off, far_share};
   }
   void draw() const {
@@ -75,7 +88,8 @@ class Dots {
     const Rgb colour = near_far_colour(dot.far_share);
     for (int y = static_cast<int>(dot.y - reach); y <= static_cast<int>(dot.y + reach); ++y) {
       for (int x = static_cast<int>(dot.x - reach); x <= static_cast<int>(dot.x + reach); ++x) {
-        const double inside = (kDotRadiusPx + kDotRimPx / 2 - std::hypot(x + 0.5 - dot.x, y + 0.5 - dot.y)) / kDotRimPx;
+        const double inside =
+            (kDotRadiusPx + kDotRimPx / 2 - std::hypot(x + 0.5 - dot.x, y + 0.5 - dot.y)) / kDotRimPx;
         if (inside > 0) canvas_.blend(x, y, colour, std::min(1.0, inside));
       }
     }
@@ -93,14 +107,17 @@ Rgb clay(double lit) { return {60 + 170 * lit, 64 + 174 * lit, 72 + 180 * lit}; 
 Rgb near_far_colour(double share) {
   const double t = std::clamp(share, 0.0, 1.0);
   const Rgb near{255, 176, 64}, middle{64, 200, 170}, far{52, 84, 190};
-  const auto mix = [](const Rgb& a, const Rgb& b, double s) { return Rgb{a.r + (b.r - a.r) * s, a.g + (b.g - a.g) * s, a.b + (b.b - a.b) * s}; };
+  const auto mix = [](const Rgb& a, const Rgb& b, double s) {
+    return Rgb{a.r + (b.r - a.r) * s, a.g + (b.g - a.g) * s, a.b + (b.b - a.b) * s};
+  };
   return t < 0.5 ? mix(near, middle, 2 * t) : mix(middle, far, 2 * t - 1);
 }
 
 FaceWindow::FaceWindow(const pipeline::RectifiedPair& pair, int side_px) : canvas_(side_px) {
   const bool known = pair.face_width_px > 0;
   side_ = known ? std::min(kFacesAcross * pair.face_width_px, 1.0 * pair.height_px) : pair.height_px;
-  const double cx = known ? pair.face_centre_px.x : pair.width_px / 2.0, cy = known ? pair.face_centre_px.y : pair.height_px / 2.0;
+  const double cx = known ? pair.face_centre_px.x : pair.width_px / 2.0,
+               cy = known ? pair.face_centre_px.y : pair.height_px / 2.0;
   left_ = cx - side_ / 2;
   top_ = cy - side_ / 2;
 }
@@ -131,7 +148,10 @@ void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCan
     for (int x = 0; x < canvas.side(); ++x) {
       const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
       if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const double grey = pair.left.grey[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(u)] * share;
+      const double grey =
+          pair.left.grey[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) +
+                         static_cast<std::size_t>(u)] *
+          share;
       canvas.put(x, y, {grey, grey, grey * 1.08});
     }
   }
@@ -146,23 +166,28 @@ void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet&
   }
   Dots dots(canvas);
   for (const auto& m : set.matches) {
-    if (m.rejected_by == 0) dots.add(window.x(m.left_px.x), window.y(m.left_px.y), 1 - range.share(m.disparity_px));
+    if (m.rejected_by == 0)
+      dots.add(window.x(m.left_px.x), window.y(m.left_px.y), 1 - range.share(m.disparity_px));
   }
   dots.draw();
 }
 
-void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas) {
+void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points,
+                StageCanvas& canvas) {
   const FaceWindow window(pair, canvas.side());
   Range range;
   for (const auto& p : points.points) range.add(p.at_mm.z);
   Dots dots(canvas);
-  for (const auto& p : points.points) dots.add(window.x(p.left_px.x), window.y(p.left_px.y), range.share(p.at_mm.z));
+  for (const auto& p : points.points)
+    dots.add(window.x(p.left_px.x), window.y(p.left_px.y), range.share(p.at_mm.z));
   dots.draw();
 }
 
-void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas) {
+void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh,
+                  const pipeline::TextureAtlas* skin, StageCanvas& canvas) {
   const FaceWindow window(pair, canvas.side());
-  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()), std::numeric_limits<float>::max());
+  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()),
+                           std::numeric_limits<float>::max());
   const bool coloured = skin != nullptr && skin->vertex_rgb.size() >= 3 * mesh.vertices_mm.size();
   const auto corner = [&](std::uint32_t i) {
     const auto& v = mesh.vertices_mm[i];
@@ -170,18 +195,26 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
     const pipeline::Vec3d p = apply(pair.rectified_from_left, pipeline::Vec3d{v.x, v.y, v.z});
     const double lit = std::max(0.0, -0.45 * n.x - 0.35 * n.y - 0.82 * n.z);
     Rgb colour = clay(lit);
-    if (coloured) colour = {1.0 * skin->vertex_rgb[3 * i], 1.0 * skin->vertex_rgb[3 * i + 1], 1.0 * skin->vertex_rgb[3 * i + 2]};
-    return Corner{window.x(pair.focal_px * p.x / p.z + pair.left_centre_px.x), window.y(pair.focal_px * p.y / p.z + pair.left_centre_px.y), p.z, colour};
+    if (coloured)
+      colour = {1.0 * skin->vertex_rgb[3 * i], 1.0 * skin->vertex_rgb[3 * i + 1],
+                1.0 * skin->vertex_rgb[3 * i + 2]};
+    return Corner{window.x(pair.focal_px * p.x / p.z + pair.left_centre_px.x),
+                  window.y(pair.focal_px * p.y / p.z + pair.left_centre_px.y), p.z, colour};
   };
   for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
 }
 
-void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera, double turned_deg, double across_mm, StageCanvas& canvas) {
+void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
+               double turned_deg, double across_mm, StageCanvas& canvas) {
   constexpr double kPi = 3.14159265358979323846;
-  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()), std::numeric_limits<float>::max());
-  const double side = canvas.side(), c = std::cos(turned_deg * kPi / 180), s = std::sin(turned_deg * kPi / 180);
+  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()),
+                           std::numeric_limits<float>::max());
+  const double side = canvas.side(), c = std::cos(turned_deg * kPi / 180),
+               s = std::sin(turned_deg * kPi / 180);
   const pipeline::Rotation turn{{c, 0, s, 0, 1, 0, -s, 0, c}};
-  const auto turned = [&](const pipeline::Vec3f& v) { return apply(turn, apply(head_from_camera, pipeline::Vec3d{v.x, v.y, v.z})); };
+  const auto turned = [&](const pipeline::Vec3f& v) {
+    return apply(turn, apply(head_from_camera, pipeline::Vec3d{v.x, v.y, v.z}));
+  };
   Range x, y;
   for (const auto& v : mesh.vertices_mm) {
     const pipeline::Vec3d p = turned(v);
@@ -193,7 +226,8 @@ void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& h
     const pipeline::Vec3f& n = mesh.normals[i];
     const pipeline::Vec3d m = apply(turn, apply(head_from_camera.rotation, pipeline::Vec3d{n.x, n.y, n.z}));
     const double lit = std::max(0.0, -0.45 * m.x + 0.35 * m.y + 0.82 * m.z);
-    return Corner{side * (0.5 + (p.x - middle_x) / across_mm), side * (0.5 - (p.y - middle_y) / across_mm), -p.z, clay(lit)};
+    return Corner{side * (0.5 + (p.x - middle_x) / across_mm), side * (0.5 - (p.y - middle_y) / across_mm),
+                  -p.z, clay(lit)};
   };
   for (const auto& t : mesh.triangles) triangle(corner(t[0]), corner(t[1]), corner(t[2]), depth, canvas);
 }

@@ -3,8 +3,8 @@
 //
 // How the products of the stages are drawn as the left camera sees them: on a square canvas that shows the
 // face, for the visitor's small pictures (stage_picture.h) and the technician's large ones.
-// Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface and the cells of dots.
-// Thread: worker. Errors: none; what is missing stays dark.
+// Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface and the cells
+// of dots. Thread: worker. Errors: none; what is missing stays dark.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class StageCanvas {
   void put(int x, int y, const Rgb& c) {
     if (x >= 0 && y >= 0 && x < side_ && y < side_) put_at(static_cast<std::ptrdiff_t>(y) * side_ + x, c);
   }
-  void blend(int x, int y, const Rgb& c, double share);   // over what is there
+  void blend(int x, int y, const Rgb& c, double share);  // over what is there
 
  private:
   void put_at(std::ptrdiff_t i, const Rgb& c);
@@ -58,14 +58,18 @@ class FaceWindow {
 
 // The left view, `share` of its brightness.
 void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas);
-// Accepted matches over the photograph, coloured by their depth: as dots, at most one in five pixels each way.
+// Accepted matches over the photograph, coloured by their depth: as dots, at most one in five pixels each
+// way.
 void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& set, StageCanvas& canvas);
 // The points, drawn as matches are.
 void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud& points, StageCanvas& canvas);
 // With the skin's colours where they are known, else as clay.
-void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh, const pipeline::TextureAtlas* skin, StageCanvas& canvas);
-// As clay, in parallel projection: the head as somebody before it sees it (pipeline/mesh/landmarks/head_frame.h), turned
-// by so many degrees towards its own left; the surface in the middle of the canvas, which is `across_mm` wide.
-void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera, double turned_deg, double across_mm, StageCanvas& canvas);
+void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh,
+                  const pipeline::TextureAtlas* skin, StageCanvas& canvas);
+// As clay, in parallel projection: the head as somebody before it sees it
+// (pipeline/mesh/landmarks/head_frame.h), turned by so many degrees towards its own left; the surface in the
+// middle of the canvas, which is `across_mm` wide.
+void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
+               double turned_deg, double across_mm, StageCanvas& canvas);
 
 }  // namespace relievo::firmware

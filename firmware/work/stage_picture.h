@@ -3,7 +3,8 @@
 //
 // What a stage made, drawn small as the left camera sees it: the matches coloured by their depth over
 // the photograph, the points, the surface under a lamp, the surface with its colours.
-// Allocates nothing but one depth buffer or the cells of dots. Thread: worker. Errors: none; what is missing stays dark.
+// Allocates nothing but one depth buffer or the cells of dots. Thread: worker. Errors: none; what is missing
+// stays dark.
 #pragma once
 
 #include "firmware/machine/transition.h"

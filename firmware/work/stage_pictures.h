@@ -30,7 +30,8 @@ class StagePictures {
   void done(std::size_t stage) { pictures_[stage].number = ++count_; }
   std::uint32_t number(std::size_t stage) const { return pictures_[stage].number; }  // 0: not drawn
   ImageView view(std::size_t stage) const {
-    return {reinterpret_cast<const std::byte*>(pictures_[stage].rgb.data()), kSide, kSide, 3 * kSide, PixelFormat::Rgb8};
+    return {reinterpret_cast<const std::byte*>(pictures_[stage].rgb.data()), kSide, kSide, 3 * kSide,
+            PixelFormat::Rgb8};
   }
   void wipe() {
     for (One& one : pictures_) {

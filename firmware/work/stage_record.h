@@ -12,10 +12,10 @@
 namespace relievo::firmware {
 
 struct StageRecord {
-  std::string_view name;       // Match, Reconstruct, Mesh, Texture
+  std::string_view name;  // Match, Reconstruct, Mesh, Texture
   std::chrono::nanoseconds took{0};
-  std::uint64_t in = 0;        // what the stage was given: pixels, matches, points, triangles
-  std::uint64_t out = 0;       // and what it made: matches, points, triangles, texels
+  std::uint64_t in = 0;              // what the stage was given: pixels, matches, points, triangles
+  std::uint64_t out = 0;             // and what it made: matches, points, triangles, texels
   std::size_t arena_peak_bytes = 0;  // of both arenas together
 };
 

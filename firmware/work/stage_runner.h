@@ -18,7 +18,8 @@ class StageRunner {
   virtual ~StageRunner() = default;
   // `stage` is Match, Reconstruct, Mesh or Texture; the products of the stages before are there.
   // Fills in and out of the record.
-  virtual Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) = 0;
+  virtual Result<void> run(State stage, Products& products, pipeline::StageContext& context,
+                           StageRecord& record) = 0;
 };
 
 }  // namespace relievo::firmware

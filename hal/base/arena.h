@@ -57,9 +57,7 @@ class Arena final : public std::pmr::memory_resource {
     return place;
   }
   void do_deallocate(void*, std::size_t, std::size_t) override {}
-  bool do_is_equal(const memory_resource& other) const noexcept override {
-    return this == &other;
-  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
   std::span<std::byte> block_;
   std::size_t used_ = 0;

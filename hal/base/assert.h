@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#define RELIEVO_ASSERT(condition)                                                        \
-  do {                                                                                   \
-    if (!(condition)) {                                                                  \
+#define RELIEVO_ASSERT(condition)                                                          \
+  do {                                                                                     \
+    if (!(condition)) {                                                                    \
       std::fprintf(stderr, "relievo: bug: %s at %s:%d\n", #condition, __FILE__, __LINE__); \
-      std::abort();                                                                      \
-    }                                                                                    \
+      std::abort();                                                                        \
+    }                                                                                      \
   } while (false)

@@ -18,8 +18,8 @@ namespace relievo {
 
 // What went wrong, as far as anyone can act on it.
 enum class Errc : std::uint8_t {
-  InvalidInput,   // a file, a picture, a number or a name that cannot be used
-  NotFound,       // it is not there
+  InvalidInput,  // a file, a picture, a number or a name that cannot be used
+  NotFound,      // it is not there
   Timeout,
   Disconnected,
   NotCalibrated,
@@ -75,8 +75,9 @@ template <typename T>
 class [[nodiscard]] Result {
  public:
   // Implicit on purpose, as std::expected: `return value;` and `return Error{…};`.
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}   // NOLINT(google-explicit-constructor)
-  Result(Error error) : state_(std::in_place_index<1>, error) {}          // NOLINT(google-explicit-constructor)
+  Result(T value)
+      : state_(std::in_place_index<0>, std::move(value)) {}       // NOLINT(google-explicit-constructor)
+  Result(Error error) : state_(std::in_place_index<1>, error) {}  // NOLINT(google-explicit-constructor)
 
   bool has_value() const { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
@@ -111,10 +112,9 @@ class [[nodiscard]] Result<void> {
 
 // The two macros of the code base: hand the error to the caller, unchanged.
 // NOLINTBEGIN(bugprone-macro-parentheses)
-#define RELIEVO_TRY(expression)                                \
-  do {                                                         \
-    if (auto relievo_result = (expression); !relievo_result)   \
-      return relievo_result.error();                           \
+#define RELIEVO_TRY(expression)                                                             \
+  do {                                                                                      \
+    if (auto relievo_result = (expression); !relievo_result) return relievo_result.error(); \
   } while (false)
 
 #define RELIEVO_JOIN_(a, b) a##b

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sentence: words for people with values in them, kept apart, so that the words can be said in another language.
-// The key is the English text with {} for each value, in their order; values are text already (a number with a
-// point for its decimals, a name), units stand in the key. Tabs and line ends in a value become blanks.
+// Sentence: words for people with values in them, kept apart, so that the words can be said in another
+// language. The key is the English text with {} for each value, in their order; values are text already (a
+// number with a point for its decimals, a name), units stand in the key. Tabs and line ends in a value become
+// blanks.
 //
 // Packed, it is one line for a store, a log or a page: KEY, then a tab and a value for each.
 // Errors: none but those of memory. Thread: any.
@@ -58,7 +59,8 @@ class Sentence {
  private:
   void add(std::string_view value) {
     std::string& added = values_.emplace_back(value);
-    std::replace_if(added.begin(), added.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
+    std::replace_if(
+        added.begin(), added.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
   }
 
   std::string_view key_;  // a literal's

@@ -58,7 +58,8 @@ void ThreadPool::for_each_band(int count, int bands, const Band& work) {
   open_ = bands;
   cursor_ = (cursor_ & ~kLeft) + kRound + static_cast<std::uint64_t>(bands);
   if (asleep_ > 0) {
-    // A sleeper looks at the cursor under the lock before it sleeps: it has either seen this round or hears this.
+    // A sleeper looks at the cursor under the lock before it sleeps: it has either seen this round or hears
+    // this.
     { const std::lock_guard lock(mutex_); }
     wake_.notify_all();
   }

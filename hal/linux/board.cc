@@ -16,7 +16,8 @@ class NoLine final : public TriggerLine {
 
  private:
   Result<void> do_pulse(std::chrono::microseconds, Light light) override {
-    if (light == Light::Flash) return Error{Errc::Unsupported, "this board has no trigger wire, and so no lamp"};
+    if (light == Light::Flash)
+      return Error{Errc::Unsupported, "this board has no trigger wire, and so no lamp"};
     return {};
   }
 };

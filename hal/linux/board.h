@@ -6,13 +6,13 @@
 // stands in a TOML file:
 //
 //   [mode]     width_px = 1920   height_px = 1200   exposure_us = 4000        of one view
-//   [left]     device = "/dev/v4l/by-path/…"   serial = "…"   format = "GREY"   serial and format may be left out
-//   [right]    the same; or, instead of [left] and [right]:
-//   [both]     device = "…"   one device, the left view left
-//   [trigger]  chip = "/dev/gpiochip0"   line = 17   active_low = false   delay_us = 0      may be left out
-//   [lamp]     line = 18   lead_us = 200   time_us = 5000   or   on_trigger_wire = true     may be left out
-//   [stick]    folder = "/media/relievo"   where the system mounts sticks                    may be left out
-//   [watchdog] device = "/dev/watchdog"   timeout_s = 10                                     may be left out
+//   [left]     device = "/dev/v4l/by-path/…"   serial = "…"   format = "GREY"   serial and format may be left
+//   out [right]    the same; or, instead of [left] and [right]: [both]     device = "…"   one device, the
+//   left view left [trigger]  chip = "/dev/gpiochip0"   line = 17   active_low = false   delay_us = 0 may be
+//   left out [lamp]     line = 18   lead_us = 200   time_us = 5000   or   on_trigger_wire = true     may be
+//   left out [stick]    folder = "/media/relievo"   where the system mounts sticks                    may be
+//   left out [watchdog] device = "/dev/watchdog"   timeout_s = 10                                     may be
+//   left out
 //
 // Thread: making: main; the devices as their headers say.
 #pragma once
@@ -26,19 +26,19 @@
 #include "hal/board.h"
 #include "hal/linux/hardware_watchdog.h"
 #include "hal/linux/kernel.h"
+#include "hal/linux/v4l2_camera.h"
 #include "hal/linux/wire/gpio_trigger_line.h"
 #include "hal/linux/wire/output_lines.h"
-#include "hal/linux/v4l2_camera.h"
 
 namespace relievo::hal {
 
 struct LinuxBoardOptions {
   CaptureMode mode;
-  V4l2CameraOptions left;               // or both views
-  std::optional<V4l2CameraOptions> right;   // none: the left device gives both views
-  std::optional<GpioOptions> trigger;   // none: the cameras run on their own
+  V4l2CameraOptions left;                  // or both views
+  std::optional<V4l2CameraOptions> right;  // none: the left device gives both views
+  std::optional<GpioOptions> trigger;      // none: the cameras run on their own
   GpioTiming timing;
-  std::string stick_folder;             // empty: no stick
+  std::string stick_folder;  // empty: no stick
   std::optional<WatchdogOptions> watchdog;
 };
 
@@ -46,7 +46,9 @@ struct LinuxBoardOptions {
 // line), IoFailed.
 Result<LinuxBoardOptions> read_linux_board_file(const std::filesystem::path& file);
 
-// Requests the GPIO lines and arms the watchdog; the cameras open when the appliance asks. Errors: the lines', the watchdog's.
-Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options, Kernel& kernel = real_kernel());
+// Requests the GPIO lines and arms the watchdog; the cameras open when the appliance asks. Errors: the
+// lines', the watchdog's.
+Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options,
+                                                Kernel& kernel = real_kernel());
 
 }  // namespace relievo::hal

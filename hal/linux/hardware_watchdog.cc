@@ -14,9 +14,15 @@ constexpr std::chrono::seconds kLeast{2}, kMost{300};
 Error cannot_open(int negative_errno, const std::string& device) {
   const int number = -negative_errno;
   if (number == ENOENT || number == ENODEV || number == ENXIO)
-    return Error{Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out", number}.at(device);
-  if (number == EBUSY) return Error{Errc::IoFailed, "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set", number}.at(device);
-  if (number == EACCES || number == EPERM) return Error{Errc::IoFailed, "this user may not open the watchdog", number}.at(device);
+    return Error{Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out",
+                 number}
+        .at(device);
+  if (number == EBUSY)
+    return Error{Errc::IoFailed,
+                 "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set", number}
+        .at(device);
+  if (number == EACCES || number == EPERM)
+    return Error{Errc::IoFailed, "this user may not open the watchdog", number}.at(device);
   return Error{Errc::IoFailed, "the watchdog cannot be opened", number}.at(device);
 }
 
@@ -24,13 +30,19 @@ Error cannot_open(int negative_errno, const std::string& device) {
 Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::seconds wanted) {
   int seconds = static_cast<int>(wanted.count());
   const int set = call(kernel, file, WDIOC_SETTIMEOUT, &seconds);
-  if (set == -EINVAL) return Error{Errc::InvalidInput, "the watchdog cannot wait so long or so short: choose another timeout_s", EINVAL};
-  if (set < 0 && call(kernel, file, WDIOC_GETTIMEOUT, &seconds) < 0) return Error{Errc::IoFailed, "the watchdog does not tell its time", -set};
-  if (seconds < kLeast.count()) return Error{Errc::InvalidInput, "the watchdog waits for less than two seconds: the loop may rest so long"};
+  if (set == -EINVAL)
+    return Error{Errc::InvalidInput, "the watchdog cannot wait so long or so short: choose another timeout_s",
+                 EINVAL};
+  if (set < 0 && call(kernel, file, WDIOC_GETTIMEOUT, &seconds) < 0)
+    return Error{Errc::IoFailed, "the watchdog does not tell its time", -set};
+  if (seconds < kLeast.count())
+    return Error{Errc::InvalidInput,
+                 "the watchdog waits for less than two seconds: the loop may rest so long"};
   return std::chrono::seconds(seconds);
 }
 
-// A driver that never rests ("nowayout") restarts the machine once nobody kicks it: nothing can be done about that.
+// A driver that never rests ("nowayout") restarts the machine once nobody kicks it: nothing can be done about
+// that.
 void put_to_rest(Kernel& kernel, int file) {
   int rest = WDIOS_DISABLECARD;
   (void)call(kernel, file, WDIOC_SETOPTIONS, &rest);
@@ -41,11 +53,13 @@ void put_to_rest(Kernel& kernel, int file) {
 
 Result<void> WatchdogOptions::check() const {
   if (device.empty()) return Error{Errc::InvalidInput, "the watchdog's device is missing"}.at("[watchdog]");
-  if (timeout < kLeast || timeout > kMost) return Error{Errc::InvalidInput, "timeout_s must lie in 2 .. 300"}.at("[watchdog]");
+  if (timeout < kLeast || timeout > kMost)
+    return Error{Errc::InvalidInput, "timeout_s must lie in 2 .. 300"}.at("[watchdog]");
   return {};
 }
 
-Result<std::unique_ptr<HardwareWatchdog>> HardwareWatchdog::open(const WatchdogOptions& options, Kernel& kernel, const Clock& clock) {
+Result<std::unique_ptr<HardwareWatchdog>> HardwareWatchdog::open(const WatchdogOptions& options,
+                                                                 Kernel& kernel, const Clock& clock) {
   RELIEVO_TRY(options.check());
   int file = kernel.open(options.device.c_str());
   while (file == -EINTR) file = kernel.open(options.device.c_str());

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// HardwareWatchdog: the kernel's watchdog device (Documentation/watchdog/watchdog-api.rst). From open() on the machine is restarted when
-// nobody kicks it for the given time, the process having died included; a destroyed watchdog is at rest again, where the driver lets it.
-// Thread: main.
+// HardwareWatchdog: the kernel's watchdog device (Documentation/watchdog/watchdog-api.rst). From open() on
+// the machine is restarted when nobody kicks it for the given time, the process having died included; a
+// destroyed watchdog is at rest again, where the driver lets it. Thread: main.
 #pragma once
 
 #include <chrono>
@@ -20,14 +20,16 @@ namespace relievo::hal {
 struct WatchdogOptions {
   std::string device = "/dev/watchdog";
   std::chrono::seconds timeout{10};
-  Result<void> check() const;   // InvalidInput
+  Result<void> check() const;  // InvalidInput
 };
 
 class HardwareWatchdog final : public Watchdog {
  public:
-  // The device is armed when this returns. A driver whose time is fixed keeps its own, two seconds at the least.
-  // Errors: InvalidInput, NotFound (no such device), IoFailed (in use, not allowed, the driver refuses).
-  static Result<std::unique_ptr<HardwareWatchdog>> open(const WatchdogOptions& options, Kernel& kernel, const Clock& clock);
+  // The device is armed when this returns. A driver whose time is fixed keeps its own, two seconds at the
+  // least. Errors: InvalidInput, NotFound (no such device), IoFailed (in use, not allowed, the driver
+  // refuses).
+  static Result<std::unique_ptr<HardwareWatchdog>> open(const WatchdogOptions& options, Kernel& kernel,
+                                                        const Clock& clock);
   ~HardwareWatchdog() override;
   HardwareWatchdog(const HardwareWatchdog&) = delete;
   HardwareWatchdog& operator=(const HardwareWatchdog&) = delete;
@@ -37,7 +39,8 @@ class HardwareWatchdog final : public Watchdog {
   std::chrono::seconds timeout() const { return timeout_; }
 
  private:
-  HardwareWatchdog(Kernel& kernel, const Clock& clock, int file, std::chrono::seconds timeout) : kernel_(kernel), clock_(clock), file_(file), timeout_(timeout) {}
+  HardwareWatchdog(Kernel& kernel, const Clock& clock, int file, std::chrono::seconds timeout)
+      : kernel_(kernel), clock_(clock), file_(file), timeout_(timeout) {}
   Kernel& kernel_;
   const Clock& clock_;
   int file_;

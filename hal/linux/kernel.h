@@ -17,7 +17,7 @@ namespace relievo::hal {
 class Kernel {
  public:
   virtual ~Kernel() = default;
-  virtual int open(const char* path) = 0;                       // to read and write, never blocking
+  virtual int open(const char* path) = 0;  // to read and write, never blocking
   virtual int close(int file) = 0;
   virtual int ioctl(int file, unsigned long request, void* argument) = 0;
   virtual void* map(int file, std::size_t bytes, std::uint32_t offset) = 0;  // nullptr: refused

@@ -21,9 +21,12 @@ class RealKernel final : public Kernel {
  public:
   int open(const char* path) override { return or_errno(::open(path, O_RDWR | O_NONBLOCK | O_CLOEXEC)); }
   int close(int file) override { return or_errno(::close(file)); }
-  int ioctl(int file, unsigned long request, void* argument) override { return or_errno(::ioctl(file, request, argument)); }
+  int ioctl(int file, unsigned long request, void* argument) override {
+    return or_errno(::ioctl(file, request, argument));
+  }
   void* map(int file, std::size_t bytes, std::uint32_t offset) override {
-    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, static_cast<off_t>(offset));
+    void* const memory =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, static_cast<off_t>(offset));
     return memory == MAP_FAILED ? nullptr : memory;
   }
   void unmap(void* memory, std::size_t bytes) override { ::munmap(memory, bytes); }
@@ -37,7 +40,8 @@ class RealKernel final : public Kernel {
     std::error_code failed;
     const auto node = std::filesystem::canonical(path, failed);
     if (failed) return {};
-    const auto interface = std::filesystem::canonical("/sys/class/video4linux" / node.filename() / "device", failed);
+    const auto interface =
+        std::filesystem::canonical("/sys/class/video4linux" / node.filename() / "device", failed);
     if (failed) return {};
     std::string serial;
     std::ifstream file(interface.parent_path() / "serial");

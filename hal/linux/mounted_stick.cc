@@ -25,8 +25,11 @@ class RealMounts final : public Mounts {
  public:
   // A folder on another device than its parent is where something is mounted.
   std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) override {
-    struct stat own {}, above {};
-    if (::lstat(folder.c_str(), &own) != 0 || !S_ISDIR(own.st_mode) || ::stat((folder / "..").c_str(), &above) != 0 || own.st_dev == above.st_dev) return std::nullopt;
+    struct stat own {
+    }, above{};
+    if (::lstat(folder.c_str(), &own) != 0 || !S_ISDIR(own.st_mode) ||
+        ::stat((folder / "..").c_str(), &above) != 0 || own.st_dev == above.st_dev)
+      return std::nullopt;
     struct statvfs info {};
     if (::statvfs(folder.c_str(), &info) != 0) return std::nullopt;
     return static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
@@ -47,16 +50,25 @@ class RealMounts final : public Mounts {
   int mount_read_only(const MountSource& source, const std::filesystem::path& folder) override {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    return ::mount(source.device.c_str(), folder.c_str(), source.type.c_str(), MS_RDONLY | MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0 ? 0 : -errno;
+    return ::mount(source.device.c_str(), folder.c_str(), source.type.c_str(),
+                   MS_RDONLY | MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0
+               ? 0
+               : -errno;
   }
-  int unmount(const std::filesystem::path& folder) override { return ::umount2(folder.c_str(), UMOUNT_NOFOLLOW) == 0 ? 0 : -errno; }
+  int unmount(const std::filesystem::path& folder) override {
+    return ::umount2(folder.c_str(), UMOUNT_NOFOLLOW) == 0 ? 0 : -errno;
+  }
 };
 
 Error cannot_unmount(int negative_errno) {
-  if (negative_errno == -EBUSY) return {Errc::IoFailed, "something still uses the stick: wait a little and eject it again", EBUSY};
+  if (negative_errno == -EBUSY)
+    return {Errc::IoFailed, "something still uses the stick: wait a little and eject it again", EBUSY};
   if (negative_errno == -EPERM || negative_errno == -EACCES)
-    return {Errc::IoFailed, "everything is written, but this user may not unmount the stick: see hal/linux/README.md", -negative_errno};
-  if (negative_errno == -EINVAL || negative_errno == -ENOENT) return {Errc::MediaMissing, "the stick is gone", -negative_errno};
+    return {Errc::IoFailed,
+            "everything is written, but this user may not unmount the stick: see hal/linux/README.md",
+            -negative_errno};
+  if (negative_errno == -EINVAL || negative_errno == -ENOENT)
+    return {Errc::MediaMissing, "the stick is gone", -negative_errno};
   return {Errc::IoFailed, "the stick could not be unmounted; do not trust what was written", -negative_errno};
 }
 
@@ -65,7 +77,8 @@ std::string unescaped(std::string_view text) {
   std::string plain;
   const auto octal = [](char c) { return c >= '0' && c <= '7'; };
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && i + 3 < text.size() && octal(text[i + 1]) && octal(text[i + 2]) && octal(text[i + 3])) {
+    if (text[i] == '\\' && i + 3 < text.size() && octal(text[i + 1]) && octal(text[i + 2]) &&
+        octal(text[i + 3])) {
       plain += static_cast<char>((text[i + 1] - '0') * 64 + (text[i + 2] - '0') * 8 + (text[i + 3] - '0'));
       i += 3;
     } else {
@@ -84,7 +97,8 @@ std::optional<MountSource> source_in(std::string_view mountinfo, std::string_vie
     std::istringstream words(line);
     std::string id, parent, device, root, at, word;
     if (!(words >> id >> parent >> device >> root >> at) || unescaped(at) != folder) continue;
-    while (words >> word && word != "-") {}   // options, as many as there are
+    while (words >> word && word != "-") {
+    }  // options, as many as there are
     std::string type, source;
     if (words >> type >> source) found = MountSource{unescaped(source), type};
   }
@@ -100,7 +114,8 @@ std::optional<Medium> MountedStick::find() const {
   if (const auto free = mounts_.free_at(folder_)) return Medium{folder_, *free};
   std::error_code failed;
   std::vector<std::filesystem::path> below;
-  for (std::filesystem::directory_iterator entry(folder_, failed), end; !failed && entry != end && below.size() < kMostFolders; entry.increment(failed))
+  for (std::filesystem::directory_iterator entry(folder_, failed), end;
+       !failed && entry != end && below.size() < kMostFolders; entry.increment(failed))
     below.push_back(entry->path());
   std::sort(below.begin(), below.end());
   for (const std::filesystem::path& path : below)
@@ -120,11 +135,13 @@ Result<void> MountedStick::flush_and_eject() {
   if (const int flushed = mounts_.flush(medium->root); flushed == -ENOENT || flushed == -ENODEV) {
     return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(medium->root.native());
   } else if (flushed < 0) {
-    return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}.at(medium->root.native());
+    return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}
+        .at(medium->root.native());
   }
   const auto source = mounts_.source_of(medium->root);
   ejected_.reset();
-  if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0) return cannot_unmount(unmounted).at(medium->root.native());
+  if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0)
+    return cannot_unmount(unmounted).at(medium->root.native());
   if (source) ejected_ = Ejected{*source, medium->root};
   return {};
 }
@@ -134,8 +151,11 @@ Result<void> MountedStick::take_up_again() {
   if (!ejected_) return Error{Errc::MediaMissing, "the stick is gone"};
   const Ejected again = *std::exchange(ejected_, std::nullopt);
   const int mounted = mounts_.mount_read_only(again.source, again.root);
-  if (mounted == -ENOENT || mounted == -ENODEV || mounted == -ENXIO || mounted == -ENOMEDIUM) return Error{Errc::MediaMissing, "the stick is gone", -mounted}.at(again.root.native());
-  if (mounted < 0) return Error{Errc::Unsupported, "the stick could not be mounted again: use another stick", -mounted}.at(again.root.native());
+  if (mounted == -ENOENT || mounted == -ENODEV || mounted == -ENXIO || mounted == -ENOMEDIUM)
+    return Error{Errc::MediaMissing, "the stick is gone", -mounted}.at(again.root.native());
+  if (mounted < 0)
+    return Error{Errc::Unsupported, "the stick could not be mounted again: use another stick", -mounted}.at(
+        again.root.native());
   return {};
 }
 

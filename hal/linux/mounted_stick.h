@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// MountedStick: the stick that the system has mounted, at a folder or, as udisks does, in one below it. The system mounts; this looks,
-// flushes and unmounts; and mounts it once more, to be read only, for who wants to know what it has kept. Thread: any.
+// MountedStick: the stick that the system has mounted, at a folder or, as udisks does, in one below it. The
+// system mounts; this looks, flushes and unmounts; and mounts it once more, to be read only, for who wants to
+// know what it has kept. Thread: any.
 #pragma once
 
 #include <mutex>
@@ -16,8 +17,8 @@ namespace relievo::hal {
 
 // What is mounted at a folder.
 struct MountSource {
-  std::string device;   // "/dev/sdb1"
-  std::string type;     // of its file system, "vfat"
+  std::string device;  // "/dev/sdb1"
+  std::string type;    // of its file system, "vfat"
 };
 
 // The system calls, behind a seam. Errors are negative errnos.
@@ -26,10 +27,12 @@ class Mounts {
   virtual ~Mounts() = default;
   // Whether something is mounted at this very folder, and what room it has.
   virtual std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) = 0;
-  virtual int flush(const std::filesystem::path& folder) = 0;     // syncfs
-  virtual int unmount(const std::filesystem::path& folder) = 0;   // umount2, never lazily
-  virtual std::optional<MountSource> source_of(const std::filesystem::path& folder) = 0;   // /proc/self/mountinfo
-  virtual int mount_read_only(const MountSource& source, const std::filesystem::path& folder) = 0;   // mount, nosuid, nodev, noexec
+  virtual int flush(const std::filesystem::path& folder) = 0;    // syncfs
+  virtual int unmount(const std::filesystem::path& folder) = 0;  // umount2, never lazily
+  virtual std::optional<MountSource> source_of(
+      const std::filesystem::path& folder) = 0;  // /proc/self/mountinfo
+  virtual int mount_read_only(const MountSource& source,
+                              const std::filesystem::path& folder) = 0;  // mount, nosuid, nodev, noexec
 };
 Mounts& real_mounts();
 // Of a table in the form of /proc/self/mountinfo (proc(5)), the newest entry of this folder.
@@ -37,13 +40,16 @@ std::optional<MountSource> source_in(std::string_view mountinfo, std::string_vie
 
 class MountedStick final : public RemovableMedia {
  public:
-  explicit MountedStick(std::filesystem::path folder, Mounts& mounts = real_mounts()) : folder_(std::move(folder)), mounts_(mounts) {}
+  explicit MountedStick(std::filesystem::path folder, Mounts& mounts = real_mounts())
+      : folder_(std::move(folder)), mounts_(mounts) {}
 
   // Of several sticks the first by name.
   std::optional<Medium> current() override;
-  // Errors: MediaMissing (none, or pulled out meanwhile), IoFailed (not flushed: nothing written can be trusted; still in use; not allowed).
+  // Errors: MediaMissing (none, or pulled out meanwhile), IoFailed (not flushed: nothing written can be
+  // trusted; still in use; not allowed).
   Result<void> flush_and_eject() override;
-  // Where it was. Errors: MediaMissing (none was ejected, or it was pulled out meanwhile), Unsupported (the system does not mount it).
+  // Where it was. Errors: MediaMissing (none was ejected, or it was pulled out meanwhile), Unsupported (the
+  // system does not mount it).
   Result<void> take_up_again() override;
 
  private:

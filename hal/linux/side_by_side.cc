@@ -9,7 +9,8 @@
 namespace relievo::hal {
 
 Result<void> SideBySide::open(int side, const CaptureMode& mode) {
-  if (device_.state() == Camera::State::Closed) RELIEVO_TRY(device_.open({2 * mode.width_px, mode.height_px, mode.exposure}));
+  if (device_.state() == Camera::State::Closed)
+    RELIEVO_TRY(device_.open({2 * mode.width_px, mode.height_px, mode.exposure}));
   opened_[static_cast<std::size_t>(side)] = true;
   return {};
 }
@@ -26,7 +27,8 @@ void SideBySide::close(int side) {
 }
 
 Result<void> SideBySide::start(int side) {
-  if (device_.state() == Camera::State::Closed) return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
+  if (device_.state() == Camera::State::Closed)
+    return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
   if (device_.state() == Camera::State::Idle) RELIEVO_TRY(device_.start());
   running_[static_cast<std::size_t>(side)] = true;
   return {};
@@ -48,11 +50,15 @@ void SideBySide::tidy() {
 Result<Frame> SideBySide::next(int side, Instant deadline) {
   const auto mine = static_cast<std::size_t>(side);
   const std::size_t other = 1 - mine;
-  const auto waiting = std::find_if(pictures_.begin(), pictures_.end(), [&](const Shared& s) { return s.waits[mine]; });
+  const auto waiting =
+      std::find_if(pictures_.begin(), pictures_.end(), [&](const Shared& s) { return s.waits[mine]; });
   if (waiting != pictures_.end()) return lend(*waiting, side);
-  const auto room = std::find_if(pictures_.begin(), pictures_.end(), [](const Shared& s) { return !s.frame; });
-  if (room == pictures_.end()) return Error{Errc::Timeout, "every picture of this camera is lent out; give a frame back"};
-  if (device_.state() != Camera::State::Running) return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
+  const auto room =
+      std::find_if(pictures_.begin(), pictures_.end(), [](const Shared& s) { return !s.frame; });
+  if (room == pictures_.end())
+    return Error{Errc::Timeout, "every picture of this camera is lent out; give a frame back"};
+  if (device_.state() != Camera::State::Running)
+    return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
   auto taken = device_.next_frame(deadline);
   if (!taken) {
     dead_ = dead_ || taken.error().code == Errc::Disconnected;
@@ -78,18 +84,22 @@ Result<Frame> SideBySide::lend(Shared& shared, int side) {
   half.bytes += mine * row;
   half.size_bytes -= std::min(half.size_bytes, mine * row);
   const int slot = kSides * static_cast<int>(&shared - pictures_.data()) + side;
-  Frame frame(half, {shared.frame->exposed_at(), shared.frame->sequence(), shared.frame->damaged()}, &SideBySide::give_back, this, slot);
+  Frame frame(half, {shared.frame->exposed_at(), shared.frame->sequence(), shared.frame->damaged()},
+              &SideBySide::give_back, this, slot);
   if (whole.format.coding == RawCoding::Mjpeg)
-    return Error{Errc::Unsupported, "motion JPEG of both views side by side cannot be halved: choose another format"};
+    return Error{Errc::Unsupported,
+                 "motion JPEG of both views side by side cannot be halved: choose another format"};
   // A row of the left half must end where the right half's begins.
   if (2 * row != raw_row_bytes(whole.format.coding, whole.width_px))
-    return Error{Errc::Unsupported, "this width cannot be halved in the camera's format: choose another mode"};
+    return Error{Errc::Unsupported,
+                 "this width cannot be halved in the camera's format: choose another mode"};
   return frame;
 }
 
 void SideBySide::give_back(void* owner, int slot) {
   auto* both = static_cast<SideBySide*>(owner);
-  both->pictures_[static_cast<std::size_t>(slot / kSides)].lent[static_cast<std::size_t>(slot % kSides)] = false;
+  both->pictures_[static_cast<std::size_t>(slot / kSides)].lent[static_cast<std::size_t>(slot % kSides)] =
+      false;
   both->tidy();
 }
 

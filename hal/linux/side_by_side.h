@@ -47,7 +47,9 @@ class SideBySide {
     Result<Frame> do_next_frame(Instant deadline) override { return both_.next(side_, deadline); }
     void do_stop() override { both_.stop(side_); }
     void do_close() override { both_.close(side_); }
-    Result<void> do_set_exposure(const Exposure& exposure) override { return both_.device_.set_exposure(exposure); }
+    Result<void> do_set_exposure(const Exposure& exposure) override {
+      return both_.device_.set_exposure(exposure);
+    }
     Result<ExposureLimits> do_exposure_limits() const override { return both_.device_.exposure_limits(); }
     SideBySide& both_;
     int side_;

@@ -49,7 +49,8 @@ class Words {
     if (!value) wrong(node, word);
     return value.value_or(otherwise);
   }
-  std::int64_t number(const toml::table& table, std::string_view word, std::int64_t least, std::int64_t most, std::int64_t otherwise, bool must = false) {
+  std::int64_t number(const toml::table& table, std::string_view word, std::int64_t least, std::int64_t most,
+                      std::int64_t otherwise, bool must = false) {
     const auto value = get<std::int64_t>(table, word, otherwise, must);
     if (table.get(word) != nullptr && (value < least || value > most)) wrong(table.get(word), word);
     return value;
@@ -57,8 +58,10 @@ class Words {
   void wrong(const toml::node* node, std::string_view word) {
     if (problem_) return;
     const auto line = node == nullptr ? 0 : node->source().begin.line;
-    problem_ = Error{Errc::InvalidInput, "this word is missing, unknown or cannot be used: see hal/linux/README.md"}.at(
-        file_ + (line > 0 ? " line " + std::to_string(line) : std::string()) + ": " + std::string(word));
+    problem_ =
+        Error{Errc::InvalidInput, "this word is missing, unknown or cannot be used: see hal/linux/README.md"}
+            .at(file_ + (line > 0 ? " line " + std::to_string(line) : std::string()) + ": " +
+                std::string(word));
   }
   const std::optional<Error>& problem() const { return problem_; }
 
@@ -103,7 +106,8 @@ void read_wires(Words& words, LinuxBoardOptions& options) {
     options.timing.lamp_on_trigger_wire = words.get<bool>(*lamp, "on_trigger_wire", false);
     options.timing.lamp_lead = std::chrono::microseconds(words.number(*lamp, "lead_us", 0, longest, 0));
     options.timing.lamp_time = std::chrono::microseconds(words.number(*lamp, "time_us", 0, longest, 0));
-    if (!options.timing.lamp_on_trigger_wire) gpio.lamp = static_cast<unsigned>(words.number(*lamp, "line", 0, 4095, 0, true));
+    if (!options.timing.lamp_on_trigger_wire)
+      gpio.lamp = static_cast<unsigned>(words.number(*lamp, "line", 0, 4095, 0, true));
   }
   options.trigger = gpio;
 }
@@ -111,12 +115,14 @@ void read_wires(Words& words, LinuxBoardOptions& options) {
 void read_machine(Words& words, LinuxBoardOptions& options) {
   if (const toml::table* stick = words.table("stick", {"folder"})) {
     options.stick_folder = words.get<std::string>(*stick, "folder", {}, true);
-    if (!options.stick_folder.starts_with('/')) words.wrong(stick->get("folder"), "folder: the whole path, from / on");
+    if (!options.stick_folder.starts_with('/'))
+      words.wrong(stick->get("folder"), "folder: the whole path, from / on");
   }
   if (const toml::table* table = words.table("watchdog", {"device", "timeout_s"})) {
     WatchdogOptions watchdog;
     watchdog.device = words.get<std::string>(*table, "device", watchdog.device);
-    watchdog.timeout = std::chrono::seconds(words.number(*table, "timeout_s", 2, 300, watchdog.timeout.count()));
+    watchdog.timeout =
+        std::chrono::seconds(words.number(*table, "timeout_s", 2, 300, watchdog.timeout.count()));
     options.watchdog = watchdog;
   }
 }
@@ -136,7 +142,8 @@ Result<LinuxBoardOptions> options_of(const toml::table& root, const std::string&
   } else if (both == nullptr && left != nullptr && right != nullptr) {
     options.left = camera_of(words, *left, options.trigger.has_value());
     options.right = camera_of(words, *right, options.trigger.has_value());
-    if (options.left.device == options.right->device) words.wrong(right->get("device"), "device: the same as left's");
+    if (options.left.device == options.right->device)
+      words.wrong(right->get("device"), "device: the same as left's");
   } else {
     words.wrong(nullptr, "either [left] and [right], or [both]");
   }

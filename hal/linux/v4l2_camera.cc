@@ -17,11 +17,17 @@ Error open_error(int negative_errno) {
   switch (-negative_errno) {
     case ENOENT:
     case ENODEV:
-    case ENXIO: return Error{Errc::NotFound, "there is no camera: check its plug, and its name under /dev/v4l/by-path", -negative_errno};
+    case ENXIO:
+      return Error{Errc::NotFound, "there is no camera: check its plug, and its name under /dev/v4l/by-path",
+                   -negative_errno};
     case EACCES:
-    case EPERM: return Error{Errc::IoFailed, "this camera may not be opened: add the user to the group video", -negative_errno};
-    case EBUSY: return Error{Errc::IoFailed, "another program uses this camera: close it", -negative_errno};
-    default: return Error{Errc::IoFailed, "this camera cannot be opened", -negative_errno};
+    case EPERM:
+      return Error{Errc::IoFailed, "this camera may not be opened: add the user to the group video",
+                   -negative_errno};
+    case EBUSY:
+      return Error{Errc::IoFailed, "another program uses this camera: close it", -negative_errno};
+    default:
+      return Error{Errc::IoFailed, "this camera cannot be opened", -negative_errno};
   }
 }
 
@@ -54,7 +60,8 @@ Result<void> V4l2Camera::do_open(const CaptureMode& mode) {
 Result<void> V4l2Camera::set_up(const CaptureMode& mode) {
   serial_ = kernel_.serial_of(options_.device.c_str());
   if (!options_.serial.empty() && options_.serial != serial_)
-    return Error{Errc::InvalidInput, "another camera is plugged in here than the one calibrated: swap it back, or calibrate"};
+    return Error{Errc::InvalidInput,
+                 "another camera is plugged in here than the one calibrated: swap it back, or calibrate"};
   RELIEVO_TRY_ASSIGN(stream_, set_up_stream(kernel_, file_, mode, options_.fourcc));
   if (options_.triggered) RELIEVO_TRY(set_external_trigger(kernel_, file_));
   if (mode.exposure.count() > 0) {
@@ -72,16 +79,20 @@ Result<void> V4l2Camera::map_buffers() {
   if (const int r = call(kernel_, file_, VIDIOC_REQBUFS, &wanted); r < 0) {
     if (r == -EBUSY) return Error{Errc::IoFailed, "another program uses this camera: close it", -r};
     if (r == -EINVAL) return Error{Errc::Unsupported, "this camera's driver cannot map its buffers", -r};
-    return device_error(r, {Errc::OutOfMemory, "the camera's driver has no memory for its buffers: choose a smaller mode"});
+    return device_error(
+        r, {Errc::OutOfMemory, "the camera's driver has no memory for its buffers: choose a smaller mode"});
   }
-  if (wanted.count < 2) return Error{Errc::OutOfMemory, "the camera's driver has no memory for its buffers: choose a smaller mode"};
+  if (wanted.count < 2)
+    return Error{Errc::OutOfMemory,
+                 "the camera's driver has no memory for its buffers: choose a smaller mode"};
   count_ = std::min<std::size_t>(wanted.count, kBuffers);
   for (std::size_t i = 0; i < count_; ++i) {
     v4l2_buffer buffer = empty_buffer(i);
     if (const int r = call(kernel_, file_, VIDIOC_QUERYBUF, &buffer); r < 0)
       return device_error(r, {Errc::IoFailed, "the camera does not describe its buffers"});
     buffers_[i] = {kernel_.map(file_, buffer.length, buffer.m.offset), buffer.length, false};
-    if (buffers_[i].memory == nullptr) return Error{Errc::OutOfMemory, "the camera's buffers cannot be mapped"};
+    if (buffers_[i].memory == nullptr)
+      return Error{Errc::OutOfMemory, "the camera's buffers cannot be mapped"};
   }
   return {};
 }
@@ -111,11 +122,12 @@ Result<void> V4l2Camera::do_start() {
   std::uint32_t type = kCapture;
   if (started) {
     if (const int r = call(kernel_, file_, VIDIOC_STREAMON, &type); r == -ENOSPC)
-      started = Error{Errc::IoFailed, "the bus has no room for this camera: use another controller, or a smaller mode", ENOSPC};
+      started =
+          Error{Errc::IoFailed,
+                "the bus has no room for this camera: use another controller, or a smaller mode", ENOSPC};
     else if (r == -ENOLINK)
       started = Error{Errc::Timeout, "the camera's input has no signal: check the cable", ENOLINK};
-    else if (r < 0)
-      started = device_error(r, {Errc::IoFailed, "the camera does not start"});
+    else if (r < 0) started = device_error(r, {Errc::IoFailed, "the camera does not start"});
   }
   streaming_ = started.has_value();
   // What was queued is taken back, so that the next start begins with all of them.
@@ -130,16 +142,20 @@ void V4l2Camera::do_stop() {
 }
 
 bool V4l2Camera::all_lent() const {
-  return std::all_of(buffers_.begin(), buffers_.begin() + static_cast<std::ptrdiff_t>(count_), [](const Buffer& b) { return b.lent; });
+  return std::all_of(buffers_.begin(), buffers_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [](const Buffer& b) { return b.lent; });
 }
 
 Result<void> V4l2Camera::wait(Instant deadline) {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(deadline - clock_.now());
   const int events = kernel_.poll(file_, static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000)));
-  if (events < 0 && events != -EINTR) return device_error(events, {Errc::IoFailed, "the camera cannot be waited for"});
-  if (events > 0 && (events & POLLHUP) != 0) return device_error(-ENODEV, {Errc::Disconnected, "the camera is gone: check its plug"});
-  if (events <= 0 && clock_.now() >= deadline) return Error{Errc::Timeout, "no picture came: check the trigger wire"};
+  if (events < 0 && events != -EINTR)
+    return device_error(events, {Errc::IoFailed, "the camera cannot be waited for"});
+  if (events > 0 && (events & POLLHUP) != 0)
+    return device_error(-ENODEV, {Errc::Disconnected, "the camera is gone: check its plug"});
+  if (events <= 0 && clock_.now() >= deadline)
+    return Error{Errc::Timeout, "no picture came: check the trigger wire"};
   return {};  // a picture, an error that taking it will tell, or a signal: look again
 }
 
@@ -151,18 +167,27 @@ Result<Frame> V4l2Camera::do_next_frame(Instant deadline) {
     if (r == -EAGAIN) RELIEVO_TRY(wait(deadline));
     else if (r < 0) return device_error(r, {Errc::IoFailed, "the camera's stream broke off"});
   }
-  if (buffer.index >= count_ || buffers_[buffer.index].lent) return Error{Errc::IoFailed, "the camera's driver gave a buffer that it does not have"};
+  if (buffer.index >= count_ || buffers_[buffer.index].lent)
+    return Error{Errc::IoFailed, "the camera's driver gave a buffer that it does not have"};
   Buffer& lent = buffers_[buffer.index];
   lent.lent = true;
-  const RawImage raw{static_cast<const std::byte*>(lent.memory), std::min<std::size_t>(buffer.bytesused, lent.bytes),
-                     stream_.width_px, stream_.height_px, stream_.stride_bytes, stream_.format};
-  const std::chrono::nanoseconds at = std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
+  const RawImage raw{static_cast<const std::byte*>(lent.memory),
+                     std::min<std::size_t>(buffer.bytesused, lent.bytes),
+                     stream_.width_px,
+                     stream_.height_px,
+                     stream_.stride_bytes,
+                     stream_.format};
+  const std::chrono::nanoseconds at =
+      std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
   // From here on the frame's end gives the buffer back, also when it is refused.
-  Frame frame(raw, {Instant(at), buffer.sequence, (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0}, &V4l2Camera::give_back, this, static_cast<int>(buffer.index));
+  Frame frame(raw, {Instant(at), buffer.sequence, (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0},
+              &V4l2Camera::give_back, this, static_cast<int>(buffer.index));
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN)
-    return Error{Errc::Unsupported, "the camera's driver gives no time stamps of the machine's clock: pairs cannot be judged"};
+    return Error{Errc::Unsupported,
+                 "the camera's driver gives no time stamps of the machine's clock: pairs cannot be judged"};
   if (buffer.field != V4L2_FIELD_NONE && buffer.field != V4L2_FIELD_ANY)
-    return Error{Errc::Unsupported, "this camera gives interlaced fields, between which a face moves: set a progressive mode"};
+    return Error{Errc::Unsupported,
+                 "this camera gives interlaced fields, between which a face moves: set a progressive mode"};
   return frame;
 }
 

@@ -41,7 +41,9 @@ class V4l2Camera final : public Camera {
 
   std::string_view serial() const override { return serial_; }
   // /dev/video0 is another camera after another start: only names under /dev/v4l say something.
-  std::string_view socket() const override { return options_.device.starts_with("/dev/v4l/") ? std::string_view(options_.device) : std::string_view(); }
+  std::string_view socket() const override {
+    return options_.device.starts_with("/dev/v4l/") ? std::string_view(options_.device) : std::string_view();
+  }
 
  private:
   static constexpr std::size_t kBuffers = 4;
@@ -55,7 +57,9 @@ class V4l2Camera final : public Camera {
   Result<Frame> do_next_frame(Instant deadline) override;
   void do_stop() override;
   void do_close() override { release(); }
-  Result<void> do_set_exposure(const Exposure& exposure) override { return apply_exposure(kernel_, file_, exposure); }
+  Result<void> do_set_exposure(const Exposure& exposure) override {
+    return apply_exposure(kernel_, file_, exposure);
+  }
   Result<ExposureLimits> do_exposure_limits() const override { return query_exposure(kernel_, file_); }
 
   Result<void> set_up(const CaptureMode& mode);

@@ -27,7 +27,8 @@ struct Control {
 };
 
 bool is_usable(const v4l2_queryctrl& asked) {
-  return (asked.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_READ_ONLY)) == 0 && asked.maximum > asked.minimum;
+  return (asked.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_READ_ONLY)) == 0 &&
+         asked.maximum > asked.minimum;
 }
 
 Result<std::optional<Control>> find_control(Kernel& kernel, int file, std::uint32_t id) {
@@ -46,7 +47,8 @@ Result<void> set_control(Kernel& kernel, int file, std::uint32_t id, std::int64_
   control.value = static_cast<std::int32_t>(value);
   const int r = call(kernel, file, VIDIOC_S_CTRL, &control);
   if (r == -EBUSY) return Error{Errc::IoFailed, "another program holds this camera's controls: close it"};
-  if (r == -ERANGE || r == -EINVAL) return Error{Errc::InvalidInput, "the camera refuses this value of a control"};
+  if (r == -ERANGE || r == -EINVAL)
+    return Error{Errc::InvalidInput, "the camera refuses this value of a control"};
   if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not take a control"});
   return {};
 }
@@ -54,7 +56,9 @@ Result<void> set_control(Kernel& kernel, int file, std::uint32_t id, std::int64_
 // Sets a control if there is one; that it is missing, or knows no such value, does no harm.
 Result<void> set_if_any(Kernel& kernel, int file, std::uint32_t id, std::int64_t value) {
   const Result<void> set = set_control(kernel, file, id, value);
-  if (!set && set.error().code != Errc::InvalidInput && set.error().sys_errno != ENOTTY && set.error().sys_errno != EACCES) return set;
+  if (!set && set.error().code != Errc::InvalidInput && set.error().sys_errno != ENOTTY &&
+      set.error().sys_errno != EACCES)
+    return set;
   return {};
 }
 
@@ -98,9 +102,11 @@ Result<bool> set_external_trigger(Kernel& kernel, int file) {
     if (r == -EINVAL || r == -ENOTTY) return false;
     if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its controls"});
     id = asked.id | V4L2_CTRL_FLAG_NEXT_CTRL;
-    const bool choice = asked.type == V4L2_CTRL_TYPE_BOOLEAN || asked.type == V4L2_CTRL_TYPE_MENU || asked.type == V4L2_CTRL_TYPE_INTEGER;
+    const bool choice = asked.type == V4L2_CTRL_TYPE_BOOLEAN || asked.type == V4L2_CTRL_TYPE_MENU ||
+                        asked.type == V4L2_CTRL_TYPE_INTEGER;
     const std::string name = lower(asked.name, sizeof asked.name);
-    const bool named = name == "trigger" || name == "trigger mode" || name == "external trigger" || name == "trigger enable";
+    const bool named =
+        name == "trigger" || name == "trigger mode" || name == "external trigger" || name == "trigger enable";
     if (!choice || !named || !is_usable(asked)) continue;
     RELIEVO_TRY(set_control(kernel, file, asked.id, external_of(kernel, file, asked)));
     return true;
@@ -119,15 +125,18 @@ Result<ExposureLimits> query_exposure(Kernel& kernel, int file) {
 
 Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) {
   RELIEVO_TRY_ASSIGN(const ExposureLimits limits, query_exposure(kernel, file));
-  if (exposure.time < limits.least.time || exposure.time > limits.most.time || exposure.gain < limits.least.gain || exposure.gain > limits.most.gain)
+  if (exposure.time < limits.least.time || exposure.time > limits.most.time ||
+      exposure.gain < limits.least.gain || exposure.gain > limits.most.gain)
     return Error{Errc::InvalidInput, "this exposure is outside what the camera can do"};
   RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL));
   RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_AUTOGAIN, 0));
-  RELIEVO_TRY(set_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE, (exposure.time.count() + kExposureUnitUs / 2) / kExposureUnitUs));
+  RELIEVO_TRY(set_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE,
+                          (exposure.time.count() + kExposureUnitUs / 2) / kExposureUnitUs));
   RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
   if (!gain) return {};
   const double share = (exposure.gain - 1) / (kGainSpan - 1);
-  return set_control(kernel, file, gain->id, gain->least + std::llround(share * static_cast<double>(gain->most - gain->least)));
+  return set_control(kernel, file, gain->id,
+                     gain->least + std::llround(share * static_cast<double>(gain->most - gain->least)));
 }
 
 }  // namespace relievo::hal

@@ -24,16 +24,21 @@ Result<void> check_capabilities(Kernel& kernel, int file) {
   v4l2_capability can{};
   if (const int r = call(kernel, file, VIDIOC_QUERYCAP, &can); r < 0)
     return device_error(r, {Errc::Unsupported, "this is no camera: name a /dev/v4l/by-path/ device"});
-  const std::uint32_t caps = (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
+  const std::uint32_t caps =
+      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
   if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0 && (caps & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0)
-    return Error{Errc::Unsupported, "this camera gives its pictures in several planes, which is not supported"};
+    return Error{Errc::Unsupported,
+                 "this camera gives its pictures in several planes, which is not supported"};
   if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0)
-    return Error{Errc::Unsupported, "this device takes no pictures: name the camera's capture node (often -index0)"};
+    return Error{Errc::Unsupported,
+                 "this device takes no pictures: name the camera's capture node (often -index0)"};
   if ((caps & V4L2_CAP_STREAMING) == 0) return Error{Errc::Unsupported, "this camera's driver cannot stream"};
   return {};
 }
 
-const Error kInterlaced{Errc::Unsupported, "this camera gives interlaced fields, between which a face moves: set a progressive mode"};
+const Error kInterlaced{
+    Errc::Unsupported,
+    "this camera gives interlaced fields, between which a face moves: set a progressive mode"};
 
 // HDMI and its kin: what the cable carries is what the input must be told.
 Result<void> follow_signal(Kernel& kernel, int file) {
@@ -71,11 +76,13 @@ Result<void> set_interval(Kernel& kernel, int file) {
   v4l2_streamparm parameters{};
   parameters.type = kCapture;
   int r = call(kernel, file, VIDIOC_G_PARM, &parameters);
-  if (has_no_such_call(r) || (r == 0 && (parameters.parm.capture.capability & V4L2_CAP_TIMEPERFRAME) == 0)) return {};
+  if (has_no_such_call(r) || (r == 0 && (parameters.parm.capture.capability & V4L2_CAP_TIMEPERFRAME) == 0))
+    return {};
   if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its frame interval"});
   parameters.parm.capture.timeperframe = {1, kShortestPerSecond};
   r = call(kernel, file, VIDIOC_S_PARM, &parameters);
-  if (r < 0 && !has_no_such_call(r)) return device_error(r, {Errc::IoFailed, "the camera does not take a frame interval"});
+  if (r < 0 && !has_no_such_call(r))
+    return device_error(r, {Errc::IoFailed, "the camera does not take a frame interval"});
   return {};
 }
 
@@ -94,7 +101,8 @@ Result<std::vector<std::uint32_t>> formats_of(Kernel& kernel, int file) {
 }
 
 // Nothing, where the driver answers with another size or format than it was asked for.
-Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const CaptureMode& mode, const V4l2Format& wanted) {
+Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const CaptureMode& mode,
+                                             const V4l2Format& wanted) {
   v4l2_format format{};
   format.type = kCapture;
   v4l2_pix_format& pix = format.fmt.pix;
@@ -112,7 +120,8 @@ Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const Cap
   if (pix.field != V4L2_FIELD_NONE && pix.field != V4L2_FIELD_ANY) return kInterlaced;
   V4l2Stream stream{wanted.raw, mode.width_px, mode.height_px, 0};
   if (wanted.raw.coding != RawCoding::Mjpeg)
-    stream.stride_bytes = static_cast<int>(std::max<std::size_t>(pix.bytesperline, raw_row_bytes(wanted.raw.coding, mode.width_px)));
+    stream.stride_bytes = static_cast<int>(
+        std::max<std::size_t>(pix.bytesperline, raw_row_bytes(wanted.raw.coding, mode.width_px)));
   return std::optional<V4l2Stream>(stream);
 }
 
@@ -131,7 +140,8 @@ Result<V4l2Stream> set_up_stream(Kernel& kernel, int file, const CaptureMode& mo
     if (!timings) RELIEVO_TRY(set_interval(kernel, file));
     return *stream;
   }
-  return Error{Errc::Unsupported, "the camera gives no picture of this size in a format that can be read: choose another mode"};
+  return Error{Errc::Unsupported,
+               "the camera gives no picture of this size in a format that can be read: choose another mode"};
 }
 
 }  // namespace relievo::hal

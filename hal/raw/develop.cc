@@ -23,15 +23,18 @@ void copy_rows(const RawImage& raw, std::byte* out) {
     return;
   }
   for (int y = 0; y < raw.height_px; ++y)
-    std::memcpy(out + static_cast<std::size_t>(y) * row_bytes, raw.bytes + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes, row_bytes);
+    std::memcpy(out + static_cast<std::size_t>(y) * row_bytes,
+                raw.bytes + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes, row_bytes);
 }
 
 // In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
 Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scratch) {
   if (raw.format.coding == RawCoding::Bits8) copy_rows(raw, scratch);
   else unpack_to_8_bit(raw, scratch);
-  const RawImage mosaic{scratch, static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px),
-                        raw.width_px, raw.height_px, raw.width_px, {RawCoding::Bits8, raw.format.filter}};
+  const RawImage mosaic{
+      scratch,      static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px),
+      raw.width_px, raw.height_px,
+      raw.width_px, {RawCoding::Bits8, raw.format.filter}};
   return demosaic(mosaic, rgb);
 }
 
@@ -40,13 +43,18 @@ Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byt
   switch (raw.format.coding) {
     case RawCoding::Bits8:
     case RawCoding::Bits16:
-    case RawCoding::Rgb8: copy_rows(raw, out); break;
+    case RawCoding::Rgb8:
+      copy_rows(raw, out);
+      break;
     case RawCoding::Bits10:
     case RawCoding::Bits12:
     case RawCoding::Packed10:
-    case RawCoding::Packed12: unpack_to_16_bit(raw, out); break;
+    case RawCoding::Packed12:
+      unpack_to_16_bit(raw, out);
+      break;
     case RawCoding::Yuyv:
-    case RawCoding::Nv12: return yuv_to_rgb(raw, out);
+    case RawCoding::Nv12:
+      return yuv_to_rgb(raw, out);
     case RawCoding::Mjpeg: {
       RELIEVO_TRY_ASSIGN(view.format, decode_jpeg(raw, out));
       view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
@@ -65,7 +73,8 @@ std::size_t develop_scratch_bytes(const RawFormat& format, int width_px, int hei
 
 Result<ImageView> develop(const RawImage& raw, std::span<std::byte> room, std::span<std::byte> scratch) {
   RELIEVO_TRY(check_shape(raw));
-  if (is_short(raw)) return Error{Errc::InvalidInput, "the camera's picture has too few bytes: check its cable"};
+  if (is_short(raw))
+    return Error{Errc::InvalidInput, "the camera's picture has too few bytes: check its cable"};
   ImageView view{room.data(), raw.width_px, raw.height_px, 0, developed_format(raw.format)};
   view.stride_bytes = raw.width_px * bytes_per_pixel(view.format);
   if (static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(raw.height_px) > room.size() ||

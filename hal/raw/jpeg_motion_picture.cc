@@ -37,8 +37,9 @@ Result<PixelFormat> decode_jpeg(const RawImage& raw, std::byte* pixels) {
     return Error{Errc::InvalidInput, "the camera's JPEG picture is in a colour space that is not supported"};
   const bool grey = colours == TJCS_GRAY;
   // Half a picture would be believed by a matcher: the first warning ends the decoding.
-  if (tjDecompress2(handle.get(), stream, raw.size_bytes, reinterpret_cast<unsigned char*>(pixels), width, 0, height,
-                    grey ? TJPF_GRAY : TJPF_RGB, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT) != 0 &&
+  if (tjDecompress2(handle.get(), stream, raw.size_bytes, reinterpret_cast<unsigned char*>(pixels), width, 0,
+                    height, grey ? TJPF_GRAY : TJPF_RGB,
+                    TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT) != 0 &&
       !is_harmless(handle.get()))
     return Error{Errc::InvalidInput, "the camera's JPEG picture is damaged"};
   return grey ? PixelFormat::Grey8 : PixelFormat::Rgb8;

@@ -14,11 +14,16 @@ namespace {
 // OpenCV names a filter by the second and third pixel of the second row.
 int edge_aware(ColourFilter filter) {
   switch (filter) {
-    case ColourFilter::Rggb: return cv::COLOR_BayerBG2RGB_EA;
-    case ColourFilter::Grbg: return cv::COLOR_BayerGB2RGB_EA;
-    case ColourFilter::Gbrg: return cv::COLOR_BayerGR2RGB_EA;
-    case ColourFilter::Bggr: return cv::COLOR_BayerRG2RGB_EA;
-    case ColourFilter::None: break;
+    case ColourFilter::Rggb:
+      return cv::COLOR_BayerBG2RGB_EA;
+    case ColourFilter::Grbg:
+      return cv::COLOR_BayerGB2RGB_EA;
+    case ColourFilter::Gbrg:
+      return cv::COLOR_BayerGR2RGB_EA;
+    case ColourFilter::Bggr:
+      return cv::COLOR_BayerRG2RGB_EA;
+    case ColourFilter::None:
+      break;
   }
   RELIEVO_ASSERT(false && "without a filter there is no mosaic");
   return 0;
@@ -26,7 +31,8 @@ int edge_aware(ColourFilter filter) {
 
 Result<void> convert(const RawImage& raw, int type, int rows, int code, std::byte* rgb) try {
   // OpenCV has no const Mat over foreign bytes; this one is only read.
-  const cv::Mat from(rows, raw.width_px, type, const_cast<std::byte*>(raw.bytes),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  const cv::Mat from(rows, raw.width_px, type,
+                     const_cast<std::byte*>(raw.bytes),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
                      static_cast<std::size_t>(raw.stride_bytes));
   cv::Mat to(raw.height_px, raw.width_px, CV_8UC3, rgb);
   const auto* const place = to.data;
@@ -46,7 +52,8 @@ Result<void> demosaic(const RawImage& raw, std::byte* rgb) {
 }
 
 Result<void> yuv_to_rgb(const RawImage& raw, std::byte* rgb) {
-  if (raw.format.coding == RawCoding::Yuyv) return convert(raw, CV_8UC2, raw.height_px, cv::COLOR_YUV2RGB_YUYV, rgb);
+  if (raw.format.coding == RawCoding::Yuyv)
+    return convert(raw, CV_8UC2, raw.height_px, cv::COLOR_YUV2RGB_YUYV, rgb);
   return convert(raw, CV_8UC1, raw.height_px / 2 * 3, cv::COLOR_YUV2RGB_NV12, rgb);
 }
 

@@ -6,11 +6,11 @@
 //
 //   Bits8, Bits16        one sample in 1 or 2 bytes
 //   Bits10, Bits12       one sample in the low bits of 2 bytes
-//   Packed10             4 samples in 5 bytes: four high bytes, then the low bits, first sample lowest (MIPI RAW10)
-//   Packed12             2 samples in 3 bytes: two high bytes, then the low bits, first sample lowest (MIPI RAW12)
-//   Rgb8                 red, green, blue
-//   Yuyv, Nv12           BT.601, limited range; Nv12's chroma rows follow its luma rows, same stride
-//   Mjpeg                one JPEG picture; it may leave out its Huffman tables, as webcams do
+//   Packed10             4 samples in 5 bytes: four high bytes, then the low bits, first sample lowest (MIPI
+//   RAW10) Packed12             2 samples in 3 bytes: two high bytes, then the low bits, first sample lowest
+//   (MIPI RAW12) Rgb8                 red, green, blue Yuyv, Nv12           BT.601, limited range; Nv12's
+//   chroma rows follow its luma rows, same stride Mjpeg                one JPEG picture; it may leave out its
+//   Huffman tables, as webcams do
 //
 // Thread: any.
 #pragma once
@@ -23,7 +23,18 @@
 
 namespace relievo::hal {
 
-enum class RawCoding : std::uint8_t { Bits8, Bits10, Bits12, Bits16, Packed10, Packed12, Rgb8, Yuyv, Nv12, Mjpeg };
+enum class RawCoding : std::uint8_t {
+  Bits8,
+  Bits10,
+  Bits12,
+  Bits16,
+  Packed10,
+  Packed12,
+  Rgb8,
+  Yuyv,
+  Nv12,
+  Mjpeg
+};
 
 // The colours over the sensor's pixels: top left two of the first row, then two of the second.
 enum class ColourFilter : std::uint8_t { None, Rggb, Grbg, Gbrg, Bggr };
@@ -37,10 +48,10 @@ struct RawFormat {
 
 struct RawImage {
   const std::byte* bytes = nullptr;
-  std::size_t size_bytes = 0;   // how many of them the driver has filled
+  std::size_t size_bytes = 0;  // how many of them the driver has filled
   int width_px = 0;
   int height_px = 0;
-  int stride_bytes = 0;         // Mjpeg: none
+  int stride_bytes = 0;  // Mjpeg: none
   RawFormat format;
 };
 

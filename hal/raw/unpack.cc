@@ -43,7 +43,9 @@ template <int kBits>
 struct To16 {
   using Out = std::uint16_t;
   // The high bits once more below the low ones: the largest sample becomes the largest number.
-  static Out of(unsigned v) { return static_cast<Out>(kBits == 16 ? v : v << (16 - kBits) | v >> (2 * kBits - 16)); }
+  static Out of(unsigned v) {
+    return static_cast<Out>(kBits == 16 ? v : v << (16 - kBits) | v >> (2 * kBits - 16));
+  }
 };
 
 template <int kBits>
@@ -59,7 +61,8 @@ template <typename Reader, template <int> typename Scale>
 void unpack(const RawImage& raw, std::byte* out) {
   using Out = typename Scale<Reader::bits>::Out;
   for (int y = 0; y < raw.height_px; ++y) {
-    const auto* row = reinterpret_cast<const std::uint8_t*>(raw.bytes) + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes;
+    const auto* row =
+        reinterpret_cast<const std::uint8_t*>(raw.bytes) + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes;
     for (int x = 0; x < raw.width_px; ++x) {
       const Out value = Scale<Reader::bits>::of(Reader::sample(row, x));
       std::memcpy(out, &value, sizeof value);
@@ -72,32 +75,43 @@ void unpack(const RawImage& raw, std::byte* out) {
 
 void unpack_to_16_bit(const RawImage& raw, std::byte* out) {
   switch (raw.format.coding) {
-    case RawCoding::Bits10: return unpack<Loose<10>, To16>(raw, out);
-    case RawCoding::Bits12: return unpack<Loose<12>, To16>(raw, out);
-    case RawCoding::Bits16: return unpack<Loose<16>, To16>(raw, out);
-    case RawCoding::Packed10: return unpack<Mipi10, To16>(raw, out);
-    case RawCoding::Packed12: return unpack<Mipi12, To16>(raw, out);
+    case RawCoding::Bits10:
+      return unpack<Loose<10>, To16>(raw, out);
+    case RawCoding::Bits12:
+      return unpack<Loose<12>, To16>(raw, out);
+    case RawCoding::Bits16:
+      return unpack<Loose<16>, To16>(raw, out);
+    case RawCoding::Packed10:
+      return unpack<Mipi10, To16>(raw, out);
+    case RawCoding::Packed12:
+      return unpack<Mipi12, To16>(raw, out);
     case RawCoding::Bits8:
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
     case RawCoding::Nv12:
-    case RawCoding::Mjpeg: break;
+    case RawCoding::Mjpeg:
+      break;
   }
   RELIEVO_ASSERT(false && "these are no samples of more than 8 bit");
 }
 
 void unpack_to_8_bit(const RawImage& raw, std::byte* out) {
   switch (raw.format.coding) {
-    case RawCoding::Bits10: return unpack<Loose<10>, To8>(raw, out);
-    case RawCoding::Bits12: return unpack<Loose<12>, To8>(raw, out);
-    case RawCoding::Packed10: return unpack<Mipi10, To8>(raw, out);
-    case RawCoding::Packed12: return unpack<Mipi12, To8>(raw, out);
+    case RawCoding::Bits10:
+      return unpack<Loose<10>, To8>(raw, out);
+    case RawCoding::Bits12:
+      return unpack<Loose<12>, To8>(raw, out);
+    case RawCoding::Packed10:
+      return unpack<Mipi10, To8>(raw, out);
+    case RawCoding::Packed12:
+      return unpack<Mipi12, To8>(raw, out);
     case RawCoding::Bits8:
     case RawCoding::Bits16:
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
     case RawCoding::Nv12:
-    case RawCoding::Mjpeg: break;
+    case RawCoding::Mjpeg:
+      break;
   }
   RELIEVO_ASSERT(false && "these are no samples of 10 or 12 bit");
 }

@@ -39,17 +39,23 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
 } catch (const nlohmann::json::parse_error&) {
   return Error{Errc::InvalidInput, "this is not valid JSON; record it again or remove it"}.at(file.native());
 } catch (const nlohmann::json::exception&) {
-  return Error{Errc::InvalidInput, "a frame needs number, left_ns and right_ns, all numbers"}.at(file.native());
+  return Error{Errc::InvalidInput, "a frame needs number, left_ns and right_ns, all numbers"}.at(
+      file.native());
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
 }
 
 Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture) {
   nlohmann::ordered_json json;
-  json["cameras"] = {{"left", {{"serial", capture.left_serial}}}, {"right", {{"serial", capture.right_serial}}}};
+  json["cameras"] = {{"left", {{"serial", capture.left_serial}}},
+                     {"right", {{"serial", capture.right_serial}}}};
   json["frames"] = nlohmann::ordered_json::array();
   for (const CaptureRecord& r : capture.frames)
-    json["frames"].push_back({{"number", r.number}, {"left_ns", r.left_ns}, {"right_ns", r.right_ns}, {"exposure_us", r.exposure_us}, {"gain", r.gain}});
+    json["frames"].push_back({{"number", r.number},
+                              {"left_ns", r.left_ns},
+                              {"right_ns", r.right_ns},
+                              {"exposure_us", r.exposure_us},
+                              {"gain", r.gain}});
   const std::string text = json.dump(1) + "\n";
   return write_whole_file(file, std::as_bytes(std::span(text)));
 }

@@ -17,12 +17,17 @@ std::string recorded_name(const char* side, std::int64_t number) {
 }
 
 Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair) {
-  if (pair.left.empty() || pair.right.empty()) return Error{Errc::InvalidInput, "a pair without pixels cannot be recorded"}.at(folder.string());
-  if (pair.left.width_px != pair.right.width_px || pair.left.height_px != pair.right.height_px || pair.left.format != pair.right.format)
-    return Error{Errc::InvalidInput, "the two views differ in size or format: they are no pair"}.at(folder.string());
+  if (pair.left.empty() || pair.right.empty())
+    return Error{Errc::InvalidInput, "a pair without pixels cannot be recorded"}.at(folder.string());
+  if (pair.left.width_px != pair.right.width_px || pair.left.height_px != pair.right.height_px ||
+      pair.left.format != pair.right.format)
+    return Error{Errc::InvalidInput, "the two views differ in size or format: they are no pair"}.at(
+        folder.string());
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) return Error{Errc::IoFailed, "the folder for recordings cannot be made", failed.value()}.at(folder.string());
+  if (failed)
+    return Error{Errc::IoFailed, "the folder for recordings cannot be made", failed.value()}.at(
+        folder.string());
   const std::filesystem::path index = folder / "capture.json";
   CaptureFile capture;
   if (std::filesystem::exists(index, failed)) {

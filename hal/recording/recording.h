@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// record_pair(): puts one captured pair behind those that a folder holds already; make_folder_board() replays it bit for bit,
-// with its skew, exposure and serial numbers.
-// The pictures are written before capture.json names them: a pair whose writing was cut short is written over by the next.
-// Thread: keeper, one writer a folder. Errors: InvalidInput (a picture without pixels, views of different sizes or formats, a folder
-// whose capture.json cannot be read), IoFailed.
+// record_pair(): puts one captured pair behind those that a folder holds already; make_folder_board() replays
+// it bit for bit, with its skew, exposure and serial numbers. The pictures are written before capture.json
+// names them: a pair whose writing was cut short is written over by the next. Thread: keeper, one writer a
+// folder. Errors: InvalidInput (a picture without pixels, views of different sizes or formats, a folder whose
+// capture.json cannot be read), IoFailed.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace relievo::hal {
 
 struct RecordedPair {
   ImageView left, right;
-  std::int64_t left_ns = 0, right_ns = 0;   // of the exposures, from any common origin
+  std::int64_t left_ns = 0, right_ns = 0;  // of the exposures, from any common origin
   std::int64_t exposure_us = 0;
   double gain = 1;
   std::string left_serial, right_serial;

@@ -18,12 +18,15 @@ int marker_count(const BoardPattern& b) { return (b.corners_x + 1) * (b.corners_
 Result<void> BoardPattern::check() const {
   if (corners_x < 3 || corners_y < 3 || corners_x > 60 || corners_y > 60)
     return Error{Errc::InvalidInput, "a board has between 3 and 60 inner corners a side"};
-  if (!(square_mm >= 1) || !(square_mm <= 500)) return Error{Errc::InvalidInput, "the squares of a board measure between 1 and 500 mm"};
+  if (!(square_mm >= 1) || !(square_mm <= 500))
+    return Error{Errc::InvalidInput, "the squares of a board measure between 1 and 500 mm"};
   if (kind == BoardKind::Chessboard) return {};
   if (!(marker_side_mm() >= 0.3 * square_mm) || !(marker_side_mm() <= 0.9 * square_mm))
     return Error{Errc::InvalidInput, "a marker measures between 0.3 and 0.9 of its square"};
-  if (marker_bits < 4 || marker_bits > 7) return Error{Errc::InvalidInput, "a marker has between 4 and 7 bits a side"};
-  if (marker_count(*this) > kMostMarkers) return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"};
+  if (marker_bits < 4 || marker_bits > 7)
+    return Error{Errc::InvalidInput, "a marker has between 4 and 7 bits a side"};
+  if (marker_count(*this) > kMostMarkers)
+    return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"};
   return {};
 }
 
@@ -34,7 +37,8 @@ BoardPrint::BoardPrint(const BoardPattern& pattern) : pattern_(pattern) {
 }
 
 BoardPrint::Spot BoardPrint::at(double x_mm, double y_mm) const {
-  const double sx = x_mm / pattern_.square_mm + 1, sy = y_mm / pattern_.square_mm + 1;  // from the top left of the print
+  const double sx = x_mm / pattern_.square_mm + 1,
+               sy = y_mm / pattern_.square_mm + 1;  // from the top left of the print
   const int across = pattern_.corners_x + 1, down = pattern_.corners_y + 1;
   if (!(sx >= 0 && sy >= 0 && sx < across && sy < down)) return {false, -1};
   const int column = static_cast<int>(sx), row = static_cast<int>(sy);

@@ -46,7 +46,8 @@ double value_noise(Vec3 p, std::uint32_t seed) {
 
 double fractal_noise(Vec3 p, std::uint32_t seed, int octaves) {
   double sum = 0, weight = 1;
-  for (int i = 0; i < octaves; ++i, weight *= 0.5, p = p * 2.03) sum += weight * value_noise(p, seed + static_cast<std::uint32_t>(i));
+  for (int i = 0; i < octaves; ++i, weight *= 0.5, p = p * 2.03)
+    sum += weight * value_noise(p, seed + static_cast<std::uint32_t>(i));
   return sum;
 }
 
@@ -58,7 +59,8 @@ NearestDot nearest_dot(Vec3 p, std::uint32_t seed) {
     const int i = x + (c & 1), j = y + ((c >> 1) & 1), k = z + (c >> 2);
     const std::uint32_t h = hash_cell(i, j, k, seed);
     // Ten bits an axis place the dot inside its cell.
-    const Vec3 dot_at{i + (h & 1023) / 1024.0, j + ((h >> 10) & 1023) / 1024.0, k + ((h >> 20) & 1023) / 1024.0};
+    const Vec3 dot_at{i + (h & 1023) / 1024.0, j + ((h >> 10) & 1023) / 1024.0,
+                      k + ((h >> 20) & 1023) / 1024.0};
     const Vec3 d = dot_at - p;
     const double squared = dot(d, d);
     if (squared < best.distance) best = {squared, h};

@@ -10,7 +10,8 @@
 namespace relievo::hal::sim {
 namespace {
 
-Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder, const std::string& number) {
+Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder,
+                        const std::string& number) {
   RELIEVO_TRY(write_picture(folder / ("left" + number + ".png"), pair.left.view()));
   return write_picture(folder / ("right" + number + ".png"), pair.right.view());
 }
@@ -22,11 +23,13 @@ BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& a
   const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
   BoardPose pose;
   pose.world_from_board = rotation(at.pitch_deg * kRadians, at.yaw_deg * kRadians, at.roll_deg * kRadians);
-  pose.origin_mm = rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0} - pose.world_from_board * middle;
+  pose.origin_mm = rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0} -
+                   pose.world_from_board * middle;
   return pose;
 }
 
-Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder, ThreadPool& pool) {
+Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                           ThreadPool& pool) {
   std::vector<BoardPose> poses{board_pose(rig, o.board, o.pose)};
   if (!o.board_in_this_pose) {
     RELIEVO_TRY_ASSIGN(poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
@@ -35,12 +38,14 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   sensor.grey = true;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
-    RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder, text("_%02d", static_cast<int>(k))));
+    RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder,
+                           text("_%02d", static_cast<int>(k))));
   }
   return {};
 }
 
-Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder, ThreadPool& pool) {
+Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                         ThreadPool& pool) {
   const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
   RELIEVO_TRY(write_pair(render_pair(*scene, rig, o.sensor, o.seed * 1000ULL, pool), folder, ""));
   if (!o.truth) return {};
@@ -54,22 +59,27 @@ Result<void> SimulationOptions::check() const {
   RELIEVO_TRY(rig.check());
   RELIEVO_TRY(board.check());
   RELIEVO_TRY(board_look.check());
-  if (board_poses < 1 || board_poses > 200) return Error{Errc::InvalidInput, "choose between 1 and 200 board poses"};
-  if (!(std::abs(pose.yaw_deg) <= 60) || !(std::abs(pose.pitch_deg) <= 45) || !(std::abs(pose.roll_deg) <= 60))
-    return Error{Errc::InvalidInput, "a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees"};
+  if (board_poses < 1 || board_poses > 200)
+    return Error{Errc::InvalidInput, "choose between 1 and 200 board poses"};
+  if (!(std::abs(pose.yaw_deg) <= 60) || !(std::abs(pose.pitch_deg) <= 45) ||
+      !(std::abs(pose.roll_deg) <= 60))
+    return Error{Errc::InvalidInput,
+                 "a simulated head turns up to 60, nods up to 45 and leans up to 60 degrees"};
   if (!(pose.distance_mm >= 250) || !(pose.distance_mm <= 2000))
     return Error{Errc::InvalidInput, "a simulated scene stands between 250 and 2000 mm away"};
   return {};
 }
 
-PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor, std::uint64_t noise_seed, ThreadPool& pool) {
+PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor,
+                        std::uint64_t noise_seed, ThreadPool& pool) {
   PicturePair pair;
   pair.left = read_sensor(expose(scene, rig.left, sensor, pool), sensor, 2 * noise_seed);
   pair.right = read_sensor(expose(scene, rig.right, sensor, pool), sensor, 2 * noise_seed + 1);
   return pair;
 }
 
-Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder, int threads) {
+Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder,
+                              int threads) {
   RELIEVO_TRY(options.check());
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -77,7 +87,8 @@ Result<void> render_to_folder(const SimulationOptions& options, const std::files
   ThreadPool pool(threads);
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY(write_rig(folder / "rig.yml", rig));
-  return options.scene == SceneKind::Board ? render_boards(options, rig, folder, pool) : render_head(options, rig, folder, pool);
+  return options.scene == SceneKind::Board ? render_boards(options, rig, folder, pool)
+                                           : render_head(options, rig, folder, pool);
 }
 
 }  // namespace relievo::hal::sim

@@ -20,7 +20,7 @@ enum class SceneKind : std::uint8_t { Head, Board };
 
 struct SimulationOptions {
   SceneKind scene = SceneKind::Head;
-  std::uint32_t seed = 1;         // the person, or the set of board poses
+  std::uint32_t seed = 1;  // the person, or the set of board poses
   HeadPose pose;
   BoardPattern board;
   BoardLook board_look;
@@ -28,18 +28,20 @@ struct SimulationOptions {
   bool board_in_this_pose = false;  // one pair, of the board in `pose`, instead of many poses by seed
   RigOptions rig;
   SensorOptions sensor;
-  bool truth = false;             // head only: also truth.bin, head.ply
-  Result<void> check() const;     // InvalidInput
+  bool truth = false;          // head only: also truth.bin, head.ply
+  Result<void> check() const;  // InvalidInput
 };
 
 struct PicturePair {
   Picture left, right;
 };
 
-PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor, std::uint64_t noise_seed, ThreadPool& pool);
+PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor,
+                        std::uint64_t noise_seed, ThreadPool& pool);
 
 // Head: left.png right.png rig.yml; board: left_NN.png right_NN.png rig.yml. Makes the folder.
 // `threads` counts the caller. Errors: InvalidInput, PoorGeometry, IoFailed, MediaFull.
-Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder, int threads = 2);
+Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder,
+                              int threads = 2);
 
 }  // namespace relievo::hal::sim

@@ -19,7 +19,8 @@ struct Bent {
 Bent distort(const SimView& v, double x, double y) {
   const double r2 = x * x + y * y;
   const double s = 1 + r2 * (v.k1 + r2 * (v.k2 + r2 * v.k3));
-  return {x * s + 2 * v.p1 * x * y + v.p2 * (r2 + 2 * x * x), y * s + v.p1 * (r2 + 2 * y * y) + 2 * v.p2 * x * y};
+  return {x * s + 2 * v.p1 * x * y + v.p2 * (r2 + 2 * x * x),
+          y * s + v.p1 * (r2 + 2 * y * y) + 2 * v.p2 * x * y};
 }
 
 SimView make_view(const RigOptions& o, Random& random) {
@@ -73,10 +74,14 @@ Vec3 SimView::ray(double x_px, double y_px) const {
 }
 
 Result<void> RigOptions::check() const {
-  if (std::max(width_px, height_px) < 64 || std::min(width_px, height_px) < 40 || std::max(width_px, height_px) > 8192)
-    return Error{Errc::InvalidInput, "the simulated picture must be between 64x40 and 8192x8192 px, or the same upright"};
+  if (std::max(width_px, height_px) < 64 || std::min(width_px, height_px) < 40 ||
+      std::max(width_px, height_px) > 8192)
+    return Error{Errc::InvalidInput,
+                 "the simulated picture must be between 64x40 and 8192x8192 px, or the same upright"};
   if (!(focal_px > 100) || !(baseline_mm > 1) || !(convergence_mm > 50))
-    return Error{Errc::InvalidInput, "the simulated rig needs a focal length over 100 px, a baseline over 1 mm and a distance over 50 mm"};
+    return Error{
+        Errc::InvalidInput,
+        "the simulated rig needs a focal length over 100 px, a baseline over 1 mm and a distance over 50 mm"};
   return {};
 }
 
@@ -86,9 +91,11 @@ SimRig make_rig(const RigOptions& o) {
   const double p = o.perturbation;
   const double baseline = o.baseline_mm + 1.5 * p * random.normal_within(2.5);
   const double half_toe = std::atan(baseline / 2 / o.convergence_mm);
-  const Mat3 right_from_left = rotation(0.004 * p * random.normal_within(2.5), 2 * half_toe + 0.004 * p * random.normal_within(2.5),
-                                        0.006 * p * random.normal_within(2.5));
-  const Vec3 right_centre{baseline * std::cos(half_toe), 0.8 * p * random.normal_within(2.5), baseline * std::sin(half_toe)};
+  const Mat3 right_from_left =
+      rotation(0.004 * p * random.normal_within(2.5), 2 * half_toe + 0.004 * p * random.normal_within(2.5),
+               0.006 * p * random.normal_within(2.5));
+  const Vec3 right_centre{baseline * std::cos(half_toe), 0.8 * p * random.normal_within(2.5),
+                          baseline * std::sin(half_toe)};
   rig.right.view_from_world = right_from_left;
   rig.right.offset_mm = -(right_from_left * right_centre);
   return rig;

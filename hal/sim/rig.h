@@ -25,12 +25,12 @@ struct SimView {
   int width_px = 0, height_px = 0;
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
-  Mat3 view_from_world;     // point_in_view = view_from_world * point + offset_mm
+  Mat3 view_from_world;  // point_in_view = view_from_world * point + offset_mm
   Vec3 offset_mm;
 
   Pixel project(Vec3 point_in_world) const;
   double depth_mm(Vec3 point_in_world) const { return (view_from_world * point_in_world + offset_mm).z; }
-  Vec3 ray(double x_px, double y_px) const;   // world direction, unit length; inverts the lens to 1e-9
+  Vec3 ray(double x_px, double y_px) const;  // world direction, unit length; inverts the lens to 1e-9
   Vec3 centre() const { return -(view_from_world.transposed() * offset_mm); }
 };
 
@@ -39,12 +39,12 @@ struct SimRig {
 };
 
 struct RigOptions {
-  int width_px = 1920, height_px = 1200;   // higher than wide: cameras turned to portrait
-  double focal_px = 2950;           // where the longer side has 1920; scales with it
+  int width_px = 1920, height_px = 1200;  // higher than wide: cameras turned to portrait
+  double focal_px = 2950;                 // where the longer side has 1920; scales with it
   double baseline_mm = 140;
-  double convergence_mm = 560;      // where both optical axes meet
+  double convergence_mm = 560;  // where both optical axes meet
   std::uint32_t seed = 1;
-  double perturbation = 1;          // of every number above, as assembly tolerances; 0: ideal
+  double perturbation = 1;  // of every number above, as assembly tolerances; 0: ideal
   Result<void> check() const;
 };
 

@@ -14,15 +14,15 @@
 namespace relievo::hal::sim {
 
 struct Sight {
-  Vec3 light;                    // linear red, green, blue
-  double distance_mm = 0;        // to what was met; RayCaster::kFar for the background
-  std::int32_t body = -1;        // changes where the picture needs more samples
-  bool fine = false;             // hair: thinner than a pixel
+  Vec3 light;              // linear red, green, blue
+  double distance_mm = 0;  // to what was met; RayCaster::kFar for the background
+  std::int32_t body = -1;  // changes where the picture needs more samples
+  bool fine = false;       // hair: thinner than a pixel
 };
 
 struct SolidPoint {
-  Vec3 point, normal;            // the true surface, without the fine relief of its shading
-  bool skin = false;             // face skin: what a reconstruction is judged on
+  Vec3 point, normal;  // the true surface, without the fine relief of its shading
+  bool skin = false;   // face skin: what a reconstruction is judged on
 };
 
 class Scene {
@@ -31,7 +31,7 @@ class Scene {
   virtual Sight look(Vec3 origin, Vec3 direction) const = 0;
   virtual bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const = 0;
   virtual bool blocked(Vec3 from, Vec3 direction, double far_mm) const = 0;
-  virtual Mesh solid_mesh() const = 0;        // in world, for head.ply
+  virtual Mesh solid_mesh() const = 0;  // in world, for head.ply
 };
 
 }  // namespace relievo::hal::sim

@@ -26,7 +26,8 @@ std::uint8_t flags_of(const Scene& scene, const SimRig& rig, const SolidPoint& s
   // A step back towards the left camera keeps the surface from hiding itself.
   if (!inside || scene.blocked(s.point - left_ray * 0.08, right_ray, far - 0.2)) return flags;
   flags |= Truth::kSeenByBoth;
-  if (std::min(std::abs(dot(s.normal, left_ray)), std::abs(dot(s.normal, right_ray))) > kCosSixty) flags |= Truth::kNotGrazing;
+  if (std::min(std::abs(dot(s.normal, left_ray)), std::abs(dot(s.normal, right_ray))) > kCosSixty)
+    flags |= Truth::kNotGrazing;
   return flags;
 }
 
@@ -43,7 +44,8 @@ Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
   Truth truth;
   truth.width_px = rig.left.width_px;
   truth.height_px = rig.left.height_px;
-  const std::size_t count = static_cast<std::size_t>(truth.width_px) * static_cast<std::size_t>(truth.height_px);
+  const std::size_t count =
+      static_cast<std::size_t>(truth.width_px) * static_cast<std::size_t>(truth.height_px);
   truth.depth_mm.assign(count, std::numeric_limits<float>::quiet_NaN());
   truth.flags.assign(count, 0);
   const Vec3 eye = rig.left.centre();
@@ -70,8 +72,13 @@ Result<void> write_truth(const std::filesystem::path& file, const Truth& truth) 
 
 Result<void> write_mesh(const std::filesystem::path& file, const Mesh& mesh) {
   std::vector<std::byte> out;
-  append_text(out, text("ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\nproperty float z\n", mesh.points.size()));
-  append_text(out, text("element face %zu\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size()));
+  append_text(
+      out,
+      text(
+          "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\nproperty float z\n",
+          mesh.points.size()));
+  append_text(out, text("element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+                        mesh.triangles.size()));
   out.reserve(out.size() + mesh.points.size() * 12 + mesh.triangles.size() * 13);
   append<std::array<float, 3>>(out, mesh.points);
   for (const auto& t : mesh.triangles) {

@@ -21,7 +21,7 @@ struct Truth {
   static constexpr std::uint8_t kSeenByBoth = 2;  // in the right picture too, and not hidden
   static constexpr std::uint8_t kNotGrazing = 4;  // both viewing angles below 60 degrees
   int width_px = 0, height_px = 0;
-  std::vector<float> depth_mm;                    // z in the left camera's frame; NaN: nothing there
+  std::vector<float> depth_mm;  // z in the left camera's frame; NaN: nothing there
   std::vector<std::uint8_t> flags;
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);

@@ -32,12 +32,14 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
   if (!option.names.empty()) {
     for (const std::string& part : option.several ? split_names(value) : std::vector<std::string>{value})
       if (std::find(option.names.begin(), option.names.end(), part) == option.names.end())
-        return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(place + " (" + joined(option.names) + ")");
+        return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(
+            place + " (" + joined(option.names) + ")");
     return {};
   }
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
-  if (value.empty() || end != value.c_str() + value.size() || !(number >= option.least && number <= option.most))
+  if (value.empty() || end != value.c_str() + value.size() ||
+      !(number >= option.least && number <= option.most))
     return Error{Errc::InvalidInput, "not a number in the range in brackets"}.at(
         place + " (" + option_text(option.least) + " to " + option_text(option.most) + ")");
   return {};
@@ -61,9 +63,11 @@ std::vector<OptionDescription> describe_algorithms() {
   std::vector<OptionDescription> all;
   for (const Kind& kind : all_kinds()) {
     all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, 0, 0, false, kind.several});
-    for (const AlgorithmDescription& algorithm : kind.algorithms) all.back().names.emplace_back(algorithm.name);
+    for (const AlgorithmDescription& algorithm : kind.algorithms)
+      all.back().names.emplace_back(algorithm.name);
   }
-  for (const auto& options : {match_options(), surface_options()}) all.insert(all.end(), options.begin(), options.end());
+  for (const auto& options : {match_options(), surface_options()})
+    all.insert(all.end(), options.begin(), options.end());
   return all;
 }
 
@@ -78,12 +82,22 @@ Error unknown_key(std::string_view key, const std::vector<OptionDescription>& al
     if (!option.names.empty()) kinds.push_back(option.key);
     else if (option.key.starts_with(begin)) options.push_back(option.key.substr(begin.size()));
   }
-  const auto place = [key](const std::vector<std::string>& there) { return std::string(key) + " (" + joined(there) + ")"; };
+  const auto place = [key](const std::vector<std::string>& there) {
+    return std::string(key) + " (" + joined(there) + ")";
+  };
   const std::size_t room = Error{Errc::NotFound, ""}.where_text.size() - 1;
   if (!options.empty() && place(options).size() <= room)
-    return Error{Errc::NotFound, "no such option: its algorithm has those in brackets ('relievo algorithms NAME' says what they are)"}.at(place(options));
-  if (!options.empty()) return Error{Errc::NotFound, "no such option: 'relievo algorithms NAME' lists those of its algorithm"}.at(key);
-  return Error{Errc::NotFound, "no such setting: choose a kind, one of those in brackets, or ALGORITHM.OPTION ('relievo algorithms' lists them)"}.at(place(kinds));
+    return Error{
+        Errc::NotFound,
+        "no such option: its algorithm has those in brackets ('relievo algorithms NAME' says what they are)"}
+        .at(place(options));
+  if (!options.empty())
+    return Error{Errc::NotFound, "no such option: 'relievo algorithms NAME' lists those of its algorithm"}.at(
+        key);
+  return Error{
+      Errc::NotFound,
+      "no such setting: choose a kind, one of those in brackets, or ALGORITHM.OPTION ('relievo algorithms' lists them)"}
+      .at(place(kinds));
 }
 
 }  // namespace
@@ -125,7 +139,8 @@ Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) continue;
     const std::size_t sign = line.find('=');
-    if (sign == std::string_view::npos) return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
+    if (sign == std::string_view::npos)
+      return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
     const std::string_view key = trimmed(line.substr(0, sign));
     if (key == "grid-points.max_points") continue;  // older stores have it
     RELIEVO_TRY(set.set(key, name_today(key, trimmed(line.substr(sign + 1)))));

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher, SsdMatcherOptions>({name, what
-// it is, source})`, is all that its name on the command line, its options, their documentation and its making need.
+// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher,
+// SsdMatcherOptions>({name, what it is, source})`, is all that its name on the command line, its options,
+// their documentation and its making need.
 #pragma once
 
 #include <locale>
@@ -21,10 +22,10 @@ namespace relievo::pipeline {
 // A kind of algorithm and what it may be.
 struct Kind {
   const char* key;
-  const char* value;               // the default
+  const char* value;  // the default
   const char* sentence;
   std::vector<AlgorithmDescription> algorithms;
-  bool several = false;            // names joined by '+'
+  bool several = false;  // names joined by '+'
 };
 
 std::vector<Kind> match_kinds();
@@ -49,7 +50,16 @@ void describe_options(std::string_view kind, std::string_view section, std::vect
   Options options;
   describe(options, [&](const char* name, auto& value, OptionRange range, const char* sentence) {
     constexpr bool text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
-    all.push_back({std::string(section) + "." + name, option_text(value), sentence, {}, {}, range.least, range.most, text, false, std::string(kind)});
+    all.push_back({std::string(section) + "." + name,
+                   option_text(value),
+                   sentence,
+                   {},
+                   {},
+                   range.least,
+                   range.most,
+                   text,
+                   false,
+                   std::string(kind)});
   });
 }
 
@@ -63,10 +73,8 @@ class OptionReader {
       using Value = std::remove_reference_t<decltype(value)>;
       const auto chosen = set.chosen_.find(std::string(section) + "." + name);
       if (chosen == set.chosen_.end()) return;
-      if constexpr (std::is_same_v<Value, std::string>)
-        value = chosen->second;
-      else
-        value = static_cast<Value>(number(chosen->second));
+      if constexpr (std::is_same_v<Value, std::string>) value = chosen->second;
+      else value = static_cast<Value>(number(chosen->second));
     });
     RELIEVO_TRY(options.check());
     return options;
@@ -90,7 +98,9 @@ constexpr Algorithm<Interface> with_options(const AlgorithmDescription& about) {
             RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
             return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
           },
-          [](std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) { describe_options<Options>(kind, section, all); }};
+          [](std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) {
+            describe_options<Options>(kind, section, all);
+          }};
 }
 
 template <typename Interface, typename Concrete>
@@ -115,7 +125,8 @@ void describe_table(std::string_view kind, const Table& table, std::vector<Optio
 }
 
 template <typename Interface, typename Table>
-Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set, std::string_view name) {
+Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set,
+                                              std::string_view name) {
   for (const Algorithm<Interface>& algorithm : table)
     if (name == algorithm.about.name) return algorithm.make(set, algorithm.about.name);
   return Error{Errc::NotFound, "no such algorithm"}.at(name);

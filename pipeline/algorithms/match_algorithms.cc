@@ -33,72 +33,96 @@ namespace {
 
 constexpr std::array kPreprocessors{
     with_options<Preprocessor, HighlightRemover, HighlightRemoverOptions>(
-        {"remove-highlights", "takes out what lamps add that oily skin mirrors, by colour", "Shafer 1985; after Mallick, Zickler, Kriegman, Belhumeur 2005"}),
+        {"remove-highlights", "takes out what lamps add that oily skin mirrors, by colour",
+         "Shafer 1985; after Mallick, Zickler, Kriegman, Belhumeur 2005"}),
     with_options<Preprocessor, HistogramNormaliser, HistogramNormaliserOptions>(
-        {"histogram-normalise", "brings each view to the full range by its own cumulative histogram", "Bardsley 2004 (HistNorm); Hummel 1977"}),
+        {"histogram-normalise", "brings each view to the full range by its own cumulative histogram",
+         "Bardsley 2004 (HistNorm); Hummel 1977"}),
     with_options<Preprocessor, HistogramTransfer, HistogramTransferOptions>(
-        {"histogram-match", "gives the right view the left one's cumulative histogram", "Bardsley 2004 (HistMatch); Gonzalez and Woods, section 3.3"}),
+        {"histogram-match", "gives the right view the left one's cumulative histogram",
+         "Bardsley 2004 (HistMatch); Gonzalez and Woods, section 3.3"}),
 };
 
 constexpr std::array kSelectors{
     with_options<KeypointSelector, DenseSelector, DenseSelectorOptions>(
         {"dense", "every node of a fine lattice in the face region", "own"}),
     with_options<KeypointSelector, GridSelector, GridSelectorOptions>(
-        {"grid-points", "every step of a rectangle that is chosen, in the face region", "Bardsley 2004 (PatternGrid)"}),
+        {"grid-points", "every step of a rectangle that is chosen, in the face region",
+         "Bardsley 2004 (PatternGrid)"}),
     with_options<KeypointSelector, GoodFeaturesSelector, GoodFeaturesSelectorOptions>(
-        {"good-features", "corners by the smaller eigenvalue of the structure tensor, several thresholds united", "Shi and Tomasi 1994; Bardsley 2004 (CvGoodTrackingFeatures)"}),
+        {"good-features",
+         "corners by the smaller eigenvalue of the structure tensor, several thresholds united",
+         "Shi and Tomasi 1994; Bardsley 2004 (CvGoodTrackingFeatures)"}),
     with_options<KeypointSelector, HarrisSelector, HarrisSelectorOptions>(
         {"harris", "corners by determinant and trace of the structure tensor", "Harris and Stephens 1988"}),
     with_options<KeypointSelector, HaarSelector, HaarSelectorOptions>(
-        {"haar", "blobs by box filters on the integral image (Fast-Hessian)", "Bay, Ess, Tuytelaars, Van Gool 2008 (SURF)"}),
+        {"haar", "blobs by box filters on the integral image (Fast-Hessian)",
+         "Bay, Ess, Tuytelaars, Van Gool 2008 (SURF)"}),
     with_options<KeypointSelector, WaveletSalientSelector, WaveletSalientSelectorOptions>(
-        {"wavelet-salient", "ends of the tracks of great wavelet coefficients", "Loupias, Sebe, Bres, Jolion 2000"}),
+        {"wavelet-salient", "ends of the tracks of great wavelet coefficients",
+         "Loupias, Sebe, Bres, Jolion 2000"}),
     with_options<KeypointSelector, RandomSelector, RandomSelectorOptions>(
-        {"random", "different pixels, each equally likely, the same for the same seed: the yardstick", "selection sampling, Knuth, The Art of Computer Programming 2, 3.4.2"}),
+        {"random", "different pixels, each equally likely, the same for the same seed: the yardstick",
+         "selection sampling, Knuth, The Art of Computer Programming 2, 3.4.2"}),
     with_options<KeypointSelector, FileSelector, FileSelectorOptions>(
         {"file-points", "points of a text file, x,y a line, as many as there are", "by hand or elsewhere"}),
 };
 
 constexpr std::array kMatchers{
     with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>(
-        {"refined", "one least-squares surface over the whole face, from a coarse semi-global one", "own; coarse surface after Hirschmueller 2008"}),
+        {"refined", "one least-squares surface over the whole face, from a coarse semi-global one",
+         "own; coarse surface after Hirschmueller 2008"}),
     with_options<Matcher, SsdMatcher, SsdMatcherOptions>(
-        {"ssd", "least sum of squared differences over a square window", "Anandan 1989; Bardsley 2004, ch. 8"}),
+        {"ssd", "least sum of squared differences over a square window",
+         "Anandan 1989; Bardsley 2004, ch. 8"}),
     with_options<Matcher, ZmnccMatcher, ZmnccMatcherOptions>(
-        {"zmncc", "greatest zero-mean normalised cross-correlation of a square window", "Faugeras et al. 1993; Bardsley 2004, ch. 8"}),
+        {"zmncc", "greatest zero-mean normalised cross-correlation of a square window",
+         "Faugeras et al. 1993; Bardsley 2004, ch. 8"}),
     with_options<Matcher, WaveletMatcher, WaveletMatcherOptions>(
-        {"wavelet", "coarse-to-fine comparison of dyadic wavelet coefficients", "after Bhatti and Nahavandi 2008; Bhatti 2011"}),
+        {"wavelet", "coarse-to-fine comparison of dyadic wavelet coefficients",
+         "after Bhatti and Nahavandi 2008; Bhatti 2011"}),
     with_options<Matcher, SgmMatcher, SgmMatcherOptions>(
-        {"sgm", "semi-global matching on the census transform, coarse to fine", "Hirschmueller 2008; Rothermel et al. 2012 (tSGM)"}),
+        {"sgm", "semi-global matching on the census transform, coarse to fine",
+         "Hirschmueller 2008; Rothermel et al. 2012 (tSGM)"}),
     with_options<Matcher, SgbmMatcher, SgbmMatcherOptions>(
-        {"opencv-sgbm", "OpenCV's semi-global block matching, to compare with", "Hirschmueller 2008; cv::StereoSGBM"}),
+        {"opencv-sgbm", "OpenCV's semi-global block matching, to compare with",
+         "Hirschmueller 2008; cv::StereoSGBM"}),
     with_options<Matcher, FileMatcher, FileMatcherOptions>(
-        {"file-matches", "matches of a text file, x y disparity [sigma] a line", "by hand or elsewhere; Bardsley 2004"}),
+        {"file-matches", "matches of a text file, x y disparity [sigma] a line",
+         "by hand or elsewhere; Bardsley 2004"}),
 };
 
 constexpr std::array kConstraints{
     with_options<MatchConstraint, SimilarityConstraint, SimilarityConstraintOptions>(
-        {"similarity", "both views look alike around the match: its cost stays under a limit; after zmncc, whose min_score is a limit too, only one below 1 - min_score says more", "Bardsley 2004"}),
+        {"similarity",
+         "both views look alike around the match: its cost stays under a limit; after zmncc, whose min_score is a limit too, only one below 1 - min_score says more",
+         "Bardsley 2004"}),
     with_options<MatchConstraint, UniquenessConstraint, UniquenessConstraintOptions>(
-        {"uniqueness", "a place of the right view shows one surface only", "Marr and Poggio 1976; Bardsley 2004"}),
+        {"uniqueness", "a place of the right view shows one surface only",
+         "Marr and Poggio 1976; Bardsley 2004"}),
     with_options<MatchConstraint, ContinuityConstraint, ContinuityConstraintOptions>(
-        {"continuity", "on a lattice, disparity varies smoothly nearly everywhere", "Marr and Poggio 1976; Bardsley 2004"}),
+        {"continuity", "on a lattice, disparity varies smoothly nearly everywhere",
+         "Marr and Poggio 1976; Bardsley 2004"}),
     with_options<MatchConstraint, OrderingConstraint, OrderingConstraintOptions>(
-        {"ordering", "along a row, points keep their order from view to view", "Yuille and Poggio 1984; Fredman 1975; Bardsley 2004"}),
+        {"ordering", "along a row, points keep their order from view to view",
+         "Yuille and Poggio 1984; Fredman 1975; Bardsley 2004"}),
     with_options<MatchConstraint, LeftRightConstraint, LeftRightConstraintOptions>(
         {"left-right", "a match is found again from the right view", "Fua 1993; Bardsley 2004"}),
     with_options<MatchConstraint, StatisticalConstraint, StatisticalConstraintOptions>(
-        {"statistical", "a match does not stand out from the others' disparities", "Bardsley 2004; by median and absolute deviation, Huber 1981"}),
+        {"statistical", "a match does not stand out from the others' disparities",
+         "Bardsley 2004; by median and absolute deviation, Huber 1981"}),
 };
 
 }  // namespace
 
 std::vector<Kind> match_kinds() {
   std::vector<Kind> kinds{
-      kind_of("preprocessor", "remove-highlights", "what is done to the pictures' grey values first", kPreprocessors),
+      kind_of("preprocessor", "remove-highlights", "what is done to the pictures' grey values first",
+              kPreprocessors),
       kind_of("selector", "dense", "which places of the left view are matched", kSelectors),
       kind_of("matcher", "refined", "how their partners in the right view are found", kMatchers),
-      kind_of("constraints", "similarity+uniqueness+continuity", "which rules judge the matches, joined by '+', or none", kConstraints),
+      kind_of("constraints", "similarity+uniqueness+continuity",
+              "which rules judge the matches, joined by '+', or none", kConstraints),
   };
   kinds.front().algorithms.push_back({"none", "the grey values stay", "own"});
   kinds.back().algorithms.push_back({"none", "every match is taken", "own"});

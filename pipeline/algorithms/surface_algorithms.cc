@@ -8,8 +8,8 @@
 #include "pipeline/mesh/catalogue/marching_cubes_mesher.h"
 #include "pipeline/mesh/catalogue/poisson_mesher.h"
 #include "pipeline/mesh/catalogue/rbf_mesher.h"
-#include "pipeline/mesh/completion/measured_only.h"
 #include "pipeline/mesh/completion/generic_head_completion.h"
+#include "pipeline/mesh/completion/measured_only.h"
 #include "pipeline/mesh/completion/symmetric_completion.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/grid_mesher.h"
@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::array kTriangulators{
     without_options<Triangulator, InverseDisparityTriangulator>(
-        {"inverse-disparity", "depth is focal length times baseline over disparity", "the pinhole camera's geometry"}),
+        {"inverse-disparity", "depth is focal length times baseline over disparity",
+         "the pinhole camera's geometry"}),
     without_options<Triangulator, LinearTriangulator>(
         {"linear-least-squares", "the point nearest to both lines of sight", "Bardsley 2004, ch. 9"}),
     without_options<Triangulator, OptimalTriangulator>(
@@ -35,31 +36,37 @@ constexpr std::array kTriangulators{
 
 constexpr std::array kOutlierFilters{
     with_options<OutlierFilter, LocalOutlierFilter, LocalOutlierFilterOptions>(
-        {"local", "takes flying points, spikes and islands, by their neighbours", "Bardsley 2004 (NoOutliers); own"}),
+        {"local", "takes flying points, spikes and islands, by their neighbours",
+         "Bardsley 2004 (NoOutliers); own"}),
     with_options<OutlierFilter, StatisticalOutlierFilter, StatisticalOutlierFilterOptions>(
-        {"statistical", "a point's mean distance to its neighbours is not much beyond the cloud's", "Rusu et al. 2008"}),
+        {"statistical", "a point's mean distance to its neighbours is not much beyond the cloud's",
+         "Rusu et al. 2008"}),
 };
 
 constexpr std::array kMeshers{
     with_options<Mesher, GridMesher, GridMesherOptions>(
-        {"grid", "joins neighbours of the lattice and closes the face to its outline; needs a lattice", "own"}),
+        {"grid", "joins neighbours of the lattice and closes the face to its outline; needs a lattice",
+         "own"}),
     with_options<Mesher, DelaunayMesher, DelaunayMesherOptions>(
-        {"delaunay", "2.5-D Delaunay triangulation over the left view; takes scattered points", "Bardsley 2004; CGAL"}),
+        {"delaunay", "2.5-D Delaunay triangulation over the left view; takes scattered points",
+         "Bardsley 2004; CGAL"}),
     with_options<Mesher, AdvancingFrontMesher, AdvancingFrontMesherOptions>(
-        {"advancing-front", "grown over the 3-D Delaunay triangulation, the most plausible triangle first", "Cohen-Steiner and Da 2004; CGAL"}),
+        {"advancing-front", "grown over the 3-D Delaunay triangulation, the most plausible triangle first",
+         "Cohen-Steiner and Da 2004; CGAL"}),
     with_options<Mesher, PoissonMesher, PoissonMesherOptions>(
-        {"poisson", "the surface whose inside's gradient follows the points' normals", "Kazhdan et al. 2006; CGAL"}),
+        {"poisson", "the surface whose inside's gradient follows the points' normals",
+         "Kazhdan et al. 2006; CGAL"}),
     with_options<Mesher, RbfMesher, RbfMesherOptions>(
         {"rbf", "one thin-plate function with greedily chosen centres", "Carr et al. 2001"}),
     with_options<Mesher, MarchingCubesMesher, MarchingCubesMesherOptions>(
-        {"marching-cubes", "zero surface of implicit moving least squares", "Kolluri 2008; Lorensen and Cline 1987"}),
+        {"marching-cubes", "zero surface of implicit moving least squares",
+         "Kolluri 2008; Lorensen and Cline 1987"}),
     with_options<Mesher, BezierMesher, BezierMesherOptions>(
         {"bezier", "a C1 net of bicubic patches, fitted by least squares", "Farin 2002; Dierckx 1993"}),
 };
 
 constexpr std::array kCompletions{
-    without_options<Completion, MeasuredOnly>(
-        {"measured-only", "nothing is added", "own"}),
+    without_options<Completion, MeasuredOnly>({"measured-only", "nothing is added", "own"}),
     with_options<Completion, SymmetricCompletion, SymmetricCompletionOptions>(
         {"symmetric", "what one side hides is mirrored from the other", "own"}),
     with_options<Completion, GenericHeadCompletion, GenericHeadOptions>(
@@ -81,8 +88,11 @@ std::vector<Kind> surface_kinds() {
       kind_of("outliers", "local", "which points are taken for outliers in space", kOutlierFilters),
       kind_of("mesher", "grid", "how points become a surface", kMeshers),
       kind_of("completion", "measured-only", "what is made of surface that was not seen", kCompletions),
-      {"relief", "check", "whether a picture of a face is told from a face and refused",
-       {{"check", "a sheet, however it is bent, is no face", "Gauss 1827; own"}, {"off", "pictures of faces pass", "own"}}},
+      {"relief",
+       "check",
+       "whether a picture of a face is told from a face and refused",
+       {{"check", "a sheet, however it is bent, is no face", "Gauss 1827; own"},
+        {"off", "pictures of faces pass", "own"}}},
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
   };
   kinds[1].algorithms.push_back({"none", "every point is taken", "own"});

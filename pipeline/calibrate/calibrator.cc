@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/quality/quality_measures.h"
 #include "pipeline/calibrate/fit/stereo_fit.h"
 #include "pipeline/calibrate/fit/view_selection.h"
+#include "pipeline/calibrate/quality/quality_measures.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -142,9 +142,10 @@ void name_left_out(const Selection& selection, std::span<const int> pairs, Calib
       std::snprintf(text, sizeof text, "taken on the other side of a camera's move (%s)",
                     quality.views[static_cast<std::size_t>(quality.moved_after)].name.c_str());
     else
-      std::snprintf(text, sizeof text,
-                    "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
-                    view.excess_px, usual, view.epipolar_rms_px);
+      std::snprintf(
+          text, sizeof text,
+          "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
+          view.excess_px, usual, view.epipolar_rms_px);
     view.reason = text;
   }
 }
@@ -154,11 +155,14 @@ constexpr double kSameLens = 0.01;
 
 bool same_lens(const CameraIntrinsics& a, const CameraIntrinsics& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px &&
-         std::abs(a.focal_px.x / b.focal_px.x - 1) < kSameLens && std::abs(a.focal_px.y / b.focal_px.y - 1) < kSameLens;
+         std::abs(a.focal_px.x / b.focal_px.x - 1) < kSameLens &&
+         std::abs(a.focal_px.y / b.focal_px.y - 1) < kSameLens;
 }
 
-// A board's square size scales the baseline and leaves the lenses alone: by the lenses the rig is known again.
-void expect_baseline(const CalibratorInput& input, const StereoCalibration& found, CalibrationQuality& quality) {
+// A board's square size scales the baseline and leaves the lenses alone: by the lenses the rig is known
+// again.
+void expect_baseline(const CalibratorInput& input, const StereoCalibration& found,
+                     CalibrationQuality& quality) {
   quality.expected_baseline_mm = input.expected_baseline_mm;
   if (input.expected_baseline_mm > 0 || !input.in_use) return;
   if (!same_lens(found.left, input.in_use->left) || !same_lens(found.right, input.in_use->right)) return;
@@ -213,7 +217,8 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   pairs.clear();
   std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
   if (pairs.size() < kMinBoardPairs)
-    return poor_geometry("too few pairs show a flat board; is the print glued to something stiff?", pairs.size());
+    return poor_geometry("too few pairs show a flat board; is the print glued to something stiff?",
+                         pairs.size());
 
   const CameraFits cameras{left_fit, right_fit};
   Selection selection;

@@ -43,7 +43,7 @@ struct CalibratorInput {
 
 struct CalibratorOutput {
   StereoCalibration calibration;
-  CalibrationQuality quality;  // with verdict Refuse the calibration is not to be used
+  CalibrationQuality quality;     // with verdict Refuse the calibration is not to be used
   std::vector<FittedView> views;  // one a view given, in their order
 };
 

@@ -31,8 +31,8 @@ namespace relievo::pipeline {
 
 // Chi-square with three degrees of freedom, 99.9 %.
 inline constexpr double kDriftStatistic = 16.27;
-inline constexpr double kSkinShiftPx = 0.02;         // measured on simulated heads with highlights
-inline constexpr double kUnknownPromisePx = 0.03;    // of a calibration that does not say
+inline constexpr double kSkinShiftPx = 0.02;       // measured on simulated heads with highlights
+inline constexpr double kUnknownPromisePx = 0.03;  // of a calibration that does not say
 inline constexpr double kRefusedPx = 1.5;
 // A face that leaves the shift less certain than this would not show 0.2 px: it says nothing.
 inline constexpr double kUselessSigmaPx = 0.1;

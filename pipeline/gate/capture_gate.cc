@@ -13,17 +13,19 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kFaceWidthMm = 150;   // what a cascade's box stands for
-constexpr double kSecondFaceShare = 0.4;   // smaller ones are passers-by far away
+constexpr double kFaceWidthMm = 150;      // what a cascade's box stands for
+constexpr double kSecondFaceShare = 0.4;  // smaller ones are passers-by far away
 constexpr int kSecondFaceVotes = 8;
 constexpr double kTurnSmoothing = 0.5;
-constexpr double kNeckMm = 60;   // a head turns about an axis so far behind the tip of its nose, or farther
+constexpr double kNeckMm = 60;  // a head turns about an axis so far behind the tip of its nose, or farther
 
 // A second face must be as wide as one at its own distance, where that is known.
 bool is_face(const Relief& relief, const FaceHit& hit) {
-  const int x = static_cast<int>(std::lround(hit.centre_px.x)), y = static_cast<int>(std::lround(hit.centre_px.y));
+  const int x = static_cast<int>(std::lround(hit.centre_px.x)),
+            y = static_cast<int>(std::lround(hit.centre_px.y));
   if (!relief.inside(x, y) || !relief.known(x, y)) return hit.votes >= 2 * kSecondFaceVotes;
-  const double width_mm = hit.width_px * static_cast<double>(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
+  const double width_mm =
+      hit.width_px * static_cast<double>(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
   return hit.votes >= kSecondFaceVotes && width_mm > 90 && width_mm < 240;
 }
 
@@ -39,7 +41,8 @@ int count_faces(const Relief& relief, const FaceHits& hits) {
 void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   std::size_t dark = 0, bright = 0, near = 0;
   for (const std::uint8_t v : relief.grey) dark += v <= 25 ? 1U : 0U;
-  const int x0 = relief.width_px / 3, x1 = 2 * relief.width_px / 3, y0 = relief.height_px / 5, y1 = 4 * relief.height_px / 5;
+  const int x0 = relief.width_px / 3, x1 = 2 * relief.width_px / 3, y0 = relief.height_px / 5,
+            y1 = 4 * relief.height_px / 5;
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       const std::size_t i = relief.index(x, y);
@@ -47,7 +50,8 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
       near += relief.known(x, y) && static_cast<double>(relief.depth_mm[i]) < nearest_mm ? 1U : 0U;
     }
   const auto middle = static_cast<double>(std::max(1, (x1 - x0) * (y1 - y0)));
-  m.picture_dark_share = static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
+  m.picture_dark_share =
+      static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
   m.middle_bright_share = static_cast<double>(bright) / middle;
   m.middle_near_share = static_cast<double>(near) / middle;
 }
@@ -67,17 +71,20 @@ HeadHint expected(const Relief& relief, const GateHistory& history) {
 
 double apart(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-// The tip of a nose that is hardly seen wanders over the face, and so does the cascade's box, but not together: across the picture the
-// lesser of both counts, in depth the tip.
+// The tip of a nose that is hardly seen wanders over the face, and so does the cascade's box, but not
+// together: across the picture the lesser of both counts, in depth the tip.
 double moved_mm(const Relief& relief, const SeenHead& from, const SeenHead& to) {
   const Vec3d &a = from.tip_mm, &b = to.tip_mm;
   double across = apart({a.x, a.y}, {b.x, b.y});
-  if (to.by_cascade && from.by_cascade) across = std::min(across, apart(from.face.centre_px, to.face.centre_px) * b.z / relief.focal_px);
+  if (to.by_cascade && from.by_cascade)
+    across = std::min(across, apart(from.face.centre_px, to.face.centre_px) * b.z / relief.focal_px);
   return std::hypot(across, b.z - a.z);
 }
 
-// However fast the pictures come: a head at rest must not seem to hurry because two of them are taken within a blink.
-void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest, const GateHistory& history, GateMeasures& m) {
+// However fast the pictures come: a head at rest must not seem to hurry because two of them are taken within
+// a blink.
+void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest, const GateHistory& history,
+                    GateMeasures& m) {
   m.speed_mm_s = history.speed_mm_s;
   m.turn_deg_s = history.turn_deg_s;
   if (now.at - history.from.at < shortest) return;
@@ -86,7 +93,9 @@ void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest
   // The tip of a nose at rest wanders by a millimetre from picture to picture: two pictures speak together.
   m.speed_mm_s = kTurnSmoothing * speed + (1 - kTurnSmoothing) * std::min(history.speed_mm_s, 2 * speed);
   // Where the tip stays, it is not the head that turns but the mirror plane of a poor relief.
-  const double turn = std::min(std::abs(now.yaw_deg - history.from.yaw_deg), moved / kNeckMm * 180 / std::numbers::pi) / seconds;
+  const double turn =
+      std::min(std::abs(now.yaw_deg - history.from.yaw_deg), moved / kNeckMm * 180 / std::numbers::pi) /
+      seconds;
   m.turn_deg_s = kTurnSmoothing * turn + (1 - kTurnSmoothing) * std::min(history.turn_deg_s, 2 * turn);
 }
 
@@ -105,7 +114,8 @@ void remember(const SeenHead& now, GateTime shortest, const GateMeasures& m, Gat
 
 // What is said changes when two pictures in a row say otherwise; that all is well, only when both say so.
 void settle(GateTime now, GateAnswer& answer, GateHistory& history) {
-  const bool otherwise = answer.reason != history.said && history.heard != history.said && answer.reason != Advice::None;
+  const bool otherwise =
+      answer.reason != history.said && history.heard != history.said && answer.reason != Advice::None;
   if (answer.reason == history.heard || otherwise) history.said = answer.reason;
   history.heard = answer.reason;
   answer.advice = history.said;
@@ -124,7 +134,8 @@ Result<CaptureGate> CaptureGate::open(const CaptureGateOptions& options) {
   return CaptureGate(std::move(watch), options);
 }
 
-Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now, GateHistory& history, StageContext& context) {
+Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibration& calibration,
+                                   GateTime now, GateHistory& history, StageContext& context) {
   RELIEVO_TRY_ASSIGN(Relief relief, relief_.look(frame, calibration, context));
   RELIEVO_TRY_ASSIGN(const FaceHits hits, watch_.look(relief));
   GateAnswer answer;
@@ -149,7 +160,8 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.off_down_mm = m.head.tip_mm.y;
     m.light = measure_light(relief, m.head);
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
-    const bool lit = m.light.luminance_mean >= options_.limits.darkest_mean && m.light.luminance_mean <= options_.limits.brightest_mean;
+    const bool lit = m.light.luminance_mean >= options_.limits.darkest_mean &&
+                     m.light.luminance_mean <= options_.limits.brightest_mean;
     if (lit && history.seen) measure_motion(relief, seen, options_.shortest_motion, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
     m.beside_share = beside_share(relief, m.head);

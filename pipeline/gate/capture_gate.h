@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CaptureGate: judges the live pair and answers with one piece of advice, the first that holds in the order of Advice. None means: take it.
+// CaptureGate: judges the live pair and answers with one piece of advice, the first that holds in the order
+// of Advice. None means: take it.
 //
-//   pair --> relief, faces by cascade --> the head by stereo --> light, sharpness, eyes, mouth --> judge() --> steadied by the history
+//   pair --> relief, faces by cascade --> the head by stereo --> light, sharpness, eyes, mouth --> judge()
+//   --> steadied by the history
 //
-// look() is a function of the pictures, the time and the history, which is plain data of fixed size: the same of these
-// gives the same answer. What a person is told changes only when a reason was seen twice; `reason` is this picture's own, and
-// `steady` is how long no picture has had one: nothing may be taken while `reason` is not None.
-// Memory: the relief in context.output, the rest in context.scratch; OpenCV's cascades use their own, bounded by the size of the picture.
-// Thread: one caller at a time. Errors of look(): those of LiveRelief and FaceWatch.
+// look() is a function of the pictures, the time and the history, which is plain data of fixed size: the same
+// of these gives the same answer. What a person is told changes only when a reason was seen twice; `reason`
+// is this picture's own, and `steady` is how long no picture has had one: nothing may be taken while `reason`
+// is not None. Memory: the relief in context.output, the rest in context.scratch; OpenCV's cascades use their
+// own, bounded by the size of the picture. Thread: one caller at a time. Errors of look(): those of
+// LiveRelief and FaceWatch.
 #pragma once
 
 #include <chrono>
@@ -20,14 +23,15 @@
 
 namespace relievo::pipeline {
 
-using GateTime = std::chrono::nanoseconds;   // of the exposure, on any steady clock
+using GateTime = std::chrono::nanoseconds;  // of the exposure, on any steady clock
 
 struct CaptureGateOptions {
   LiveReliefOptions relief;
   FaceWatchOptions faces;
   GateLimits limits;
   GateTime keeps_track = std::chrono::milliseconds{1500};  // of a head that no cascade sees any more
-  GateTime shortest_motion = std::chrono::milliseconds{50};  // what is measured wanders by a millimetre: over less time that would look like haste
+  GateTime shortest_motion = std::chrono::milliseconds{
+      50};  // what is measured wanders by a millimetre: over less time that would look like haste
 };
 
 // A head as one picture showed it.
@@ -40,12 +44,12 @@ struct SeenHead {
 };
 
 struct GateHistory {
-  bool seen = false;               // a head, in the picture before
+  bool seen = false;  // a head, in the picture before
   GateTime last_by_cascade{};
-  SeenHead last, from;             // from: what motion is measured against, shortest_motion ago or more
+  SeenHead last, from;  // from: what motion is measured against, shortest_motion ago or more
   double speed_mm_s = 0, turn_deg_s = 0;
-  Advice said = Advice::NoFace;    // to the person
-  Advice heard = Advice::NoFace;   // the reason of the picture before
+  Advice said = Advice::NoFace;   // to the person
+  Advice heard = Advice::NoFace;  // the reason of the picture before
   bool good = false;
   GateTime good_since{};
 };
@@ -66,10 +70,12 @@ class CaptureGate {
  public:
   // Errors: InvalidInput, and those of FaceWatch::open().
   static Result<CaptureGate> open(const CaptureGateOptions& options = {});
-  Result<GateLook> look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now, GateHistory& history, StageContext& context);
+  Result<GateLook> look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now,
+                        GateHistory& history, StageContext& context);
 
  private:
-  CaptureGate(FaceWatch watch, const CaptureGateOptions& options) : watch_(std::move(watch)), relief_(options.relief), options_(options) {}
+  CaptureGate(FaceWatch watch, const CaptureGateOptions& options)
+      : watch_(std::move(watch)), relief_(options.relief), options_(options) {}
   FaceWatch watch_;
   LiveRelief relief_;
   CaptureGateOptions options_;

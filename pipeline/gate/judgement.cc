@@ -8,7 +8,8 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kFillsMiddle = 0.4;  // somebody too near for a whole face, or a face of which light leaves nothing
+constexpr double kFillsMiddle =
+    0.4;  // somebody too near for a whole face, or a face of which light leaves nothing
 
 struct Judge {
   const GateMeasures& m;
@@ -16,8 +17,12 @@ struct Judge {
   Advice said;
 
   // While it is said, an advice holds from a little before its limit on.
-  bool above(double value, double limit, Advice advice) const { return value > (said == advice ? limit * l.leave : limit); }
-  bool below(double value, double limit, Advice advice) const { return value < (said == advice ? limit / l.leave : limit); }
+  bool above(double value, double limit, Advice advice) const {
+    return value > (said == advice ? limit * l.leave : limit);
+  }
+  bool below(double value, double limit, Advice advice) const {
+    return value < (said == advice ? limit / l.leave : limit);
+  }
 
   // The relief knows no head: what can be said of the picture alone.
   Advice without_head() const {
@@ -43,9 +48,13 @@ struct Judge {
     return Advice::None;
   }
   // Of a face that something covers neither tip nor pose can be told.
-  Advice covered() const { return above(m.covered_share, l.covered_share, Advice::FaceHidden) ? Advice::FaceHidden : Advice::None; }
+  Advice covered() const {
+    return above(m.covered_share, l.covered_share, Advice::FaceHidden) ? Advice::FaceHidden : Advice::None;
+  }
   Advice middle() const {
-    if (above(std::abs(m.off_right_mm), l.off_right_mm, Advice::OffCentre) || above(std::abs(m.off_down_mm), l.off_down_mm, Advice::OffCentre)) return Advice::OffCentre;
+    if (above(std::abs(m.off_right_mm), l.off_right_mm, Advice::OffCentre) ||
+        above(std::abs(m.off_down_mm), l.off_down_mm, Advice::OffCentre))
+      return Advice::OffCentre;
     return Advice::None;
   }
   Advice pose() const {
@@ -53,48 +62,63 @@ struct Judge {
     if (above(std::abs(m.head.yaw_deg), l.yaw_deg, Advice::TurnedAside)) return Advice::TurnedAside;
     if (above(std::abs(m.head.pitch_deg), l.pitch_deg, Advice::LooksUpOrDown)) return Advice::LooksUpOrDown;
     if (above(std::abs(m.head.roll_deg), l.roll_deg, Advice::Tilted)) return Advice::Tilted;
-    if (above(m.speed_mm_s, l.speed_mm_s, Advice::Moved) || above(m.turn_deg_s, l.turn_deg_s, Advice::Moved)) return Advice::Moved;
+    if (above(m.speed_mm_s, l.speed_mm_s, Advice::Moved) || above(m.turn_deg_s, l.turn_deg_s, Advice::Moved))
+      return Advice::Moved;
     return Advice::None;
   }
   Advice light() const {
     const FaceLight& f = m.light;
     if (!f.known) return Advice::NoFace;
-    if (below(f.luminance_mean, l.darkest_mean, Advice::TooDark) || above(f.dark_share, l.dark_share, Advice::TooDark)) return Advice::TooDark;
-    if (above(f.luminance_mean, l.brightest_mean, Advice::TooBright) || above(f.bright_share, l.bright_share, Advice::TooBright)) return Advice::TooBright;
-    if (f.side_ratio < (said == Advice::UnevenLight ? l.side_ratio / l.leave_sides : l.side_ratio)) return Advice::UnevenLight;
+    if (below(f.luminance_mean, l.darkest_mean, Advice::TooDark) ||
+        above(f.dark_share, l.dark_share, Advice::TooDark))
+      return Advice::TooDark;
+    if (above(f.luminance_mean, l.brightest_mean, Advice::TooBright) ||
+        above(f.bright_share, l.bright_share, Advice::TooBright))
+      return Advice::TooBright;
+    if (f.side_ratio < (said == Advice::UnevenLight ? l.side_ratio / l.leave_sides : l.side_ratio))
+      return Advice::UnevenLight;
     if (above(f.glossy_share, l.glossy_share, Advice::Highlights)) return Advice::Highlights;
     if (above(m.blur_mm, l.blur_mm, Advice::Blurred)) return Advice::Blurred;
     return Advice::None;
   }
   Advice cover() const {
     const HeadSight& h = m.head;
-    const bool hidden = above(h.in_front_share, l.in_front_share, Advice::FaceHidden) || above(h.unknown_share, l.unknown_share, Advice::FaceHidden) ||
+    const bool hidden = above(h.in_front_share, l.in_front_share, Advice::FaceHidden) ||
+                        above(h.unknown_share, l.unknown_share, Advice::FaceHidden) ||
                         above(h.asymmetry_mm, l.asymmetry_mm, Advice::FaceHidden);
     return hidden ? Advice::FaceHidden : Advice::None;
   }
-  // Light from one side takes most of one iris's contrast, not of both: one eye alone is closed only where hardly anything is left.
+  // Light from one side takes most of one iris's contrast, not of both: one eye alone is closed only where
+  // hardly anything is left.
   bool closed() const {
     double better = -1, worse = 1;
     for (const EyeSight& eye : m.eyes)
       if (eye.known) better = std::max(better, eye.contrast), worse = std::min(worse, eye.contrast);
-    return better > -1 && (below(better, l.iris_contrast, Advice::EyesClosed) || below(worse, l.one_eye_share * better, Advice::EyesClosed));
+    return better > -1 && (below(better, l.iris_contrast, Advice::EyesClosed) ||
+                           below(worse, l.one_eye_share * better, Advice::EyesClosed));
   }
   // Of an eye that something hides nobody can tell whether it is open.
   Advice eyes() const {
     for (const EyeSight& eye : m.eyes)
       if (eye.known && below(eye.brightness, l.eye_brightness, Advice::EyesHidden)) return Advice::EyesHidden;
-    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeSight& eye) { return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare); });
+    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeSight& eye) {
+      return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare);
+    });
     if (!glare && closed()) return Advice::EyesClosed;
     return glare ? Advice::GlassesGlare : Advice::None;
   }
   Advice mouth() const {
     const MouthSight& mouth = m.mouth;
     if (!mouth.known) return Advice::None;
-    const bool open = above(mouth.dark_mm2, l.dark_mm2, Advice::MouthOpen) || above(mouth.steps_mm, l.steps_mm, Advice::MouthOpen) || above(mouth.before_mm, l.before_mm, Advice::MouthOpen);
+    const bool open = above(mouth.dark_mm2, l.dark_mm2, Advice::MouthOpen) ||
+                      above(mouth.steps_mm, l.steps_mm, Advice::MouthOpen) ||
+                      above(mouth.before_mm, l.before_mm, Advice::MouthOpen);
     if (open) return Advice::MouthOpen;
     return above(mouth.rise_mm, l.rise_mm, Advice::NotNeutral) ? Advice::NotNeutral : Advice::None;
   }
-  Advice beside() const { return above(m.beside_share, l.beside_share, Advice::Background) ? Advice::Background : Advice::None; }
+  Advice beside() const {
+    return above(m.beside_share, l.beside_share, Advice::Background) ? Advice::Background : Advice::None;
+  }
 };
 
 }  // namespace
@@ -102,12 +126,19 @@ struct Judge {
 Result<void> GateLimits::check() const {
   const auto sane = [](double v) { return v > 0 && std::isfinite(v); };
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
-    return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}.at("gate");
-  for (const double v : {off_right_mm, off_down_mm, yaw_deg, pitch_deg, roll_deg, speed_mm_s, turn_deg_s, darkest_mean, brightest_mean, dark_share, bright_share,
-                         side_ratio, glossy_share, blur_mm, covered_share, in_front_share, unknown_share, asymmetry_mm, relief_mm, lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness, iris_contrast, one_eye_share,
-                         glare_mm2, dark_mm2, steps_mm, before_mm, rise_mm, beside_share, leave, leave_sides})
-    if (!sane(v)) return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
-  if (leave > 1 || leave_sides > 1) return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
+    return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}
+        .at("gate");
+  for (const double v : {off_right_mm,      off_down_mm,   yaw_deg,         pitch_deg,      roll_deg,
+                         speed_mm_s,        turn_deg_s,    darkest_mean,    brightest_mean, dark_share,
+                         bright_share,      side_ratio,    glossy_share,    blur_mm,        covered_share,
+                         in_front_share,    unknown_share, asymmetry_mm,    relief_mm,      lost_dark_mean,
+                         lost_bright_share, lost_blur_mm,  lost_below_mm_s, eye_brightness, iris_contrast,
+                         one_eye_share,     glare_mm2,     dark_mm2,        steps_mm,       before_mm,
+                         rise_mm,           beside_share,  leave,           leave_sides})
+    if (!sane(v))
+      return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
+  if (leave > 1 || leave_sides > 1)
+    return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
   return {};
 }
 
@@ -121,7 +152,8 @@ Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said
   const Judge judge{measures, limits, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
-  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(), judge.light(), judge.cover(), judge.eyes(), judge.mouth(), judge.beside()})
+  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(),
+                              judge.light(), judge.cover(), judge.eyes(), judge.mouth(), judge.beside()})
     if (advice != Advice::None) return advice;
   return measures.tracked ? Advice::NoFace : Advice::None;
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Preprocessor: changes the grey values that selectors and matchers see, in place; geometry, colours (the texture
-// is laid from them) and the face region stay as they are.
-// Errors: OutOfMemory, Cancelled, InvalidInput (a pair without pixels): what the grey values are then is not said.
+// Preprocessor: changes the grey values that selectors and matchers see, in place; geometry, colours (the
+// texture is laid from them) and the face region stay as they are. Errors: OutOfMemory, Cancelled,
+// InvalidInput (a pair without pixels): what the grey values are then is not said.
 #pragma once
 
 #include <string_view>

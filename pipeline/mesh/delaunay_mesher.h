@@ -17,13 +17,14 @@
 namespace relievo::pipeline {
 
 struct DelaunayMesherOptions {
-  int max_triangles = 320'000;      // more points are thinned evenly
-  double max_edge_mm = 25;          // longest edge
-  double max_edge_ratio = 12;       // longest edge, in distances of points that are spread evenly over as much surface
-  double max_incidence_deg = 80;    // steepest triangle, between its normal and the line of sight
-  int ear_passes = 3;               // how often triangles that hang on by one edge are trimmed; 0 to 16
-  int normal_passes = 1;            // how often normals are averaged over the neighbours; 0 to 16
-  double min_area_mm2 = 2500;       // less surface than this is no face
+  int max_triangles = 320'000;  // more points are thinned evenly
+  double max_edge_mm = 25;      // longest edge
+  double max_edge_ratio =
+      12;  // longest edge, in distances of points that are spread evenly over as much surface
+  double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
+  int ear_passes = 3;             // how often triangles that hang on by one edge are trimmed; 0 to 16
+  int normal_passes = 1;          // how often normals are averaged over the neighbours; 0 to 16
+  double min_area_mm2 = 2500;     // less surface than this is no face
 
   Result<void> check() const;
 };
@@ -32,10 +33,14 @@ template <typename Field>
 void describe(DelaunayMesherOptions& o, Field&& field) {
   field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "more points are thinned evenly");
   field("max_edge_mm", o.max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
-  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100}, "longest edge, in usual distances between neighbours");
-  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89}, "steepest triangle, between its normal and the line of sight, degrees");
-  field("ear_passes", o.ear_passes, OptionRange{0, 16}, "how often triangles that hang on by one edge are trimmed");
-  field("normal_passes", o.normal_passes, OptionRange{0, 16}, "how often normals are averaged over the neighbours");
+  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100},
+        "longest edge, in usual distances between neighbours");
+  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89},
+        "steepest triangle, between its normal and the line of sight, degrees");
+  field("ear_passes", o.ear_passes, OptionRange{0, 16},
+        "how often triangles that hang on by one edge are trimmed");
+  field("normal_passes", o.normal_passes, OptionRange{0, 16},
+        "how often normals are averaged over the neighbours");
   field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
 }
 

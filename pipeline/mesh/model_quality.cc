@@ -17,8 +17,11 @@ double triangle_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return 0.5 * std::sqrt(nx * nx + ny * ny + nz * nz);
 }
 
-// What a visitor looks at first, in the head's frame; mm. The mouth lies that far below the nose, however it is opened.
-struct Feature { double x, y, half_width, half_height; };
+// What a visitor looks at first, in the head's frame; mm. The mouth lies that far below the nose, however it
+// is opened.
+struct Feature {
+  double x, y, half_width, half_height;
+};
 constexpr Feature kFeatures[] = {{0, -44, 24, 12}, {0, 0, 14, 14}, {31, 38, 15, 8}, {-31, 38, 15, 8}};
 
 struct Share {
@@ -47,15 +50,19 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
   for (const auto& t : mesh.triangles) {
     const Vec3f &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
     const double area = triangle_area(a, b, c);
-    const double measured = mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0 ? area : 0;
+    const double measured =
+        mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0 ? area : 0;
     const auto add = [&](Share& share) {
       share.all += area;
       share.measured += measured;
     };
     add(face);
-    const Vec3d p = apply(frame.head_from_camera, {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)});
+    const Vec3d p = apply(frame.head_from_camera,
+                          {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)});
     for (std::size_t i = 0; i < features.size(); ++i)
-      if (std::abs(p.x - kFeatures[i].x) < kFeatures[i].half_width && std::abs(p.y - kFeatures[i].y) < kFeatures[i].half_height) add(features[i]);
+      if (std::abs(p.x - kFeatures[i].x) < kFeatures[i].half_width &&
+          std::abs(p.y - kFeatures[i].y) < kFeatures[i].half_height)
+        add(features[i]);
   }
   quality.measured_area_mm2 = face.measured;
   quality.coverage = face.value();

@@ -12,7 +12,9 @@
 
 namespace relievo::pipeline::mesh {
 
-struct SightEdge { float depth_mm, across_mm; };
+struct SightEdge {
+  float depth_mm, across_mm;
+};
 
 inline SightEdge edge_between(const Vec3f& from, const Vec3f& to) {
   const Vec3f e = minus(to, from);

@@ -21,11 +21,18 @@ double triangle_area(std::span<const Vec3f> v, const Triangle& t) {
 // Triangles with their neighbours; triangles die, they are never moved.
 class Soup {
  public:
-  Soup(std::span<const Vec3f> vertices, std::span<const Triangle> triangles, std::pmr::memory_resource* memory)
-      : vertices_(vertices), triangles_(triangles), first_(vertices.size() + 1, 0U, memory),
-        around_(3 * triangles.size(), 0U, memory), across_(3 * triangles.size(), kNone, memory),
-        alive_(triangles.size(), 1, memory), mark_(triangles.size(), kNone, memory), stack_(memory),
-        corners_(vertices.size(), 0, memory), inner_(vertices.size(), 0, memory) {
+  Soup(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
+       std::pmr::memory_resource* memory)
+      : vertices_(vertices),
+        triangles_(triangles),
+        first_(vertices.size() + 1, 0U, memory),
+        around_(3 * triangles.size(), 0U, memory),
+        across_(3 * triangles.size(), kNone, memory),
+        alive_(triangles.size(), 1, memory),
+        mark_(triangles.size(), kNone, memory),
+        stack_(memory),
+        corners_(vertices.size(), 0, memory),
+        inner_(vertices.size(), 0, memory) {
     stack_.reserve(triangles.size());
     index_corners();
     find_neighbours();
@@ -174,8 +181,9 @@ class Soup {
 
   std::span<const Vec3f> vertices_;
   std::span<const Triangle> triangles_;
-  std::pmr::vector<std::uint32_t> first_, around_;  // triangles around vertex v: around_[first_[v] .. first_[v + 1])
-  std::pmr::vector<std::uint32_t> across_;          // the triangle behind each edge
+  std::pmr::vector<std::uint32_t> first_,
+      around_;                              // triangles around vertex v: around_[first_[v] .. first_[v + 1])
+  std::pmr::vector<std::uint32_t> across_;  // the triangle behind each edge
   std::pmr::vector<std::uint8_t> alive_;
   std::pmr::vector<std::uint32_t> mark_, stack_;
   std::pmr::vector<std::uint16_t> corners_, inner_;
@@ -184,7 +192,8 @@ class Soup {
 }  // namespace
 
 Error no_surface() {
-  return {Errc::PoorGeometry, "the points form no surface of a face's size: look straight into the cameras and try again"};
+  return {Errc::PoorGeometry,
+          "the points form no surface of a face's size: look straight into the cameras and try again"};
 }
 
 double area_mm2(std::span<const Vec3f> vertices, std::span<const Triangle> triangles) {
@@ -201,7 +210,8 @@ void keep_one_surface(std::span<const Vec3f> vertices, std::pmr::vector<Triangle
   for (int pass = 0; pass < options.ear_passes; ++pass)
     if (soup.drop_ears() == 0) break;
   // Every turn takes at least one triangle, so it ends.
-  while (soup.split_bow_ties() + soup.keep_largest_component() > 0) {}
+  while (soup.split_bow_ties() + soup.keep_largest_component() > 0) {
+  }
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (soup.alive(t)) triangles[kept++] = triangles[t];

@@ -19,7 +19,7 @@ namespace relievo::pipeline {
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct CleanerOptions {
-  int ear_passes = 2;     // how often triangles that hang on by one edge are taken off the boundary
+  int ear_passes = 2;  // how often triangles that hang on by one edge are taken off the boundary
 };
 
 // Keeps the largest component (by area) that is joined through edges, drops all fans but the largest
@@ -43,10 +43,12 @@ struct PackedVertex {
   std::uint8_t measured = 0;
 };
 
-// The mesh, in `context.output`, of those of `count` vertices that a triangle uses, in their order; `vertex(v)` says what
-// the v-th is. Room for normals is reserved, none are written. Throws std::bad_alloc when memory is used up.
+// The mesh, in `context.output`, of those of `count` vertices that a triangle uses, in their order;
+// `vertex(v)` says what the v-th is. Room for normals is reserved, none are written. Throws std::bad_alloc
+// when memory is used up.
 template <typename Vertex>
-FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, StageContext& context, Vertex&& vertex) {
+FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, StageContext& context,
+                   Vertex&& vertex) {
   constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
   std::pmr::vector<std::uint32_t> place(count, kUnused, &context.scratch);
   std::uint32_t used = 0;

@@ -11,11 +11,14 @@
 
 namespace relievo::pipeline {
 
-struct RowRange { int begin = 0, end = 0; };  // rows begin .. end - 1
+struct RowRange {
+  int begin = 0, end = 0;
+};  // rows begin .. end - 1
 
 // Calls paint(x, y, a, b, c) with the weights of the corners for every texel of the triangle in `rows`.
 template <typename Paint>
-void for_each_texel(const Vec2f& a, const Vec2f& b, const Vec2f& c, int width_px, RowRange rows, Paint&& paint) {
+void for_each_texel(const Vec2f& a, const Vec2f& b, const Vec2f& c, int width_px, RowRange rows,
+                    Paint&& paint) {
   const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(area) > 1e-6F)) return;
   const float to_unit = 1 / area;

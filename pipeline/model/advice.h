@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Advice: what the person in front of the cameras can do. Not an error: nothing is broken.
-// One at a time, the first that holds in the order below: the order in which a person can act on it. Behind each
-// stands the component of ISO/IEC 29794-5 (the reference implementation's name, OFIQ) that speaks of the same, where there is one.
+// One at a time, the first that holds in the order below: the order in which a person can act on it. Behind
+// each stands the component of ISO/IEC 29794-5 (the reference implementation's name, OFIQ) that speaks of the
+// same, where there is one.
 #pragma once
 
 #include <cstdint>

@@ -22,8 +22,8 @@ struct CameraIntrinsics {
   int height_px = 0;
 };
 
-// Which cameras: each in words that tell it from all others ("serial 40123456", "at /dev/v4l/by-path/…"); empty where
-// nobody knows. Printable ASCII, kMaxCameraWords at most.
+// Which cameras: each in words that tell it from all others ("serial 40123456", "at /dev/v4l/by-path/…");
+// empty where nobody knows. Printable ASCII, kMaxCameraWords at most.
 struct RigCameras {
   std::string left;
   std::string right;
@@ -35,11 +35,11 @@ struct StereoCalibration {
   CameraIntrinsics left;
   CameraIntrinsics right;
   RigidTransform right_from_left;
-  double rms_px = 0;            // pair reprojection rms of the views used; 0 where unknown
-  double epipolar_shift_px = 0;  // what a whole board misses its epipolar lines by in a picture that had no part in
-                                 // the fit, rms over the board (offset and tilt); 0 where unknown
+  double rms_px = 0;             // pair reprojection rms of the views used; 0 where unknown
+  double epipolar_shift_px = 0;  // what a whole board misses its epipolar lines by in a picture that had no
+                                 // part in the fit, rms over the board (offset and tilt); 0 where unknown
   std::uint32_t revision = 0;
-  RigCameras cameras = {};       // that it was made with
+  RigCameras cameras = {};  // that it was made with
 };
 
 }  // namespace relievo::pipeline

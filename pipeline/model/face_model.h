@@ -17,15 +17,17 @@
 namespace relievo::pipeline {
 
 struct ModelQuality {
-  double median_sigma_mm = 0;       // of the measured vertices
+  double median_sigma_mm = 0;  // of the measured vertices
   double measured_area_mm2 = 0;
-  double coverage = 0;              // share of what is shown that was measured, the rest is completed: of the whole, or of
-                                    // mouth, nose or an eye, whichever has the least
-  double width_mm = 0;              // of the surface in the head frame, first to last percentile
+  double coverage = 0;  // share of what is shown that was measured, the rest is completed: of the whole, or
+                        // of mouth, nose or an eye, whichever has the least
+  double width_mm = 0;  // of the surface in the head frame, first to last percentile
   double height_mm = 0;
-  double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
-  double epipolar_residual_px = 0;  // rms vertical disagreement of the face's own matches, before any realignment
-  double texture_sharpness = 0;     // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
+  double nose_relief_mm = 0;  // tip of the nose in front of the cheeks
+  double epipolar_residual_px =
+      0;  // rms vertical disagreement of the face's own matches, before any realignment
+  double texture_sharpness =
+      0;  // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
   double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
   ReliefFigures relief;             // all 0 where nothing could be told, or nobody asked
 };
@@ -39,7 +41,7 @@ struct FaceModel {
   RigidTransform head_from_camera;
   Landmarks landmarks{};
   ModelQuality quality;
-  Backdrop backdrop;  // shown behind the face, nothing else
+  Backdrop backdrop;              // shown behind the face, nothing else
   std::optional<Error> unjudged;  // why it is not known to be a face; then it may be looked at, not enrolled
 };
 

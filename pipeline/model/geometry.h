@@ -7,16 +7,29 @@
 
 namespace relievo::pipeline {
 
-struct Vec2f { float x = 0, y = 0; };
-struct Vec3f { float x = 0, y = 0, z = 0; };
-struct Vec2d { double x = 0, y = 0; };
-struct Vec3d { double x = 0, y = 0, z = 0; };
+struct Vec2f {
+  float x = 0, y = 0;
+};
+struct Vec3f {
+  float x = 0, y = 0, z = 0;
+};
+struct Vec2d {
+  double x = 0, y = 0;
+};
+struct Vec3d {
+  double x = 0, y = 0, z = 0;
+};
 
 // Row-major rotation. Variables are named target_from_source.
-struct Rotation { double m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}; };
+struct Rotation {
+  double m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+};
 
 // Maps a point in the source frame to the target frame: p_target = R p + t (right_from_left).
-struct RigidTransform { Rotation rotation; Vec3d translation_mm; };
+struct RigidTransform {
+  Rotation rotation;
+  Vec3d translation_mm;
+};
 
 inline Vec3d apply(const Rotation& r, const Vec3d& p) {
   return {r.m[0] * p.x + r.m[1] * p.y + r.m[2] * p.z, r.m[3] * p.x + r.m[4] * p.y + r.m[5] * p.z,

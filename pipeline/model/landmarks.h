@@ -22,9 +22,9 @@ enum class LandmarkName : std::uint8_t {
   Pogonion,           // foremost point of the chin
   EndocanthionRight,  // inner corner of the eye
   EndocanthionLeft,
-  ExocanthionRight,   // outer corner of the eye
+  ExocanthionRight,  // outer corner of the eye
   ExocanthionLeft,
-  CheilionRight,      // corner of the mouth
+  CheilionRight,  // corner of the mouth
   CheilionLeft,
   Count
 };
@@ -41,17 +41,28 @@ using Landmarks = std::array<Landmark, kLandmarkCount>;
 // As files name them.
 constexpr std::string_view word(LandmarkName name) {
   switch (name) {
-    case LandmarkName::Pronasale: return "pronasale";
-    case LandmarkName::Nasion: return "nasion";
-    case LandmarkName::Subnasale: return "subnasale";
-    case LandmarkName::Pogonion: return "pogonion";
-    case LandmarkName::EndocanthionRight: return "endocanthion_right";
-    case LandmarkName::EndocanthionLeft: return "endocanthion_left";
-    case LandmarkName::ExocanthionRight: return "exocanthion_right";
-    case LandmarkName::ExocanthionLeft: return "exocanthion_left";
-    case LandmarkName::CheilionRight: return "cheilion_right";
-    case LandmarkName::CheilionLeft: return "cheilion_left";
-    case LandmarkName::Count: break;
+    case LandmarkName::Pronasale:
+      return "pronasale";
+    case LandmarkName::Nasion:
+      return "nasion";
+    case LandmarkName::Subnasale:
+      return "subnasale";
+    case LandmarkName::Pogonion:
+      return "pogonion";
+    case LandmarkName::EndocanthionRight:
+      return "endocanthion_right";
+    case LandmarkName::EndocanthionLeft:
+      return "endocanthion_left";
+    case LandmarkName::ExocanthionRight:
+      return "exocanthion_right";
+    case LandmarkName::ExocanthionLeft:
+      return "exocanthion_left";
+    case LandmarkName::CheilionRight:
+      return "cheilion_right";
+    case LandmarkName::CheilionLeft:
+      return "cheilion_left";
+    case LandmarkName::Count:
+      break;
   }
   return "";
 }

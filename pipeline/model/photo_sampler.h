@@ -18,7 +18,9 @@ namespace relievo::pipeline {
 class PhotoSampler {
  public:
   PhotoSampler(const RectifiedView& view, int width_px, int height_px)
-      : rgb_(view.rgb.data()), width_(width_px), last_x_(static_cast<float>(width_px - 1)),
+      : rgb_(view.rgb.data()),
+        width_(width_px),
+        last_x_(static_cast<float>(width_px - 1)),
         last_y_(static_cast<float>(height_px - 1)) {}
 
   void read(float x, float y, float (&rgb)[3]) const {
@@ -59,8 +61,12 @@ class PhotoRow {
  public:
   // `buffer`: 3 floats a pixel of the picture's width. Columns outside `from` .. `to` are never read.
   PhotoRow(const RectifiedView& view, int width_px, int height_px, int from, int to, std::span<float> buffer)
-      : rgb_(view.rgb.data()), width_(width_px), height_(height_px), from_(std::clamp(from, 0, width_px - 1)),
-        to_(std::clamp(to, 0, width_px - 1)), buffer_(buffer) {}
+      : rgb_(view.rgb.data()),
+        width_(width_px),
+        height_(height_px),
+        from_(std::clamp(from, 0, width_px - 1)),
+        to_(std::clamp(to, 0, width_px - 1)),
+        buffer_(buffer) {}
 
   void move_to(float y) {
     y = std::clamp(y, 0.0F, static_cast<float>(height_ - 1));
@@ -69,7 +75,8 @@ class PhotoRow {
     cubic_weights(y - static_cast<float>(row), w);
     const std::uint8_t* rows[4];
     for (int i = 0; i < 4; ++i)
-      rows[i] = rgb_ + 3 * static_cast<std::size_t>(std::clamp(row - 1 + i, 0, height_ - 1)) * static_cast<std::size_t>(width_);
+      rows[i] = rgb_ + 3 * static_cast<std::size_t>(std::clamp(row - 1 + i, 0, height_ - 1)) *
+                           static_cast<std::size_t>(width_);
     const std::size_t end = 3 * (static_cast<std::size_t>(to_) + 1);
     for (std::size_t k = 3 * static_cast<std::size_t>(from_); k < end; ++k)
       buffer_[k] = w[0] * static_cast<float>(rows[0][k]) + w[1] * static_cast<float>(rows[1][k]) +

@@ -13,8 +13,8 @@ namespace relievo::pipeline {
 
 struct CloudPoint {
   Vec3f at_mm;
-  Vec2f left_px;        // where the left rectified view saw it
-  float sigma_mm = 0;   // one standard deviation along the line of sight
+  Vec2f left_px;       // where the left rectified view saw it
+  float sigma_mm = 0;  // one standard deviation along the line of sight
 };
 
 struct PointCloud {

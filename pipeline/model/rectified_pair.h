@@ -35,17 +35,17 @@ struct RectifiedPair {
   double focal_px = 0;
   double baseline_mm = 0;
   Vec2d left_centre_px;
-  Vec2d right_centre_px;                 // .y equals left_centre_px.y
-  double near_mm = 0, far_mm = 0;        // the volume in which a surface is looked for
+  Vec2d right_centre_px;           // .y equals left_centre_px.y
+  double near_mm = 0, far_mm = 0;  // the volume in which a surface is looked for
   Rotation rectified_from_left;
   Rotation rectified_from_right;
-  RigidTransform right_from_left;        // of the cameras, as calibrated
+  RigidTransform right_from_left;  // of the cameras, as calibrated
   RectifiedView left;
   RectifiedView right;
-  Vec2d face_centre_px;                  // where the face was found in the left view, between eyes and mouth
-  double face_width_px = 0;              // about 150 mm on a grown-up; 0 where no face was looked for
-  double face_reach_mm = 0;              // what lies further from the tip of its nose is not wanted; 0: everything is
-  std::pmr::vector<std::uint8_t> region; // left view: 1 where the face may be; empty means everywhere
+  Vec2d face_centre_px;      // where the face was found in the left view, between eyes and mouth
+  double face_width_px = 0;  // about 150 mm on a grown-up; 0 where no face was looked for
+  double face_reach_mm = 0;  // what lies further from the tip of its nose is not wanted; 0: everything is
+  std::pmr::vector<std::uint8_t> region;  // left view: 1 where the face may be; empty means everywhere
 
   double disparity_at_infinity_px() const { return left_centre_px.x - right_centre_px.x; }
   double depth_mm(double disparity_px) const {
@@ -54,7 +54,9 @@ struct RectifiedPair {
   double disparity_px(double depth_mm) const {
     return focal_px * baseline_mm / depth_mm + disparity_at_infinity_px();
   }
-  Vec3d right_camera_mm() const { return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0}); }  // in the left camera's frame
+  Vec3d right_camera_mm() const {
+    return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0});
+  }  // in the left camera's frame
 };
 
 }  // namespace relievo::pipeline

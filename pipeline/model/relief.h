@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Relief: how far away everything in the live picture is, small enough to be made many times a second. Row by row
-// without padding, in pixels of a rectified left view; the frame is that of rectified_pair.h (origin in the left camera,
-// x along the baseline, z away from the rig, millimetres). Plain data: it can be drawn as it is.
+// Relief: how far away everything in the live picture is, small enough to be made many times a second. Row by
+// row without padding, in pixels of a rectified left view; the frame is that of rectified_pair.h (origin in
+// the left camera, x along the baseline, z away from the rig, millimetres). Plain data: it can be drawn as it
+// is.
 #pragma once
 
 #include <cstddef>
@@ -21,19 +22,26 @@ struct Relief {
   double focal_px = 0, baseline_mm = 0;
   Vec2d centre_px;
   Rotation rectified_from_left;
-  std::pmr::vector<float> depth_mm;         // z; 0 where nothing is known
-  std::pmr::vector<std::uint16_t> surface;  // 0 where nothing is known, else which connected surface; 1 is the largest
-  std::pmr::vector<std::uint8_t> grey;      // luminance of the left view
+  std::pmr::vector<float> depth_mm;  // z; 0 where nothing is known
+  std::pmr::vector<std::uint16_t>
+      surface;  // 0 where nothing is known, else which connected surface; 1 is the largest
+  std::pmr::vector<std::uint8_t> grey;  // luminance of the left view
   int surfaces = 0;
 
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
+  }
   // Of a place between pixels; std::lround() is a call, and asked a million times a picture.
   static int nearest(double v) { return static_cast<int>(v + 4096.5) - 4096; }
   bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
   bool known(int x, int y) const { return depth_mm[index(x, y)] > 0; }
-  Vec3d point(double x, double y, double z_mm) const { return {(x - centre_px.x) * z_mm / focal_px, (y - centre_px.y) * z_mm / focal_px, z_mm}; }
+  Vec3d point(double x, double y, double z_mm) const {
+    return {(x - centre_px.x) * z_mm / focal_px, (y - centre_px.y) * z_mm / focal_px, z_mm};
+  }
   Vec3d point(int x, int y) const { return point(x, y, static_cast<double>(depth_mm[index(x, y)])); }
-  Vec2d pixel(const Vec3d& p) const { return {centre_px.x + focal_px * p.x / p.z, centre_px.y + focal_px * p.y / p.z}; }
+  Vec2d pixel(const Vec3d& p) const {
+    return {centre_px.x + focal_px * p.x / p.z, centre_px.y + focal_px * p.y / p.z};
+  }
 };
 
 }  // namespace relievo::pipeline

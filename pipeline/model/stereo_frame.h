@@ -14,7 +14,7 @@ struct StereoFrame {
   ImageView left;
   ImageView right;
   std::uint32_t sequence = 0;
-  std::int64_t skew_ns = 0;     // exposure of right minus left
+  std::int64_t skew_ns = 0;  // exposure of right minus left
 };
 
 }  // namespace relievo::pipeline

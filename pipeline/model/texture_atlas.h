@@ -14,15 +14,15 @@
 
 namespace relievo::pipeline {
 
-inline constexpr std::uint8_t kNoSurfaceTexel = 0;        // beyond the charts: their colours continued
-inline constexpr std::uint8_t kFilledTexel = 1;           // surface that was completed, not photographed
-inline constexpr std::uint8_t kLeftPhotographTexel = 2;   // 2 (left view alone) to 255 (right view alone)
+inline constexpr std::uint8_t kNoSurfaceTexel = 0;       // beyond the charts: their colours continued
+inline constexpr std::uint8_t kFilledTexel = 1;          // surface that was completed, not photographed
+inline constexpr std::uint8_t kLeftPhotographTexel = 2;  // 2 (left view alone) to 255 (right view alone)
 
 struct TextureAtlas {
   explicit TextureAtlas(std::pmr::memory_resource* memory)
       : rgb(memory), origin(memory), uv(memory), vertex_rgb(memory) {}
-  std::pmr::vector<std::uint8_t> rgb;         // 3 a texel, width_px * height_px
-  std::pmr::vector<std::uint8_t> origin;      // 1 a texel, see above; empty where it is not known
+  std::pmr::vector<std::uint8_t> rgb;     // 3 a texel, width_px * height_px
+  std::pmr::vector<std::uint8_t> origin;  // 1 a texel, see above; empty where it is not known
   int width_px = 0;
   int height_px = 0;
   std::pmr::vector<Vec2f> uv;                 // one a corner: 3 a triangle, in the mesh's order

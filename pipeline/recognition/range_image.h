@@ -17,9 +17,9 @@ namespace relievo::pipeline {
 
 struct RangeGrid {
   double pitch_mm = 0.5;
-  Vec2d first_mm{-100, 130};   // x of the left column, y of the upper row
-  int width_px = 401;          // to x = 100
-  int height_px = 501;         // to y = -120
+  Vec2d first_mm{-100, 130};  // x of the left column, y of the upper row
+  int width_px = 401;         // to x = 100
+  int height_px = 501;        // to y = -120
 };
 
 // Surface seen from behind or at more than 85 degrees has no height worth keeping.

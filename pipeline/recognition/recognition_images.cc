@@ -9,7 +9,8 @@
 
 namespace relievo::pipeline {
 
-Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::pmr::memory_resource& output, std::pmr::memory_resource& scratch) {
+Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::pmr::memory_resource& output,
+                                                  std::pmr::memory_resource& scratch) {
   if (model.mesh.triangles.empty()) return Error{Errc::InvalidInput, "there is no surface to draw"};
   try {
     RecognitionImages images(&output);

@@ -13,6 +13,7 @@
 
 namespace relievo::pipeline {
 
-Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::pmr::memory_resource& output, std::pmr::memory_resource& scratch);
+Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::pmr::memory_resource& output,
+                                                  std::pmr::memory_resource& scratch);
 
 }  // namespace relievo::pipeline

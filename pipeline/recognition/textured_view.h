@@ -17,7 +17,7 @@
 namespace relievo::pipeline {
 
 struct ViewCamera {
-  RigidTransform view_from_camera;   // from the left camera's frame; x right, y down, z away from this camera
+  RigidTransform view_from_camera;  // from the left camera's frame; x right, y down, z away from this camera
   double focal_px = 0;
   Vec2d centre_px;
   int width_px = 0;

@@ -20,9 +20,11 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
   middle.reserve(cloud.points.size());
   for (const CloudPoint& p : cloud.points)
     if (may_be_nose(pair, static_cast<double>(p.left_px.x), static_cast<double>(p.left_px.y)))
-      middle.push_back({static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)});
+      middle.push_back(
+          {static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)});
   if (middle.size() < 50)
-    return Error{Errc::NoFace, "nothing was measured in the middle of the face: more light, or nothing before the face"};
+    return Error{Errc::NoFace,
+                 "nothing was measured in the middle of the face: more light, or nothing before the face"};
   const Vec3d tip = outstanding_tip(middle);
   const auto outside = [&](const CloudPoint& p) {
     const double dx = p.at_mm.x - tip.x;

@@ -13,7 +13,8 @@ namespace relievo::pipeline {
 class InverseDisparityTriangulator final : public Triangulator {
  public:
   std::string_view name() const override { return "inverse-disparity"; }
-  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const override;
+  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                 StageContext& context) const override;
 };
 
 }  // namespace relievo::pipeline

@@ -15,7 +15,8 @@ namespace relievo::pipeline {
 class LinearTriangulator final : public Triangulator {
  public:
   std::string_view name() const override { return "linear-least-squares"; }
-  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const override;
+  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                 StageContext& context) const override;
 };
 
 }  // namespace relievo::pipeline

@@ -31,14 +31,20 @@ struct Sight {
 
 float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-struct Offset { float u, v, depth; };  // from the centre, in its Sight
+struct Offset {
+  float u, v, depth;
+};  // from the centre, in its Sight
 
 class Filter {
  public:
   Filter(const PointCloud& cloud, const LocalOutlierFilterOptions& options, Arena& scratch)
-      : points_(cloud.points), options_(options), near_(cloud, &scratch),
+      : points_(cloud.points),
+        options_(options),
+        near_(cloud, &scratch),
         max_slope_(static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
-        verdict_(cloud.points.size(), Verdict::Unsupported, &scratch), island_(&scratch), stack_(&scratch) {}
+        verdict_(cloud.points.size(), Verdict::Unsupported, &scratch),
+        island_(&scratch),
+        stack_(&scratch) {}
 
   // Points without a cell were not finite; they stay unsupported.
   bool judge(StageContext& context) {
@@ -58,7 +64,8 @@ class Filter {
       for (int c = 0; c < near_.columns(); ++c)
         for (const std::uint32_t i : near_.cell(c, r))
           at[i] = static_cast<std::uint64_t>(r) << 32 | static_cast<std::uint64_t>(c);
-    const std::size_t least = static_cast<std::size_t>(options_.min_island * static_cast<double>(points_.size()));
+    const std::size_t least =
+        static_cast<std::size_t>(options_.min_island * static_cast<double>(points_.size()));
     std::uint32_t label = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
       if (verdict_[i] != Verdict::Kept || island_[i] != 0) continue;
@@ -95,22 +102,39 @@ class Filter {
     // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
     const double wanted = options_.min_support * (near_.on_lattice() ? 24 : std::max(places, 6));
     if (support < wanted) return Verdict::Unsupported;
-    return options_.spike_sigmas > 0 && off_plane({near, static_cast<std::size_t>(support)}, p.sigma_mm) ? Verdict::Spike : Verdict::Kept;
+    return options_.spike_sigmas > 0 && off_plane({near, static_cast<std::size_t>(support)}, p.sigma_mm)
+               ? Verdict::Spike
+               : Verdict::Kept;
   }
 
-  struct Plane { float slope_u = 0, slope_v = 0, base = 0, scatter = 0; bool known = false; };
+  struct Plane {
+    float slope_u = 0, slope_v = 0, base = 0, scatter = 0;
+    bool known = false;
+  };
 
   // Least-squares plane of the neighbours within `limit` of `first`; base is its depth at the point.
   static Plane fit(std::span<const Offset> near, const Plane& first, float limit) {
     float n = 0, u = 0, v = 0, d = 0, uu = 0, uv = 0, vv = 0, ud = 0, vd = 0, dd = 0;
     for (const Offset& o : near) {
       if (std::abs(o.depth - first.base - first.slope_u * o.u - first.slope_v * o.v) > limit) continue;
-      n += 1; u += o.u; v += o.v; d += o.depth;
-      uu += o.u * o.u; uv += o.u * o.v; vv += o.v * o.v;
-      ud += o.u * o.depth; vd += o.v * o.depth; dd += o.depth * o.depth;
+      n += 1;
+      u += o.u;
+      v += o.v;
+      d += o.depth;
+      uu += o.u * o.u;
+      uv += o.u * o.v;
+      vv += o.v * o.v;
+      ud += o.u * o.depth;
+      vd += o.v * o.depth;
+      dd += o.depth * o.depth;
     }
     if (n < 6) return {};
-    uu -= u * u / n; uv -= u * v / n; vv -= v * v / n; ud -= u * d / n; vd -= v * d / n; dd -= d * d / n;
+    uu -= u * u / n;
+    uv -= u * v / n;
+    vv -= v * v / n;
+    ud -= u * d / n;
+    vd -= v * d / n;
+    dd -= d * d / n;
     const float det = uu * vv - uv * uv;
     if (!(det > 1e-6F * uu * vv)) return {};
     Plane plane;
@@ -147,7 +171,9 @@ class Filter {
             const Vec3f& a = points_[i].at_mm;
             const Vec3f& b = points_[k].at_mm;
             const Vec3f d{b.x - a.x, b.y - a.y, b.z - a.z};
-            if (!supports({dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)}, std::max(points_[i].sigma_mm, points_[k].sigma_mm))) continue;
+            if (!supports({dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)},
+                          std::max(points_[i].sigma_mm, points_[k].sigma_mm)))
+              continue;
             island_[k] = label;
             stack_.push_back(k);
           }
@@ -174,7 +200,8 @@ Result<void> LocalOutlierFilterOptions::check() const {
   return {};
 }
 
-Result<OutlierCounts> reject_outliers(PointCloud& cloud, const LocalOutlierFilterOptions& options, StageContext& context) {
+Result<OutlierCounts> reject_outliers(PointCloud& cloud, const LocalOutlierFilterOptions& options,
+                                      StageContext& context) {
   RELIEVO_TRY(options.check());
   const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
   if (context.stop()) return stopped;

@@ -9,7 +9,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr float kLargestPixel = 100'000;
-constexpr double kPointsPerBucket = 3;  // nine buckets then hold about as many points as a lattice's neighbourhood
+constexpr double kPointsPerBucket =
+    3;  // nine buckets then hold about as many points as a lattice's neighbourhood
 
 bool usable(const CloudPoint& p) {
   return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
@@ -35,9 +36,12 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
   }
   if (count == 0) return;
   const double area = static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1);
-  const double step = on_lattice_ ? cloud.lattice_step_px
-                                  : std::max(1e-3, std::sqrt(area * kPointsPerBucket / static_cast<double>(count)));
-  const auto cell_of = [step](float from, float at) { return static_cast<int>(std::lround(static_cast<double>(at - from) / step)); };
+  const double step = on_lattice_
+                          ? cloud.lattice_step_px
+                          : std::max(1e-3, std::sqrt(area * kPointsPerBucket / static_cast<double>(count)));
+  const auto cell_of = [step](float from, float at) {
+    return static_cast<int>(std::lround(static_cast<double>(at - from) / step));
+  };
   columns_ = cell_of(left, right) + 1;
   rows_ = cell_of(top, bottom) + 1;
   const auto place = [&](const CloudPoint& p) {
@@ -51,7 +55,8 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
     if (usable(p)) ++first_[place(p) + 2];
   for (std::size_t k = 2; k < first_.size(); ++k) first_[k] += first_[k - 1];
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (usable(cloud.points[i])) members_[first_[place(cloud.points[i]) + 1]++] = static_cast<std::uint32_t>(i);
+    if (usable(cloud.points[i]))
+      members_[first_[place(cloud.points[i]) + 1]++] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace relievo::pipeline

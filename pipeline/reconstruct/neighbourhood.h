@@ -27,7 +27,8 @@ class Neighbourhood {
   int reach() const { return on_lattice_ ? 2 : 1; }
   std::span<const std::uint32_t> cell(int column, int row) const {
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return {};
-    const std::size_t k = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    const std::size_t k =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
     return {members_.data() + first_[k], first_[k + 1] - first_[k]};
   }
 

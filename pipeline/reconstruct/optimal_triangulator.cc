@@ -11,7 +11,8 @@ namespace {
 // The cameras' frames and the rectified one.
 struct Frames {
   explicit Frames(const RectifiedPair& pair)
-      : left_from_rectified(transposed(pair.rectified_from_left)), right_from_rectified(transposed(pair.rectified_from_right)) {
+      : left_from_rectified(transposed(pair.rectified_from_left)),
+        right_from_rectified(transposed(pair.rectified_from_right)) {
     // The right camera stands at (B, 0, 0) of the rectified frame: with l and r the lines of sight there,
     // (e_x cross l) . r = 0, and each is its own camera's place turned into the rectified frame.
     const Rotation& a = pair.rectified_from_left;
@@ -25,10 +26,13 @@ struct Frames {
 
 Vec2d on_plane(const Vec3d& direction) { return {direction.x / direction.z, direction.y / direction.z}; }
 
-struct Step { Vec2d n_left, n_right; };
+struct Step {
+  Vec2d n_left, n_right;
+};
 
 double squares(const Step& s) {
-  return s.n_left.x * s.n_left.x + s.n_left.y * s.n_left.y + s.n_right.x * s.n_right.x + s.n_right.y * s.n_right.y;
+  return s.n_left.x * s.n_left.x + s.n_left.y * s.n_left.y + s.n_right.x * s.n_right.x +
+         s.n_right.y * s.n_right.y;
 }
 
 }  // namespace
@@ -39,7 +43,9 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
   const Vec2d& r = seen.right;
   Step n{{m[0] * r.x + m[1] * r.y + m[2], m[3] * r.x + m[4] * r.y + m[5]},
          {m[0] * l.x + m[3] * l.y + m[6], m[1] * l.x + m[4] * l.y + m[7]}};
-  const auto inner = [&](const Vec2d& p, const Vec2d& q) { return p.x * (m[0] * q.x + m[1] * q.y) + p.y * (m[3] * q.x + m[4] * q.y); };
+  const auto inner = [&](const Vec2d& p, const Vec2d& q) {
+    return p.x * (m[0] * q.x + m[1] * q.y) + p.y * (m[3] * q.x + m[4] * q.y);
+  };
   const double a = inner(n.n_left, n.n_right);
   const double b = 0.5 * squares(n);
   const double c = l.x * n.n_left.x + l.y * n.n_left.y + m[6] * r.x + m[7] * r.y + m[8];
@@ -48,18 +54,24 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
   const double first = c / (b + d);
   const Vec2d move_left{first * n.n_left.x, first * n.n_left.y};
   const Vec2d move_right{first * n.n_right.x, first * n.n_right.y};
-  n.n_left = {n.n_left.x - m[0] * move_right.x - m[1] * move_right.y, n.n_left.y - m[3] * move_right.x - m[4] * move_right.y};
-  n.n_right = {n.n_right.x - m[0] * move_left.x - m[3] * move_left.y, n.n_right.y - m[1] * move_left.x - m[4] * move_left.y};
+  n.n_left = {n.n_left.x - m[0] * move_right.x - m[1] * move_right.y,
+              n.n_left.y - m[3] * move_right.x - m[4] * move_right.y};
+  n.n_right = {n.n_right.x - m[0] * move_left.x - m[3] * move_left.y,
+               n.n_right.y - m[1] * move_left.x - m[4] * move_left.y};
   const double norm = squares(n);
   if (!(norm > 0)) return seen;
   const double second = first * 2 * d / norm;
-  return {{l.x - second * n.n_left.x, l.y - second * n.n_left.y}, {r.x - second * n.n_right.x, r.y - second * n.n_right.y}};
+  return {{l.x - second * n.n_left.x, l.y - second * n.n_left.y},
+          {r.x - second * n.n_right.x, r.y - second * n.n_right.y}};
 }
 
-Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const {
-  const auto accepted = static_cast<std::size_t>(std::count_if(
-      matches.matches.begin(), matches.matches.end(), [](const Match& match) { return match.rejected_by == 0; }));
-  if (accepted < 3) return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
+Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                                    StageContext& context) const {
+  const auto accepted =
+      static_cast<std::size_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
+                                             [](const Match& match) { return match.rejected_by == 0; }));
+  if (accepted < 3)
+    return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
   PointCloud cloud(&context.output);
   cloud.lattice_step_px = matches.lattice_step_px;
   cloud.right_camera_mm = pair.right_camera_mm();
@@ -70,11 +82,18 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
     if (k % 16384 == 0 && context.stop()) return Error{Errc::Cancelled, "stopped while triangulating"};
     const Match& match = matches.matches[k];
     if (match.rejected_by != 0) continue;
-    const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f, (match.left_px.y - pair.left_centre_px.y) / f, 1};
-    const double row = static_cast<double>(match.left_px.y) +
-                       (matches.epipolar_shift.measured() ? matches.epipolar_shift.at(static_cast<double>(match.left_px.x), static_cast<double>(match.left_px.y)) : 0);
-    const Vec3d right{(match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f, (row - pair.right_centre_px.y) / f, 1};
-    const PlacePair moved = correct_optimally(frames.relation, {on_plane(apply(frames.left_from_rectified, left)), on_plane(apply(frames.right_from_rectified, right))});
+    const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f,
+                     (match.left_px.y - pair.left_centre_px.y) / f, 1};
+    const double row =
+        static_cast<double>(match.left_px.y) +
+        (matches.epipolar_shift.measured() ? matches.epipolar_shift.at(static_cast<double>(match.left_px.x),
+                                                                       static_cast<double>(match.left_px.y))
+                                           : 0);
+    const Vec3d right{(match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f,
+                      (row - pair.right_centre_px.y) / f, 1};
+    const PlacePair moved =
+        correct_optimally(frames.relation, {on_plane(apply(frames.left_from_rectified, left)),
+                                            on_plane(apply(frames.right_from_rectified, right))});
     // The lines meet now: the rectified disparity of the moved places is exact.
     const Vec2d u = on_plane(apply(pair.rectified_from_left, {moved.left.x, moved.left.y, 1}));
     const Vec2d v = on_plane(apply(pair.rectified_from_right, {moved.right.x, moved.right.y, 1}));
@@ -82,11 +101,13 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
     if (!(z >= pair.near_mm && z <= pair.far_mm)) continue;  // outside the volume: not this person
     const Vec3d p = apply(frames.left_from_rectified, {u.x * z, u.y * z, z});
     const double along = std::sqrt(1 + u.x * u.x + u.y * u.y) * z * z / (f * pair.baseline_mm);
-    cloud.points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, match.left_px,
+    cloud.points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+                            match.left_px,
                             static_cast<float>(along * static_cast<double>(match.sigma_px))});
   }
   if (cloud.points.size() < 3)
-    return Error{Errc::TooFewMatches, "nothing lies between the near and far limits: stand closer to the marked distance"};
+    return Error{Errc::TooFewMatches,
+                 "nothing lies between the near and far limits: stand closer to the marked distance"};
   return cloud;
 }
 

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// OptimalTriangulator ("optimal"): the point whose images are nearest to what was seen, by Lindstrom's two steps
-// ("Triangulation Made Easy", CVPR 2010, niter2): both places are moved by the least squared distance that makes
-// their lines of sight meet, in the cameras' own image planes (focal lengths taken as equal, distortion gone),
-// where noise is alike in all directions, not in the rectified planes, which a toed-in rig stretches.
+// OptimalTriangulator ("optimal"): the point whose images are nearest to what was seen, by Lindstrom's two
+// steps
+// ("Triangulation Made Easy", CVPR 2010, niter2): both places are moved by the least squared distance that
+// makes their lines of sight meet, in the cameras' own image planes (focal lengths taken as equal, distortion
+// gone), where noise is alike in all directions, not in the rectified planes, which a toed-in rig stretches.
 //
-// The partner's row is the keypoint's row plus the set's epipolar_shift where that was measured. Rows that agree
-// exactly leave nothing to correct: the result is then that of inverse-disparity. sigma_mm as there.
+// The partner's row is the keypoint's row plus the set's epipolar_shift where that was measured. Rows that
+// agree exactly leave nothing to correct: the result is then that of inverse-disparity. sigma_mm as there.
 #pragma once
 
 #include "pipeline/reconstruct/triangulator.h"
@@ -21,7 +22,9 @@ struct PlacePair {
 };
 
 // E with (left, 1)^T E (right, 1) = 0 where two lines of sight meet; row-major.
-struct EpipolarRelation { double m[9]; };
+struct EpipolarRelation {
+  double m[9];
+};
 
 // Moves both places so that their lines of sight meet.
 PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen);
@@ -29,7 +32,8 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen);
 class OptimalTriangulator final : public Triangulator {
  public:
   std::string_view name() const override { return "optimal"; }
-  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches, StageContext& context) const override;
+  Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                 StageContext& context) const override;
 };
 
 }  // namespace relievo::pipeline

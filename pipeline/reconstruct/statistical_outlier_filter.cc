@@ -22,7 +22,8 @@ struct Nearest {
   void offer(float squared) {
     if (count_ == most_ && !(squared < least_[static_cast<std::size_t>(count_ - 1)])) return;
     int at = count_ < most_ ? count_++ : count_ - 1;
-    for (; at > 0 && least_[static_cast<std::size_t>(at - 1)] > squared; --at) least_[static_cast<std::size_t>(at)] = least_[static_cast<std::size_t>(at - 1)];
+    for (; at > 0 && least_[static_cast<std::size_t>(at - 1)] > squared; --at)
+      least_[static_cast<std::size_t>(at)] = least_[static_cast<std::size_t>(at - 1)];
     least_[static_cast<std::size_t>(at)] = squared;
   }
   bool full() const { return count_ == most_; }
@@ -39,7 +40,8 @@ struct Nearest {
   std::array<float, kMostNeighbours> least_{};
 };
 
-float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uint32_t i, int column, int row, int neighbours) {
+float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uint32_t i, int column, int row,
+                    int neighbours) {
   Nearest nearest(neighbours);
   const Vec3f& p = cloud.points[i].at_mm;
   const auto look = [&](int c, int r) {
@@ -65,7 +67,8 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
 
 Result<void> StatisticalOutlierFilterOptions::check() const {
   if (neighbours < 1 || neighbours > kMostNeighbours || !(deviations > 0))
-    return Error{Errc::InvalidInput, "neighbours must lie in 1 .. 64 and deviations be positive"}.at("outliers statistical");
+    return Error{Errc::InvalidInput, "neighbours must lie in 1 .. 64 and deviations be positive"}.at(
+        "outliers statistical");
   return {};
 }
 
@@ -76,7 +79,8 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
   context.pool.for_each_band(near.rows(), kBands, [&](int begin, int end, int) {
     for (int r = begin; r < end && !context.stop(); ++r)
       for (int c = 0; c < near.columns(); ++c)
-        for (const std::uint32_t i : near.cell(c, r)) distance[i] = mean_distance(cloud, near, i, c, r, options_.neighbours);
+        for (const std::uint32_t i : near.cell(c, r))
+          distance[i] = mean_distance(cloud, near, i, c, r, options_.neighbours);
   });
   if (context.stop()) return Error{Errc::Cancelled, "the search for outliers was stopped"};
   double n = 0;
@@ -89,10 +93,12 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
     squares += static_cast<double>(d) * static_cast<double>(d);
   }
   const double mean = sum / std::max(1.0, n);
-  const double limit = mean + options_.deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
+  const double limit =
+      mean + options_.deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (distance[i] != kAlone && static_cast<double>(distance[i]) <= limit) cloud.points[kept++] = cloud.points[i];
+    if (distance[i] != kAlone && static_cast<double>(distance[i]) <= limit)
+      cloud.points[kept++] = cloud.points[i];
   cloud.points.resize(kept);
   return {};
 }

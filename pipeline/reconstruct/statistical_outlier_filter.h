@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StatisticalOutlierFilter ("statistical"): a point goes whose mean distance to its k nearest neighbours exceeds
-// the mean of that distance over the whole cloud by more than some of its standard deviations (Rusu et al.,
-// "Towards 3D point cloud based object maps for household environments", 2008). Millimetres.
+// StatisticalOutlierFilter ("statistical"): a point goes whose mean distance to its k nearest neighbours
+// exceeds the mean of that distance over the whole cloud by more than some of its standard deviations (Rusu
+// et al., "Towards 3D point cloud based object maps for household environments", 2008). Millimetres.
 //
 // Neighbours are looked for where the left view has them: in ever wider squares of cells around the point's
 // until k are found (at most eight cells away), the k nearest in space of those. A point that has none goes.
@@ -23,8 +23,10 @@ struct StatisticalOutlierFilterOptions {
 
 template <typename Field>
 void describe(StatisticalOutlierFilterOptions& o, Field&& field) {
-  field("neighbours", o.neighbours, OptionRange{1, 64}, "points in space: the mean distance to so many nearest ones is judged");
-  field("deviations", o.deviations, OptionRange{0.1, 100}, "points in space: standard deviations above the cloud's mean at which a point goes");
+  field("neighbours", o.neighbours, OptionRange{1, 64},
+        "points in space: the mean distance to so many nearest ones is judged");
+  field("deviations", o.deviations, OptionRange{0.1, 100},
+        "points in space: standard deviations above the cloud's mean at which a point goes");
 }
 
 class StatisticalOutlierFilter final : public OutlierFilter {

@@ -17,12 +17,12 @@ using Eigen::Vector3d;
 
 constexpr double kMiddleShare = 0.15;  // of the face's width: surface that is surely in its middle
 constexpr std::size_t kEnough = 50;
-constexpr double kPlaneBendMm = 3;     // what lies further off the plane pulls no harder
+constexpr double kPlaneBendMm = 3;  // what lies further off the plane pulls no harder
 constexpr int kPlaneRounds = 8;
-constexpr double kMostParts = 40;      // of an edge
+constexpr double kMostParts = 40;  // of an edge
 
 struct Sample {
-  Vector3d at;                         // rectified frame
+  Vector3d at;  // rectified frame
   double sigma_mm;
 };
 using Samples = std::pmr::vector<Sample>;
@@ -39,7 +39,8 @@ Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::m
   return all;
 }
 
-// Of triangles wider than a cell also places in between: where points are scattered, what spans them is the surface that was measured.
+// Of triangles wider than a cell also places in between: where points are scattered, what spans them is the
+// surface that was measured.
 void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, double cell_mm) {
   for (const auto& t : mesh.triangles) {
     if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
@@ -49,9 +50,11 @@ void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, 
       const Vec3d p = apply(pair.rectified_from_left, Vec3d{v.x, v.y, v.z});
       corner[k] = {p.x, p.y, p.z};
     }
-    const double longest = std::max({(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
+    const double longest = std::max(
+        {(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
     const int parts = static_cast<int>(std::min(kMostParts, 2 * longest / cell_mm));
-    const double sigma = static_cast<double>(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
+    const double sigma =
+        static_cast<double>(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
         if (i == parts || j == parts || i + j == 0) continue;  // a corner: it is there
@@ -89,7 +92,8 @@ Vector3d middle_of(const Samples& all, const RectifiedPair& pair, std::pmr::memo
           (pair.face_centre_px.y - pair.left_centre_px.y) / pair.focal_px * depth, depth};
 }
 
-// Rows: x, y and height of the frame on the robust mean plane (Huber's weights; heights point back to the cameras).
+// Rows: x, y and height of the frame on the robust mean plane (Huber's weights; heights point back to the
+// cameras).
 struct PlaneFrame {
   Vector3d origin = Vector3d::Zero();
   Matrix3d axes = Matrix3d::Identity();
@@ -133,7 +137,8 @@ struct Sum {
 
 }  // namespace
 
-HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm, double cell_mm, StageContext& context) {
+HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm,
+                              double cell_mm, StageContext& context) {
   HeightCells out(&context.scratch);
   out.cell_mm = cell_mm;
   out.side = 2 * static_cast<int>(std::ceil(radius_mm / cell_mm)) + 1;
@@ -148,7 +153,8 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
   for (const Sample& s : all) {
     if ((s.at - middle).norm() > radius_mm) continue;
     const Vector3d p = frame.axes * (s.at - frame.origin);
-    const auto column = static_cast<int>(std::lround(p.x() / cell_mm)) + half, row = static_cast<int>(std::lround(p.y() / cell_mm)) + half;
+    const auto column = static_cast<int>(std::lround(p.x() / cell_mm)) + half,
+               row = static_cast<int>(std::lround(p.y() / cell_mm)) + half;
     if (column < 0 || row < 0 || column >= out.side || row >= out.side) continue;
     Sum& sum = sums[static_cast<std::size_t>(row * out.side + column)];
     sum.x += p.x(), sum.y += p.y(), sum.height += p.z(), sum.sigma += s.sigma_mm;
@@ -159,7 +165,8 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
     for (int column = 0; column < out.side; ++column) {
       const Sum& sum = sums[static_cast<std::size_t>(row * out.side + column)];
       if (sum.count > 0)
-        out.cells.push_back({column, row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count, sum.sigma / sum.count});
+        out.cells.push_back({column, row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count,
+                             sum.sigma / sum.count});
     }
   const double disc = 3.14159265358979323846 * (radius_mm / cell_mm) * (radius_mm / cell_mm);
   out.covered = static_cast<double>(out.cells.size()) / disc;

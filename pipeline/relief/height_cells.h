@@ -19,20 +19,21 @@ namespace relievo::pipeline {
 
 struct HeightCell {
   int column = 0, row = 0;
-  double x_mm = 0, y_mm = 0;    // mean place of what fell into it
-  double height_mm = 0;         // mean
-  double sigma_mm = 0;          // mean of the stated sigmas: errors of neighbours hang together
+  double x_mm = 0, y_mm = 0;  // mean place of what fell into it
+  double height_mm = 0;       // mean
+  double sigma_mm = 0;        // mean of the stated sigmas: errors of neighbours hang together
 };
 
 struct HeightCells {
   explicit HeightCells(std::pmr::memory_resource* memory) : cells(memory) {}
-  std::pmr::vector<HeightCell> cells;   // row by row
+  std::pmr::vector<HeightCell> cells;  // row by row
   double cell_mm = 0;
-  int side = 0;                 // columns and rows of the lattice
-  double covered = 0;           // share of the lattice's inscribed disc
+  int side = 0;        // columns and rows of the lattice
+  double covered = 0;  // share of the lattice's inscribed disc
 };
 
 // Measured surface within `radius_mm` of the middle of the face, as the pair saw it.
-HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm, double cell_mm, StageContext& context);
+HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm,
+                              double cell_mm, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -15,17 +15,18 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kRadiusMm = 60;        // eyes, nose and mouth of any face
+constexpr double kRadiusMm = 60;  // eyes, nose and mouth of any face
 constexpr double kCellMm = 3;
 constexpr std::size_t kLeastCells = 200;  // a sixth of the disc
-constexpr double kTrusted = 0.75;       // share of the cells that counts: the nearest
-constexpr double kSmoothMm = 8;         // narrower than a nose, wider than what noise makes hang together
+constexpr double kTrusted = 0.75;         // share of the cells that counts: the nearest
+constexpr double kSmoothMm = 8;           // narrower than a nose, wider than what noise makes hang together
 constexpr double kCurveMm = 12;
-constexpr double kTelling = 0.4;        // of the disc: less of a face may curve as little as a sheet
-constexpr double kFull = 0.8;           // share of a neighbourhood that must have been measured
+constexpr double kTelling = 0.4;  // of the disc: less of a face may curve as little as a sheet
+constexpr double kFull = 0.8;     // share of a neighbourhood that must have been measured
 
 double percentile(std::pmr::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -55,7 +56,8 @@ template <typename Visit>
 bool around(const HeightCells& cells, const HeightCell& middle, double reach_mm, Visit&& visit) {
   int found = 0;
   const int rows = static_cast<int>(reach_mm / cells.cell_mm) + 1;
-  const auto above = std::lower_bound(cells.cells.begin(), cells.cells.end(), middle.row - rows, [](const HeightCell& c, int row) { return c.row < row; });
+  const auto above = std::lower_bound(cells.cells.begin(), cells.cells.end(), middle.row - rows,
+                                      [](const HeightCell& c, int row) { return c.row < row; });
   for (auto cell = above; cell != cells.cells.end() && cell->row <= middle.row + rows; ++cell) {
     const double dx = cell->x_mm - middle.x_mm, dy = cell->y_mm - middle.y_mm;
     if (dx * dx + dy * dy > reach_mm * reach_mm) continue;
@@ -72,7 +74,8 @@ double range_of(const HeightCells& cells, const SheetFit& sheet, Arena& scratch)
   for (const HeightCell& cell : cells.cells) {
     double sum = 0;
     int count = 0;
-    const bool full = around(cells, cell, kSmoothMm, [&](std::size_t k, double, double) { sum += sheet.residual_mm[k], ++count; });
+    const bool full = around(cells, cell, kSmoothMm,
+                             [&](std::size_t k, double, double) { sum += sheet.residual_mm[k], ++count; });
     if (full) smooth.push_back(sum / count);
   }
   if (smooth.empty()) return 0;
@@ -80,7 +83,8 @@ double range_of(const HeightCells& cells, const SheetFit& sheet, Arena& scratch)
   return top - percentile(smooth, 0.02);
 }
 
-// From the quadratic that fits the heights round each cell best: K dA = (ac - b^2) / (1 + p^2 + q^2)^(3/2) dx dy.
+// From the quadratic that fits the heights round each cell best: K dA = (ac - b^2) / (1 + p^2 + q^2)^(3/2) dx
+// dy.
 double curvature_of(const HeightCells& cells) {
   using Row = Eigen::Matrix<double, 6, 1>;
   double sum = 0;
@@ -105,7 +109,8 @@ double curvature_of(const HeightCells& cells) {
 
 Result<void> ReliefOptions::check() const {
   if (!(least_off_sheet_mm >= 0) || !(least_curvature_sr >= 0) || !(least_sigmas >= 0))
-    return Error{Errc::InvalidInput, "relief: least_off_sheet_mm, least_curvature_sr and least_sigmas may not be negative"};
+    return Error{Errc::InvalidInput,
+                 "relief: least_off_sheet_mm, least_curvature_sr and least_sigmas may not be negative"};
   return {};
 }
 
@@ -127,7 +132,8 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
 
 ReliefVerdict judge(const ReliefFigures& r, const ReliefOptions& o) {
   if (r.covered == 0) return ReliefVerdict::Unjudged;
-  const bool off_sheet = r.off_sheet_mm >= o.least_off_sheet_mm, beyond_noise = r.off_sheet_mm >= o.least_sigmas * r.sigma_mm;
+  const bool off_sheet = r.off_sheet_mm >= o.least_off_sheet_mm,
+             beyond_noise = r.off_sheet_mm >= o.least_sigmas * r.sigma_mm;
   if (off_sheet && beyond_noise && r.curvature_sr >= o.least_curvature_sr) return ReliefVerdict::Face;
   // Would a face's relief have been seen?
   const bool quiet = o.least_sigmas * r.sigma_mm <= o.least_off_sheet_mm, whole = r.covered >= kTelling;
@@ -135,14 +141,19 @@ ReliefVerdict judge(const ReliefFigures& r, const ReliefOptions& o) {
 }
 
 Error error_of(ReliefVerdict verdict, const ReliefFigures& r, const ReliefOptions& o) {
-  const Error why = verdict == ReliefVerdict::Picture
-                        ? Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}
-                        : Error{Errc::PoorGeometry, "too little of the middle of the face was measured: more light, and nothing before the face"};
+  const Error why =
+      verdict == ReliefVerdict::Picture
+          ? Error{Errc::NoFace, "that looks like a picture of a face: please look into the cameras yourself"}
+          : Error{
+                Errc::PoorGeometry,
+                "too little of the middle of the face was measured: more light, and nothing before the face"};
   if (r.covered == 0) return why;
   char figures[192];
-  std::snprintf(figures, sizeof figures,
-                "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f",
-                r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm, r.curvature_sr, o.least_curvature_sr);
+  std::snprintf(
+      figures, sizeof figures,
+      "%.2f mm off a plane; %.2f mm off a bent sheet, a face at least %.1f, sigma %.2f; curved by %.1f sr, a face at least %.1f",
+      r.off_plane_mm, r.off_sheet_mm, std::max(o.least_off_sheet_mm, o.least_sigmas * r.sigma_mm), r.sigma_mm,
+      r.curvature_sr, o.least_curvature_sr);
   return Error(why).at(figures);
 }
 

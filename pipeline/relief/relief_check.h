@@ -25,16 +25,19 @@
 namespace relievo::pipeline {
 
 struct ReliefOptions {
-  double least_off_sheet_mm = 1.2;   // two thirds of a flat face's
-  double least_curvature_sr = 1.5;   // half again what 900 pictures of faces came to; of a face half may be hidden, and noise takes from the rest
-  double least_sigmas = 1.5;         // off_sheet_mm over the stated sigma: noise alone makes 0.55
+  double least_off_sheet_mm = 1.2;  // two thirds of a flat face's
+  double least_curvature_sr = 1.5;  // half again what 900 pictures of faces came to; of a face half may be
+                                    // hidden, and noise takes from the rest
+  double least_sigmas = 1.5;        // off_sheet_mm over the stated sigma: noise alone makes 0.55
   Result<void> check() const;
 };
 
 template <typename Field>
 void describe(ReliefOptions& o, Field&& field) {
-  field("least_off_sheet_mm", o.least_off_sheet_mm, OptionRange{0, 100}, "rms by which a face leaves the nearest bent sheet at least, mm");
-  field("least_curvature_sr", o.least_curvature_sr, OptionRange{0, 100}, "what the middle of a face curves both ways at once at least, steradians");
+  field("least_off_sheet_mm", o.least_off_sheet_mm, OptionRange{0, 100},
+        "rms by which a face leaves the nearest bent sheet at least, mm");
+  field("least_curvature_sr", o.least_curvature_sr, OptionRange{0, 100},
+        "what the middle of a face curves both ways at once at least, steradians");
   field("least_sigmas", o.least_sigmas, OptionRange{0, 100}, "the same rms at least, times the stated sigma");
 }
 
@@ -42,11 +45,12 @@ void describe(ReliefOptions& o, Field&& field) {
 // was looked for. All 0 where too little was measured there to tell. Errors: Cancelled.
 Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context);
 
-// Unjudged: too little was measured, or its noise could hide what a face has. Then nobody is refused for a picture, and nobody
-// is told to be a face.
+// Unjudged: too little was measured, or its noise could hide what a face has. Then nobody is refused for a
+// picture, and nobody is told to be a face.
 enum class ReliefVerdict : std::uint8_t { Face, Picture, Unjudged };
 ReliefVerdict judge(const ReliefFigures& relief, const ReliefOptions& options);
-// What to tell of it, with the figures for the technician as where(). Picture: NoFace. Unjudged: PoorGeometry.
+// What to tell of it, with the figures for the technician as where(). Picture: NoFace. Unjudged:
+// PoorGeometry.
 Error error_of(ReliefVerdict verdict, const ReliefFigures& relief, const ReliefOptions& options);
 
 }  // namespace relievo::pipeline

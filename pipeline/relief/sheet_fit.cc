@@ -12,12 +12,12 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kSpline = 13;                    // cubic B-splines: ten pieces of about 13 mm
-constexpr int kUnknowns = kSpline + 1;         // and the slope along the lines
-constexpr int kRounds = 6;                     // of weights
-constexpr double kSoftMm = 0.3;                // below it deviations count squared
-constexpr double kStraighten = 1e-3;           // keeps splines that no cell holds on their neighbours' line
-constexpr int kDirections = 12;                // the first search; then halved about the best
+constexpr int kSpline = 13;             // cubic B-splines: ten pieces of about 13 mm
+constexpr int kUnknowns = kSpline + 1;  // and the slope along the lines
+constexpr int kRounds = 6;              // of weights
+constexpr double kSoftMm = 0.3;         // below it deviations count squared
+constexpr double kStraighten = 1e-3;    // keeps splines that no cell holds on their neighbours' line
+constexpr int kDirections = 12;         // the first search; then halved about the best
 constexpr std::array<double, 5> kConvergence{0, -1 / 400., 1 / 400., -1 / 200., 1 / 200.};
 constexpr int kRefinements = 4;
 constexpr double kMostConvergence = 1 / 150.;
@@ -26,13 +26,13 @@ using System = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 struct Lines {
-  double direction = 0;          // radians
-  double convergence = 0;        // per mm
+  double direction = 0;    // radians
+  double convergence = 0;  // per mm
 };
 
 // One cell's row of the linear model, and how the height changes along s and t.
 struct Row {
-  int first = 0;                 // of the four splines that reach here
+  int first = 0;  // of the four splines that reach here
   std::array<double, 4> spline{}, slope{};
   double t = 0, nearer = 1, s = 0;  // nearer: 1 - k t; s: where the line through here crosses t = 0
   double height_mm = 0;
@@ -44,7 +44,11 @@ class Sheet {
  public:
   // `rows`: room for a row a cell, lent for the sheet's life.
   Sheet(const HeightCells& cells, Lines lines, Rows& rows)
-      : cells_(cells.cells), lines_(lines), cos_(std::cos(lines.direction)), sin_(std::sin(lines.direction)), rows_(rows) {
+      : cells_(cells.cells),
+        lines_(lines),
+        cos_(std::cos(lines.direction)),
+        sin_(std::sin(lines.direction)),
+        rows_(rows) {
     const double reach = 0.5 * cells.side * cells.cell_mm * std::numbers::sqrt2;
     const double widest = reach / (1 - std::min(0.8, std::abs(lines.convergence) * reach));
     begin_ = -widest, step_ = 2 * widest / (kSpline - 3);
@@ -74,7 +78,8 @@ class Sheet {
     const double at = std::clamp((row.s - begin_) / step_, 0.0, kSpline - 3 - 1e-9);
     row.first = static_cast<int>(at);
     const double u = at - row.first, v = 1 - u;
-    row.spline = {v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6, (3 * v * v * v - 6 * v * v + 4) / 6, u * u * u / 6};
+    row.spline = {v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6, (3 * v * v * v - 6 * v * v + 4) / 6,
+                  u * u * u / 6};
     row.slope = {-v * v / 2, (3 * u * u - 4 * u) / 2, -(3 * v * v - 4 * v) / 2, u * u / 2};
     for (double& d : row.slope) d /= step_;
     row.height_mm = cell.height_mm;
@@ -105,7 +110,9 @@ class Sheet {
       const auto unknown = [&](int k) { return k < 4 ? row.first + k : kSpline; };
       for (int i = 0; i < 5; ++i) {
         b[unknown(i)] += w * value[static_cast<std::size_t>(i)] * row.height_mm;
-        for (int j = 0; j < 5; ++j) a(unknown(i), unknown(j)) += w * value[static_cast<std::size_t>(i)] * value[static_cast<std::size_t>(j)];
+        for (int j = 0; j < 5; ++j)
+          a(unknown(i), unknown(j)) +=
+              w * value[static_cast<std::size_t>(i)] * value[static_cast<std::size_t>(j)];
       }
     }
     const double stiff = kStraighten * a.topLeftCorner<kSpline, kSpline>().trace() / kSpline;
@@ -142,13 +149,15 @@ Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
   Rows rows(cells.cells.size(), Row{}, &context.scratch);
   for (int k = 0; k < kDirections; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while the relief was measured"};
-    for (const double convergence : kConvergence) best.offer(cells, {std::numbers::pi * k / kDirections, convergence}, rows);
+    for (const double convergence : kConvergence)
+      best.offer(cells, {std::numbers::pi * k / kDirections, convergence}, rows);
   }
   double turn = std::numbers::pi / kDirections / 2, meet = kConvergence[2] / 2;
   for (int round = 0; round < kRefinements; ++round) {
     const Lines from = best.lines;
     for (const int i : {-1, 0, 1})
-      for (const int j : {-1, 0, 1}) best.offer(cells, {from.direction + i * turn, from.convergence + j * meet}, rows);
+      for (const int j : {-1, 0, 1})
+        best.offer(cells, {from.direction + i * turn, from.convergence + j * meet}, rows);
     turn /= 2, meet /= 2;
   }
   SheetFit fit(&context.scratch);
@@ -163,7 +172,9 @@ Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
 
 SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
-  const auto off = [&](const HeightCell& c) { return (c.height_mm - plane.dot(Eigen::Vector3d(1, c.x_mm, c.y_mm))) / std::hypot(1, plane[1], plane[2]); };
+  const auto off = [&](const HeightCell& c) {
+    return (c.height_mm - plane.dot(Eigen::Vector3d(1, c.x_mm, c.y_mm))) / std::hypot(1, plane[1], plane[2]);
+  };
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d a = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();

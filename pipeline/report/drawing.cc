@@ -64,15 +64,17 @@ Strokes& Strokes::outline(std::span<const Vec2d> polygon) {
 }
 
 Drawing::Drawing(Size size, std::string_view says)
-    : body_("<svg viewBox=\"0 0 " + number(size.width) + " " + number(size.height) + "\" role=\"img\" aria-label=\"" +
-            escaped(says) + "\">\n") {}
+    : body_("<svg viewBox=\"0 0 " + number(size.width) + " " + number(size.height) +
+            "\" role=\"img\" aria-label=\"" + escaped(says) + "\">\n") {}
 
 void Drawing::line(std::string_view style, Vec2d a, Vec2d b) {
   body_ += "<line" + of_class(style) + attribute("x1", a.x) + attribute("y1", a.y) + attribute("x2", b.x) +
            attribute("y2", b.y) + "/>\n";
 }
 
-void Drawing::box(std::string_view style, const Box& box) { body_ += "<rect" + of_class(style) + place(box) + "/>\n"; }
+void Drawing::box(std::string_view style, const Box& box) {
+  body_ += "<rect" + of_class(style) + place(box) + "/>\n";
+}
 
 void Drawing::filled(const Box& box, std::string_view colour) {
   body_ += "<rect" + place(box) + " fill=\"" + std::string(colour) + "\"/>\n";
@@ -88,13 +90,14 @@ void Drawing::strokes(std::string_view style, const Strokes& strokes) {
 }
 
 void Drawing::text(std::string_view style, Vec2d at, std::string_view words) {
-  body_ += "<text" + of_class(style) + attribute("x", at.x) + attribute("y", at.y) + ">" + escaped(words) + "</text>\n";
+  body_ += "<text" + of_class(style) + attribute("x", at.x) + attribute("y", at.y) + ">" + escaped(words) +
+           "</text>\n";
 }
 
 void Drawing::picture(const Box& box, std::span<const std::byte> file) {
   const bool png = !file.empty() && file.front() == std::byte{0x89};
-  body_ += "<image" + place(box) + " preserveAspectRatio=\"xMidYMid meet\" href=\"data:image/" + (png ? "png" : "jpeg") + ";base64," +
-           base64(file) + "\"/>\n";
+  body_ += "<image" + place(box) + " preserveAspectRatio=\"xMidYMid meet\" href=\"data:image/" +
+           (png ? "png" : "jpeg") + ";base64," + base64(file) + "\"/>\n";
 }
 
 std::string Drawing::svg() const { return body_ + "</svg>\n"; }
@@ -116,7 +119,8 @@ std::vector<Vec2d> hull(std::vector<Vec2d> points) {
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t begin = around.size();
     for (const Vec2d& p : points) {
-      while (around.size() >= begin + 2 && turn(around[around.size() - 2], around.back(), p) <= 0) around.pop_back();
+      while (around.size() >= begin + 2 && turn(around[around.size() - 2], around.back(), p) <= 0)
+        around.pop_back();
       around.push_back(p);
     }
     if (!around.empty()) around.pop_back();  // begins the other half

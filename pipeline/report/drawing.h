@@ -63,8 +63,8 @@ class Drawing {
 
 // A scale from values to a drawing's coordinates.
 struct Axis {
-  double low = 0, high = 1;    // values
-  double begin = 0, end = 1;   // where they are drawn
+  double low = 0, high = 1;   // values
+  double begin = 0, end = 1;  // where they are drawn
 
   double operator()(double value) const { return begin + (value - low) / (high - low) * (end - begin); }
 };

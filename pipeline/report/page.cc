@@ -9,13 +9,15 @@ namespace relievo::pipeline::report {
 std::string page(std::string_view title, std::string_view more_style, std::string_view body) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" + escaped(title) + "</title>\n<style>\n";
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+      escaped(title) + "</title>\n<style>\n";
   out.append(page_style()).append(more_style).append("</style>\n</head>\n<body>\n<main>\n").append(body);
   return out + "</main>\n</body>\n</html>\n";
 }
 
 std::string heading(std::string_view product, std::string_view title, const std::vector<std::string>& facts) {
-  std::string out = "<header>\n<p class=\"product\">" + escaped(product) + "</p>\n<h1>" + escaped(title) + "</h1>\n<ul class=\"facts\">";
+  std::string out = "<header>\n<p class=\"product\">" + escaped(product) + "</p>\n<h1>" + escaped(title) +
+                    "</h1>\n<ul class=\"facts\">";
   for (const std::string& fact : facts) out += "<li>" + fact + "</li>";
   return out + "</ul>\n</header>\n";
 }

@@ -17,7 +17,9 @@ constexpr std::string_view kDash = "\xE2\x80\x93";
 
 // Length of the well-formed character at the beginning (Unicode 15, table 3-7), 0 where there is none.
 std::size_t character(std::string_view text) {
-  const auto byte = [&text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto byte = [&text](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
   const unsigned first = byte(0);
   if (first < 0x80) return 1;
   const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
@@ -37,7 +39,8 @@ bool controls(std::string_view character) {
 
 std::string fixed(double value, int decimals) {
   std::array<char, 400> text{};
-  const auto done = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  const auto done =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
   std::string out(text.data(), done.ptr);
   // "-0.00" is nought.
   if (out.front() == '-' && out.find_first_not_of("-0.") == std::string::npos) out.erase(0, 1);

@@ -11,31 +11,39 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kStepMm = 5;                                        // on the chart
+constexpr double kStepMm = 5;  // on the chart
 constexpr double kAsideMm = 160, kAboveMm = 165, kBelowMm = 190;
-constexpr Vec3d kHeadMm{0, 20, -95}, kHalfMm{80, 118, 95};           // the ellipsoid, in the head's frame
-constexpr double kBehindMm = -120;                                   // beyond it a plane
+constexpr Vec3d kHeadMm{0, 20, -95}, kHalfMm{80, 118, 95};  // the ellipsoid, in the head's frame
+constexpr double kBehindMm = -120;                          // beyond it a plane
 constexpr float kUnderFaceMm = 3;
 constexpr int kRounds = 150;
-constexpr float kPull = 0.02F;                                       // to the rough shape, against the neighbours'
+constexpr float kPull = 0.02F;  // to the rough shape, against the neighbours'
 constexpr float kClearMm = 25, kGoneMm = 100, kDimMm = 40, kDimmed = 0.6F;
-constexpr float kTurned = 0, kFacing = 0.25F;                    // cosines to the camera
-constexpr int kAbout = 5;                                            // steps over which it is looked at how the shape turns
+constexpr float kTurned = 0, kFacing = 0.25F;  // cosines to the camera
+constexpr int kAbout = 5;                      // steps over which it is looked at how the shape turns
 constexpr float kBlurMm = 5;
-constexpr int kTaps = 5;                                             // samples a side over that
+constexpr int kTaps = 5;  // samples a side over that
 
 float smooth_step(float from, float to, float at) {
   const float t = std::clamp((at - from) / (to - from), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
 }
 
-Vec3f sum_with(const Vec3f& v, const Vec3d& c) { return {v.x + static_cast<float>(c.x), v.y + static_cast<float>(c.y), v.z + static_cast<float>(c.z)}; }
+Vec3f sum_with(const Vec3f& v, const Vec3d& c) {
+  return {v.x + static_cast<float>(c.x), v.y + static_cast<float>(c.y), v.z + static_cast<float>(c.z)};
+}
 
 class Maker {
  public:
-  Maker(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair, StageContext& context)
-      : pair_(pair), chart_(head_from_camera), columns_(static_cast<int>(2 * kAsideMm / kStepMm) + 1), rows_(static_cast<int>((kAboveMm + kBelowMm) / kStepMm) + 1),
-        radius_(size(), 0.0F, &context.scratch), away_mm_(size(), 1e6F, &context.scratch), made_(&context.output) {
+  Maker(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair,
+        StageContext& context)
+      : pair_(pair),
+        chart_(head_from_camera),
+        columns_(static_cast<int>(2 * kAsideMm / kStepMm) + 1),
+        rows_(static_cast<int>((kAboveMm + kBelowMm) / kStepMm) + 1),
+        radius_(size(), 0.0F, &context.scratch),
+        away_mm_(size(), 1e6F, &context.scratch),
+        made_(&context.output) {
     for (const Vec3f& v : mesh.vertices_mm) {
       const Vec3f from_centre = sum_with(v, {-chart_.centre_mm.x, -chart_.centre_mm.y, -chart_.centre_mm.z});
       const Vec2d at = chart_.place(from_centre);
@@ -54,7 +62,9 @@ class Maker {
     made_.rows = rows_;
     made_.at_mm.resize(size());
     for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c) made_.at_mm[index(c, r)] = sum_with(chart_.at(place(c, r), static_cast<double>(radius_[index(c, r)])), chart_.centre_mm);
+      for (int c = 0; c < columns_; ++c)
+        made_.at_mm[index(c, r)] =
+            sum_with(chart_.at(place(c, r), static_cast<double>(radius_[index(c, r)])), chart_.centre_mm);
     made_.rgba.resize(size());
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) made_.rgba[index(c, r)] = colour(c, r);
@@ -63,7 +73,9 @@ class Maker {
 
  private:
   std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
-  std::size_t index(int c, int r) const { return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c); }
+  std::size_t index(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  }
   Vec2d place(int c, int r) const { return {c * kStepMm - kAsideMm, r * kStepMm - kAboveMm}; }
   bool face(std::size_t k) const { return away_mm_[k] <= 0; }
 
@@ -72,24 +84,32 @@ class Maker {
     const float step = static_cast<float>(kStepMm), askew = step * 1.4142F;
     const auto take = [&](int c, int r, int dc, int dr) {
       if (c + dc < 0 || r + dr < 0 || c + dc >= columns_ || r + dr >= rows_) return;
-      away_mm_[index(c, r)] = std::min(away_mm_[index(c, r)], away_mm_[index(c + dc, r + dr)] + (dc != 0 && dr != 0 ? askew : step));
+      away_mm_[index(c, r)] = std::min(away_mm_[index(c, r)],
+                                       away_mm_[index(c + dc, r + dr)] + (dc != 0 && dr != 0 ? askew : step));
     };
     for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c) take(c, r, -1, 0), take(c, r, 0, -1), take(c, r, -1, -1), take(c, r, 1, -1);
+      for (int c = 0; c < columns_; ++c)
+        take(c, r, -1, 0), take(c, r, 0, -1), take(c, r, -1, -1), take(c, r, 1, -1);
     for (int r = rows_; r-- > 0;)
-      for (int c = columns_; c-- > 0;) take(c, r, 1, 0), take(c, r, 0, 1), take(c, r, 1, 1), take(c, r, -1, 1);
+      for (int c = columns_; c-- > 0;)
+        take(c, r, 1, 0), take(c, r, 0, 1), take(c, r, 1, 1), take(c, r, -1, 1);
   }
 
   // From the chart's centre to the ellipsoid's front, or to the plane behind.
   float rough_radius(int c, int r) const {
     const Vec3d d = apply(chart_.head_from_axes, as_double(chart_.at(place(c, r), 1)));
-    const Vec3d o{(HeadChart::kCentreMm.x - kHeadMm.x) / kHalfMm.x, (HeadChart::kCentreMm.y - kHeadMm.y) / kHalfMm.y, (HeadChart::kCentreMm.z - kHeadMm.z) / kHalfMm.z};
+    const Vec3d o{(HeadChart::kCentreMm.x - kHeadMm.x) / kHalfMm.x,
+                  (HeadChart::kCentreMm.y - kHeadMm.y) / kHalfMm.y,
+                  (HeadChart::kCentreMm.z - kHeadMm.z) / kHalfMm.z};
     const Vec3d e{d.x / kHalfMm.x, d.y / kHalfMm.y, d.z / kHalfMm.z};
-    const double a = e.x * e.x + e.y * e.y + e.z * e.z, b = o.x * e.x + o.y * e.y + o.z * e.z, rest = b * b - a * (o.x * o.x + o.y * o.y + o.z * o.z - 1);
+    const double a = e.x * e.x + e.y * e.y + e.z * e.z, b = o.x * e.x + o.y * e.y + o.z * e.z,
+                 rest = b * b - a * (o.x * o.x + o.y * o.y + o.z * o.z - 1);
     const double plane = (kBehindMm - HeadChart::kCentreMm.z) / std::max(d.z, 0.2);
     return static_cast<float>(rest > 0 ? std::max(plane, (-b + std::sqrt(rest)) / a) : plane);
   }
-  static Vec3d as_double(const Vec3f& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+  static Vec3d as_double(const Vec3f& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+  }
 
   void shape(Arena& scratch) {
     std::pmr::vector<float> rough(size(), 0.0F, &scratch);
@@ -103,15 +123,19 @@ class Maker {
         for (int c = 0; c < columns_; ++c) {
           const std::size_t k = index(c, r);
           if (face(k)) continue;
-          const float around = radius_[index(std::max(c - 1, 0), r)] + radius_[index(std::min(c + 1, columns_ - 1), r)] + radius_[index(c, std::max(r - 1, 0))] +
-                               radius_[index(c, std::min(r + 1, rows_ - 1))];
+          const float around =
+              radius_[index(std::max(c - 1, 0), r)] + radius_[index(std::min(c + 1, columns_ - 1), r)] +
+              radius_[index(c, std::max(r - 1, 0))] + radius_[index(c, std::min(r + 1, rows_ - 1))];
           radius_[k] = (around / 4 + kPull * rough[k]) / (1 + kPull);
         }
   }
 
   float facing(int c, int r) const {
-    const auto at = [&](int x, int y) { return made_.at_mm[index(std::clamp(x, 0, columns_ - 1), std::clamp(y, 0, rows_ - 1))]; };
-    const Vec3f n = mesh::unit(mesh::cross(mesh::minus(at(c + kAbout, r), at(c - kAbout, r)), mesh::minus(at(c, r + kAbout), at(c, r - kAbout))));
+    const auto at = [&](int x, int y) {
+      return made_.at_mm[index(std::clamp(x, 0, columns_ - 1), std::clamp(y, 0, rows_ - 1))];
+    };
+    const Vec3f n = mesh::unit(mesh::cross(mesh::minus(at(c + kAbout, r), at(c - kAbout, r)),
+                                           mesh::minus(at(c, r + kAbout), at(c, r - kAbout))));
     return std::abs(mesh::dot(n, mesh::unit(at(c, r))));
   }
 
@@ -125,9 +149,11 @@ class Maker {
     for (int j = 0; j < kTaps; ++j)
       for (int i = 0; i < kTaps; ++i) {
         const auto aside = [&](int n) { return (2.0 * n / (kTaps - 1) - 1) * static_cast<double>(kBlurMm); };
-        const long x = std::lround(pair_.left_centre_px.x + scale * (p.x + aside(i))), y = std::lround(pair_.left_centre_px.y + scale * (p.y + aside(j)));
+        const long x = std::lround(pair_.left_centre_px.x + scale * (p.x + aside(i))),
+                   y = std::lround(pair_.left_centre_px.y + scale * (p.y + aside(j)));
         if (x < 0 || y < 0 || x >= pair_.width_px || y >= pair_.height_px) continue;
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair_.width_px) + static_cast<std::size_t>(x);
+        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair_.width_px) +
+                               static_cast<std::size_t>(x);
         if (!pair_.left.valid.empty() && pair_.left.valid[at] == 0) continue;
         for (std::size_t n = 0; n < 3; ++n) sum[n] += static_cast<float>(pair_.left.rgb[3 * at + n]);
         ++taps;
@@ -138,9 +164,12 @@ class Maker {
     const float beside = smooth_step(0, kDimMm, away);  // what continues the rim is shown however it turns
     const float seen = 1 - beside * (1 - smooth_step(kTurned, kFacing, facing(c, r)));
     const int to_edge = std::min({c, r, columns_ - 1 - c, rows_ - 1 - r});
-    const float opacity = (1 - smooth_step(kClearMm, kGoneMm, away)) * smooth_step(0, kDimMm, static_cast<float>(to_edge * kStepMm)) * seen * static_cast<float>(taps) / (kTaps * kTaps);
+    const float opacity = (1 - smooth_step(kClearMm, kGoneMm, away)) *
+                          smooth_step(0, kDimMm, static_cast<float>(to_edge * kStepMm)) * seen *
+                          static_cast<float>(taps) / (kTaps * kTaps);
     std::array<std::uint8_t, 4> rgba{};
-    for (std::size_t n = 0; n < 3; ++n) rgba[n] = static_cast<std::uint8_t>(std::lround(light * sum[n] / static_cast<float>(taps)));
+    for (std::size_t n = 0; n < 3; ++n)
+      rgba[n] = static_cast<std::uint8_t>(std::lround(light * sum[n] / static_cast<float>(taps)));
     rgba[3] = static_cast<std::uint8_t>(std::lround(255 * opacity));
     return rgba;
   }
@@ -155,7 +184,8 @@ class Maker {
 
 }  // namespace
 
-Backdrop make_backdrop(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair, StageContext& context) {
+Backdrop make_backdrop(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                       const RectifiedPair& pair, StageContext& context) {
   if (pair.left.rgb.empty()) return Backdrop(&context.output);
   return Maker(mesh, head_from_camera, pair, context).make(context.scratch);
 }

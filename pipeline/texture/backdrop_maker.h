@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Makes the backdrop of a face: on the head's chart (head_chart.h) its rim is continued to a head's rough shape, an ellipsoid, and
-// coloured by the left photograph. It fades with the distance from the face and where it turns away from the camera, so that
-// little of the room is left. Memory: the backdrop in `output`, the rest in `scratch`. Thread: any. Throws std::bad_alloc.
+// Makes the backdrop of a face: on the head's chart (head_chart.h) its rim is continued to a head's rough
+// shape, an ellipsoid, and coloured by the left photograph. It fades with the distance from the face and
+// where it turns away from the camera, so that little of the room is left. Memory: the backdrop in `output`,
+// the rest in `scratch`. Thread: any. Throws std::bad_alloc.
 #pragma once
 
 #include "pipeline/model/backdrop.h"
@@ -13,6 +14,7 @@
 
 namespace relievo::pipeline {
 
-Backdrop make_backdrop(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair, StageContext& context);
+Backdrop make_backdrop(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                       const RectifiedPair& pair, StageContext& context);
 
 }  // namespace relievo::pipeline

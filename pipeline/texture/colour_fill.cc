@@ -8,7 +8,8 @@
 namespace relievo::pipeline {
 namespace {
 
-// There and back. A hole is smooth long before; a whole completed head gets as many as its size allows in the time.
+// There and back. A hole is smooth long before; a whole completed head gets as many as its size allows in the
+// time.
 constexpr int kFewestSweeps = 10, kMostSweeps = 40;
 constexpr std::size_t kSweptVertices = 1'500'000;
 constexpr float kStill = 0.25F;          // grey levels: nothing moves by more
@@ -32,13 +33,16 @@ struct Neighbours {
       all[next[v]++] = b;
     });
   }
-  std::span<const std::uint32_t> of(std::size_t v) const { return std::span(all).subspan(first[v], first[v + 1] - first[v]); }
+  std::span<const std::uint32_t> of(std::size_t v) const {
+    return std::span(all).subspan(first[v], first[v + 1] - first[v]);
+  }
   std::pmr::vector<std::uint32_t> first, all;
 };
 
 // Unknown vertices in the order in which the known ones reach them, coloured by those that came before.
-std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std::uint8_t> known, const Neighbours& neighbours,
-                                      std::span<VertexColour> colours, std::pmr::memory_resource* memory) {
+std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std::uint8_t> known,
+                                      const Neighbours& neighbours, std::span<VertexColour> colours,
+                                      std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint8_t> done(known.begin(), known.end(), memory);
   std::pmr::vector<std::uint32_t> order(memory);
   order.reserve(static_cast<std::size_t>(std::count(known.begin(), known.end(), std::uint8_t{0})));
@@ -80,7 +84,8 @@ VertexColour mean_of_known(std::span<const std::uint8_t> known, std::span<const 
     count += 1;
   }
   if (count == 0) return {128, 128, 128};
-  return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count), static_cast<float>(sum[2] / count)};
+  return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count),
+          static_cast<float>(sum[2] / count)};
 }
 
 std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
@@ -98,7 +103,8 @@ std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
 
 }  // namespace
 
-void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours, StageContext& context) {
+void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours,
+                  StageContext& context) {
   const VertexColour mean = mean_of_known(known, colours);
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v] == 0) colours[v] = mean;
@@ -118,7 +124,8 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
     }
   };
   // What is known travels all the way in from either side.
-  const int sweeps = std::clamp(static_cast<int>(kSweptVertices / (order.size() + 1)), kFewestSweeps, kMostSweeps);
+  const int sweeps =
+      std::clamp(static_cast<int>(kSweptVertices / (order.size() + 1)), kFewestSweeps, kMostSweeps);
   for (int sweep = 0; sweep < sweeps && !context.stop(); ++sweep) {
     moved = 0;
     for (const std::uint32_t v : order) relax(v);
@@ -141,10 +148,15 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
   enum : std::uint8_t { kOutside, kInner, kRim, kReached };
   std::pmr::vector<std::uint8_t> state(size, kOutside, memory);
   for (std::size_t k = 0; k < size; ++k) state[k] = atlas.origin[k] != kNoSurfaceTexel ? kInner : kOutside;
-  struct Step { std::uint32_t at, from; };
+  struct Step {
+    std::uint32_t at, from;
+  };
   std::pmr::vector<Step> steps(memory);
-  steps.reserve(2 * size);  // a texel is visited inwards once and outwards once; what is never visited costs nothing
-  const auto put = [&](std::size_t at, std::size_t from) { steps.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(from)}); };
+  steps.reserve(
+      2 * size);  // a texel is visited inwards once and outwards once; what is never visited costs nothing
+  const auto put = [&](std::size_t at, std::size_t from) {
+    steps.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(from)});
+  };
   for (std::size_t k = 0; k < size; ++k) {
     bool open = false;
     if (state[k] == kInner) for_each_beside(k, [&](std::size_t n) { open = open || state[n] == kOutside; });
@@ -153,7 +165,8 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
   std::size_t begin = 0;
   const auto next_ring = [&](auto&& visit) {
     const std::size_t end = steps.size();
-    for (; begin < end; ++begin) for_each_beside(steps[begin].at, [&, from = steps[begin].from](std::size_t n) { visit(n, from); });
+    for (; begin < end; ++begin)
+      for_each_beside(steps[begin].at, [&, from = steps[begin].from](std::size_t n) { visit(n, from); });
   };
   for (const Step& s : steps) state[s.at] = kRim;
   for (int step = 0; step < kInside; ++step)  // inwards, the last ring being the first of clean colours
@@ -172,7 +185,8 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
   for (std::size_t k = 0; k < size; ++k)
     if (atlas.origin[k] == kNoSurfaceTexel) std::copy(mean.begin(), mean.end(), &atlas.rgb[3 * k]);
   for (const Step& s : steps)
-    if (atlas.origin[s.at] == kNoSurfaceTexel) std::copy_n(&atlas.rgb[3 * std::size_t{s.from}], 3, &atlas.rgb[3 * std::size_t{s.at}]);
+    if (atlas.origin[s.at] == kNoSurfaceTexel)
+      std::copy_n(&atlas.rgb[3 * std::size_t{s.from}], 3, &atlas.rgb[3 * std::size_t{s.at}]);
 }
 
 }  // namespace relievo::pipeline

@@ -21,11 +21,13 @@ using VertexColour = std::array<float, 3>;
 // Vertices with known == 0 take the membrane spanned by the known ones around them: every colour the
 // mean of its neighbours', by relaxation in the order in which the known ones reach them. Vertices no
 // known one reaches take the mean of all.
-void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours, StageContext& context);
+void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours,
+                  StageContext& context);
 
 // Paints what lies beyond the charts: `margin_px` texels with the nearest colour from a little inside
-// (the outermost texels mix in what lies behind the face), the rest with the mean, so that filtering at the outline
-// and smaller copies of the texture mix in skin and not black. Nothing of the room gets into the atlas.
+// (the outermost texels mix in what lies behind the face), the rest with the mean, so that filtering at the
+// outline and smaller copies of the texture mix in skin and not black. Nothing of the room gets into the
+// atlas.
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

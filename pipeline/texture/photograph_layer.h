@@ -10,8 +10,8 @@
 
 #include "pipeline/model/texture_atlas.h"
 #include "pipeline/stage.h"
-#include "pipeline/texture/chart/chart.h"
 #include "pipeline/texture/blend/shot_planes.h"
+#include "pipeline/texture/chart/chart.h"
 
 namespace relievo::pipeline {
 
@@ -21,6 +21,7 @@ struct LayerOptions {
   float highlight_level = 12;
 };
 
-Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair, const LayerOptions& options, StageContext& context);
+Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair,
+                                     const LayerOptions& options, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -10,7 +10,8 @@ Result<void> SingleViewTexturerOptions::check() const {
   if (max_atlas_px < 64 || max_atlas_px > 8192)
     return Error{Errc::InvalidInput, "max_atlas_px must lie in 64 .. 8192"}.at("texturer.single-view");
   if (margin_px < 0 || margin_px > 256 || 4 * margin_px > max_atlas_px)
-    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 256 and within a quarter of max_atlas_px"}.at("texturer.single-view");
+    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 256 and within a quarter of max_atlas_px"}
+        .at("texturer.single-view");
   return {};
 }
 

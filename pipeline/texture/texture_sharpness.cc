@@ -14,15 +14,20 @@ constexpr int kMean = 9;
 constexpr int kAhead = kMean / 2;
 constexpr int kBehind = kAhead + 1;
 
-struct Variation { double all = 0, lost = 0; };  // of neighbours, and how much of it one more blur takes
+struct Variation {
+  double all = 0, lost = 0;
+};  // of neighbours, and how much of it one more blur takes
 
 // `step`: from one texel to the next along the direction looked in.
-void add_line(const std::uint8_t* luminance, const std::uint8_t* origin, std::size_t step, int count, Variation& sum) {
+void add_line(const std::uint8_t* luminance, const std::uint8_t* origin, std::size_t step, int count,
+              Variation& sum) {
   int run = 0;
   for (int i = 0; i < count; ++i) {
     run = origin[static_cast<std::size_t>(i) * step] >= kLeftPhotographTexel ? run + 1 : 0;
     if (run < kAhead + kBehind + 1) continue;
-    const auto at = [&](int back) { return static_cast<int>(luminance[static_cast<std::size_t>(i - back) * step]); };
+    const auto at = [&](int back) {
+      return static_cast<int>(luminance[static_cast<std::size_t>(i - back) * step]);
+    };
     const int own = kMean * std::abs(at(kAhead) - at(kAhead + 1));
     const int blurred = std::abs(at(0) - at(kMean));
     sum.all += own;
@@ -37,7 +42,8 @@ double texture_sharpness(const TextureAtlas& atlas, StageContext& context) {
   const std::size_t w = static_cast<std::size_t>(atlas.width_px);
   std::pmr::vector<std::uint8_t> luminance(atlas.origin.size(), 0, &context.scratch);
   for (std::size_t k = 0; k < luminance.size(); ++k)
-    luminance[k] = static_cast<std::uint8_t>((77 * atlas.rgb[3 * k] + 150 * atlas.rgb[3 * k + 1] + 29 * atlas.rgb[3 * k + 2]) >> 8);
+    luminance[k] = static_cast<std::uint8_t>(
+        (77 * atlas.rgb[3 * k] + 150 * atlas.rgb[3 * k + 1] + 29 * atlas.rgb[3 * k + 2]) >> 8);
   Variation across;
   Variation down;
   for (int y = 0; y < atlas.height_px; ++y) {

@@ -24,13 +24,12 @@ Result<void> check(const FaceModel& model) {
   const auto& texture = model.texture;
   const std::size_t v = mesh.vertices_mm.size();
   const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
-  const bool texture_fits = texture.width_px >= 0 && texture.height_px >= 0 &&
-                            texture.rgb.size() == static_cast<std::size_t>(texture.width_px) *
-                                                      static_cast<std::size_t>(texture.height_px) * 3 &&
-                            fits(texture.uv.size(), mesh.triangles.size() * 3) &&
-                            (texture.uv.empty() || !texture.rgb.empty()) &&
-                            fits(texture.origin.size(), texture.rgb.size() / 3) &&
-                            fits(texture.vertex_rgb.size(), v * 3);
+  const bool texture_fits =
+      texture.width_px >= 0 && texture.height_px >= 0 &&
+      texture.rgb.size() ==
+          static_cast<std::size_t>(texture.width_px) * static_cast<std::size_t>(texture.height_px) * 3 &&
+      fits(texture.uv.size(), mesh.triangles.size() * 3) && (texture.uv.empty() || !texture.rgb.empty()) &&
+      fits(texture.origin.size(), texture.rgb.size() / 3) && fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
   if (v > 0x7fffffff || !fits(mesh.normals.size(), v) || !fits(mesh.sigma_mm.size(), v) ||
       !fits(mesh.measured.size(), v) || !texture_fits) {

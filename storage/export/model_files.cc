@@ -15,8 +15,8 @@
 #include "storage/export/format/obj_writer.h"
 #include "storage/export/format/ply_writer.h"
 #include "storage/export/format/png_writer.h"
-#include "storage/export/recognition_files.h"
 #include "storage/export/format/stl_writer.h"
+#include "storage/export/recognition_files.h"
 
 namespace relievo::storage {
 namespace {
@@ -63,7 +63,9 @@ class Batch {
 Result<std::vector<std::byte>> origin_png(const pipeline::TextureAtlas& texture) {
   std::vector<std::uint8_t> grey(texture.origin.size());
   std::ranges::transform(texture.origin, grey.begin(), [](std::uint8_t o) {
-    return o >= pipeline::kLeftPhotographTexel ? std::uint8_t{255} : o == pipeline::kFilledTexel ? std::uint8_t{128} : std::uint8_t{0};
+    return o >= pipeline::kLeftPhotographTexel ? std::uint8_t{255}
+           : o == pipeline::kFilledTexel       ? std::uint8_t{128}
+                                               : std::uint8_t{0};
   });
   return png_of_grey(texture.width_px, texture.height_px, grey);
 }
@@ -90,7 +92,8 @@ Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const 
   RELIEVO_TRY(batch.add(name(".obj"), bytes_of(obj_text(mesh, name(".mtl")))));
   RELIEVO_TRY(batch.add(name(".glb"), glb_bytes(mesh, png)));
   if (options.images != nullptr) {
-    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks, model.head_from_camera, options.version));
+    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks,
+                                                           model.head_from_camera, options.version));
     for (const NamedBytes& file : files) RELIEVO_TRY(batch.add(file.name, file.bytes));
   }
   return batch.publish();

@@ -6,10 +6,10 @@
 // images, those of recognition_files.h too.
 //
 // One file's bytes are in memory at a time, beside the texture's, which two files carry: at most
-// 100 bytes a triangle. All are written under temporary names and made durable first, then renamed: a failure while
-// writing leaves the directory as it was, and an older model.* whole.
-// Errors: InvalidInput (the model does not hang together); MediaFull; IoFailed; OutOfMemory.
-// Thread: any; blocks on the disk (the keeper, not the screen).
+// 100 bytes a triangle. All are written under temporary names and made durable first, then renamed: a failure
+// while writing leaves the directory as it was, and an older model.* whole. Errors: InvalidInput (the model
+// does not hang together); MediaFull; IoFailed; OutOfMemory. Thread: any; blocks on the disk (the keeper, not
+// the screen).
 #pragma once
 
 #include <filesystem>
@@ -24,11 +24,12 @@
 namespace relievo::storage {
 
 struct ExportOptions {
-  ExportOptions(ExportFrame in_frame) : frame(in_frame) {}  // NOLINT(google-explicit-constructor): a frame says it all, mostly
+  ExportOptions(ExportFrame in_frame)
+      : frame(in_frame) {}  // NOLINT(google-explicit-constructor): a frame says it all, mostly
   ExportFrame frame;
-  std::string_view version{};                               // of the program
-  const pipeline::RecognitionImages* images = nullptr;      // always in the head frame
-  std::string_view stem = "model";                          // of the files' names: another for a lighter model beside it
+  std::string_view version{};                           // of the program
+  const pipeline::RecognitionImages* images = nullptr;  // always in the head frame
+  std::string_view stem = "model";  // of the files' names: another for a lighter model beside it
 };
 
 // Makes the directory if there is none. Returns the files written, in the order ply, stl, png, origin,

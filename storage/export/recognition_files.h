@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The portrait and the range image as files, with a page of numbers that explains them:
-//   portrait.png        8 bit RGB, sRGB              range.png        16 bit grey: z_mm = (value - 32768) / 100, 0 nothing
-//   portrait_shows.png  what a pixel shows           range_sigma.png  16 bit grey: sigma along z in mm = value / 1000
+//   portrait.png        8 bit RGB, sRGB              range.png        16 bit grey: z_mm = (value - 32768) /
+//   100, 0 nothing portrait_shows.png  what a pixel shows           range_sigma.png  16 bit grey: sigma along
+//   z in mm = value / 1000
 //                                                    range_shows.png  what a pixel shows
 //   recognition.json    units, axes, where the pixels lie; the landmarks in millimetres and in the portrait
 // shows: 0 nothing, 128 surface that was completed, 255 surface that was measured.
@@ -27,7 +28,9 @@ struct NamedBytes {
 };
 
 // The JSON last: it names the others.
-Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks,
-                                                  const pipeline::RigidTransform& head_from_camera, std::string_view version);
+Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images,
+                                                  const pipeline::Landmarks& landmarks,
+                                                  const pipeline::RigidTransform& head_from_camera,
+                                                  std::string_view version);
 
 }  // namespace relievo::storage

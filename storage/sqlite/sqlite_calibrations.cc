@@ -40,12 +40,14 @@ Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCali
   const auto record = encode_calibration(numbered, figures);
   RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
   RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
-  RELIEVO_TRY(append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+  RELIEVO_TRY(
+      append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
   return numbered.revision;
 }
 
 Result<std::uint32_t> SqliteStore::save_calibration(const pipeline::StereoCalibration& calibration,
-                                                    std::string_view note, const CalibrationFigures& figures) {
+                                                    std::string_view note,
+                                                    const CalibrationFigures& figures) {
   RELIEVO_TRY(check_entry(calibration, note));
   return change([&](WallTime at) -> Result<std::uint32_t> {
     RELIEVO_TRY_ASSIGN(const std::uint32_t revision, insert_calibration(calibration, note, figures, at));
@@ -78,10 +80,11 @@ Result<std::uint32_t> SqliteStore::know_calibration(const pipeline::StereoCalibr
 
 Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<CalibrationInfo>> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT revision, created_at_ms, note, active, record, (SELECT count(*) "
-                                          "FROM enrolment WHERE calibration_revision = revision) "
-                                          "FROM calibration ORDER BY revision DESC"));
+    RELIEVO_TRY_ASSIGN(
+        auto query,
+        database_->prepare("SELECT revision, created_at_ms, note, active, record, (SELECT count(*) "
+                           "FROM enrolment WHERE calibration_revision = revision) "
+                           "FROM calibration ORDER BY revision DESC"));
     std::vector<CalibrationInfo> found;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
@@ -134,8 +137,12 @@ Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (row) return record_in(query);
     RELIEVO_TRY_ASSIGN(const std::int64_t kept, database_->integer("SELECT count(*) FROM calibration"));
-    if (kept > 0) return Error{Errc::NotCalibrated, "none of the store's calibrations is in use: activate one, or calibrate"}.at(database_->where());
-    return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(database_->where());
+    if (kept > 0)
+      return Error{Errc::NotCalibrated,
+                   "none of the store's calibrations is in use: activate one, or calibrate"}
+          .at(database_->where());
+    return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(
+        database_->where());
   });
 }
 

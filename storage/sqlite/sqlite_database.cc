@@ -215,8 +215,9 @@ Result<void> Database::copy_to(const std::filesystem::path& target) {
 }
 
 Result<void> Database::lie_in(std::span<std::byte> room, std::size_t used, bool writable) {
-  const int code = sqlite3_deserialize(handle_, "main", reinterpret_cast<unsigned char*>(room.data()), static_cast<sqlite3_int64>(used),
-                                       static_cast<sqlite3_int64>(room.size()), writable ? 0 : SQLITE_DESERIALIZE_READONLY);
+  const int code = sqlite3_deserialize(
+      handle_, "main", reinterpret_cast<unsigned char*>(room.data()), static_cast<sqlite3_int64>(used),
+      static_cast<sqlite3_int64>(room.size()), writable ? 0 : SQLITE_DESERIALIZE_READONLY);
   return code == SQLITE_OK ? Result<void>() : error(code);
 }
 

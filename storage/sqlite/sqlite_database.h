@@ -85,8 +85,8 @@ class Database {
                           std::span<const std::byte> bytes);
   Result<void> read_blob(const char* table, const char* column, std::int64_t row, std::span<std::byte> bytes);
   Result<void> copy_to(const std::filesystem::path& target);
-  // Of an open database: from now on it is the first `used` of these bytes, borrowed until it is closed, and touches no
-  // disk. `writable`: it may grow to all of them.
+  // Of an open database: from now on it is the first `used` of these bytes, borrowed until it is closed, and
+  // touches no disk. `writable`: it may grow to all of them.
   Result<void> lie_in(std::span<std::byte> room, std::size_t used, bool writable);
 
   const std::filesystem::path& file() const { return file_; }

@@ -94,7 +94,8 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
 }
 
 Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {
-  RELIEVO_TRY_ASSIGN(auto erase, database_->prepare("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?"));
+  RELIEVO_TRY_ASSIGN(auto erase,
+                     database_->prepare("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?"));
   RELIEVO_TRY(erase.bind(number(subject)).bind(number(but)).run());
   return append_audit_line(*database_, {"enrolment.renewed", subject, std::to_string(number(but))}, at);
 }

@@ -46,7 +46,11 @@ class SqliteStore final : public Store {
   // Of a database that open_sqlite_store() has made ready, and the lock that keeps other writers out.
   SqliteStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Database> database, const hal::Clock& clock,
               const SqliteStoreOptions& options)
-      : lock_(std::move(lock)), database_(std::move(database)), clock_(clock), mode_(options.mode), draw_receipt_(options.draw_receipt) {}
+      : lock_(std::move(lock)),
+        database_(std::move(database)),
+        clock_(clock),
+        mode_(options.mode),
+        draw_receipt_(options.draw_receipt) {}
 
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -58,8 +62,8 @@ class SqliteStore final : public Store {
   Result<Enrolment> enrolment(EnrolmentId id) override;
   Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) override;
   using Store::save_calibration;
-  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration, std::string_view note,
-                                         const CalibrationFigures& figures) override;
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
+                                         std::string_view note, const CalibrationFigures& figures) override;
   Result<std::uint32_t> know_calibration(const pipeline::StereoCalibration& calibration,
                                          std::string_view note) override;
   Result<std::vector<CalibrationInfo>> calibrations() override;

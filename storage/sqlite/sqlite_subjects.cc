@@ -32,7 +32,8 @@ Result<void> SqliteStore::subject_must_exist(SubjectId id) {
   return row ? Result<void>() : not_found("there is no subject with this number", number(id));
 }
 
-// One that nobody has. The index would refuse a second; among a million people one draw in a million meets one.
+// One that nobody has. The index would refuse a second; among a million people one draw in a million meets
+// one.
 Result<std::int64_t> SqliteStore::fresh_receipt() {
   constexpr int kMostDraws = 100;
   for (int draw = 0; draw < kMostDraws; ++draw) {
@@ -41,15 +42,16 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
     RELIEVO_TRY_ASSIGN(const bool taken, query.bind(drawn).step());
     if (!taken) return drawn;
   }
-  return Error{Errc::LibraryFailed, "the system's random numbers repeat themselves: nobody can be given a code"};
+  return Error{Errc::LibraryFailed,
+               "the system's random numbers repeat themselves: nobody can be given a code"};
 }
 
 Result<SubjectId> SqliteStore::insert_subject(const NewSubject& subject, WallTime at) {
   if (!is_name(subject.name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
-  RELIEVO_TRY_ASSIGN(auto insert,
-                     database_->prepare("INSERT INTO subject (created_at_ms, name, receipt) VALUES (?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(
+      auto insert, database_->prepare("INSERT INTO subject (created_at_ms, name, receipt) VALUES (?, ?, ?)"));
   RELIEVO_TRY_ASSIGN(const std::int64_t receipt, fresh_receipt());
   RELIEVO_TRY(insert.bind(to_ms(at)).bind(std::as_bytes(std::span(subject.name))).bind(receipt).run());
   const SubjectId id{database_->last_row_id()};
@@ -63,7 +65,8 @@ Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
 
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Subject>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "WHERE ?1 = 0 OR receipt = ?1 ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) +
+                                                      "WHERE ?1 = 0 OR receipt = ?1 ORDER BY id DESC"));
     query.bind(filter.receipt);
     std::vector<Subject> found;
     // Names are compared here, not in SQL: there they will be cipher text.
@@ -112,7 +115,8 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
 Result<void> SqliteStore::empty_the_log() {
   RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));
   if (busy == 0) return {};
-  return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}.at(database_->where());
+  return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}
+      .at(database_->where());
 }
 
 }  // namespace relievo::storage

@@ -18,7 +18,8 @@ namespace measure = firmware::measure;
 Rotation product(const Rotation& a, const Rotation& b) {
   Rotation r;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) r.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
+    for (int j = 0; j < 3; ++j)
+      r.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
   return r;
 }
 
@@ -38,10 +39,12 @@ std::string pose_of(const std::filesystem::path& folder) {
   return name.substr(name.rfind('_') + 1);
 }
 
-Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room, Vec3d& across) {
+Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room,
+                                    Vec3d& across) {
   room.output.reset();
   RELIEVO_TRY_ASSIGN(const auto pictures, firmware::read_pair(folder / "left.png", folder / "right.png"));
-  RELIEVO_TRY_ASSIGN(const auto calibration, firmware::read_calibration_for(pictures, folder / "rig.yml", folder / "left.png"));
+  RELIEVO_TRY_ASSIGN(const auto calibration,
+                     firmware::read_calibration_for(pictures, folder / "rig.yml", folder / "left.png"));
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make({}, calibration));
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(pictures.frame(), room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
@@ -65,7 +68,8 @@ RigidTransform a_from_b(const Photograph& a, const Photograph& b) {
 }
 
 Apart between(const Photograph& a, const Photograph& b, const RigidTransform& a_from_b) {
-  const RigidTransform a_head_from_b_head = chained(a.frame.head_from_camera, chained(a_from_b, inverse(b.frame.head_from_camera)));
+  const RigidTransform a_head_from_b_head =
+      chained(a.frame.head_from_camera, chained(a_from_b, inverse(b.frame.head_from_camera)));
   const double* m = a_head_from_b_head.rotation.m;
   constexpr double kDeg = 180 / std::numbers::pi;
   Apart apart;

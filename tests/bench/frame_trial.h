@@ -19,15 +19,15 @@ namespace relievo::bench {
 
 struct Photograph {
   std::string person, pose;
-  pipeline::Vec3d across;                       // as the pipeline hands it to the frame's finder
+  pipeline::Vec3d across;  // as the pipeline hands it to the frame's finder
   pipeline::HeadFrame frame;
-  firmware::measure::Surface true_surface;      // left camera's frame
+  firmware::measure::Surface true_surface;  // left camera's frame
 };
 
 // Frame b as seen from frame a: zero where the two are the same.
 struct Apart {
   double turned_deg = 0;
-  pipeline::Vec3d turns_deg;                    // about x, y, z
+  pipeline::Vec3d turns_deg;  // about x, y, z
   pipeline::Vec3d origin_mm;
 };
 
@@ -35,7 +35,8 @@ std::string person_of(const std::filesystem::path& folder);
 std::string pose_of(const std::filesystem::path& folder);
 
 // Errors: those of the readers and of the pipeline.
-Result<pipeline::FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room, pipeline::Vec3d& across);
+Result<pipeline::FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room,
+                                              pipeline::Vec3d& across);
 
 // The rigid motion that takes camera coordinates of b's photograph to a's.
 pipeline::RigidTransform a_from_b(const Photograph& a, const Photograph& b);

@@ -16,8 +16,9 @@ long match_like_the_peer(const pipeline::RectifiedPair& pair) {
   const int least = static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
   const int most = static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm)));
   constexpr int kBlock = 5;
-  const auto peer = cv::StereoSGBM::create(least, (most - least + 15) / 16 * 16, kBlock, 8 * 3 * kBlock * kBlock,
-                                           32 * 3 * kBlock * kBlock, 1, 31, 8, 200, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
+  const auto peer =
+      cv::StereoSGBM::create(least, (most - least + 15) / 16 * 16, kBlock, 8 * 3 * kBlock * kBlock,
+                             32 * 3 * kBlock * kBlock, 1, 31, 8, 200, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat disparity;
   peer->compute(wrap(pair.left), wrap(pair.right), disparity);
   return cv::countNonZero(disparity >= 16 * least);

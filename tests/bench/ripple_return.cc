@@ -3,11 +3,12 @@
 //
 //   ripple_return [HEADS [KEY VALUE ...]]        settings of the algorithms
 //
-// How much detail the default algorithms keep: waves of 0.3 mm along x are added to a simulated head, and what is left
-// of their height is read off the model, for waves of several lengths. The same person without waves is the zero:
+// How much detail the default algorithms keep: waves of 0.3 mm along x are added to a simulated head, and
+// what is left of their height is read off the model, for waves of several lengths. The same person without
+// waves is the zero:
 //   share = sum(measured * true) / sum(true^2)
-// over the measured vertices of the face, where measured and true are depths along a pixel's ray beyond the smooth
-// head's. A share of 1 keeps all; blur that buys smooth surfaces shows as less.
+// over the measured vertices of the face, where measured and true are depths along a pixel's ray beyond the
+// smooth head's. A share of 1 keeps all; blur that buys smooth surfaces shows as less.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -42,11 +43,13 @@ Person person(std::uint32_t seed, double wave_mm, double shine, ThreadPool& pool
   return p;
 }
 
-Result<FaceMesh> reconstruct(const Scene& scene, const SimRig& rig, const AlgorithmSet& algorithms, test::StageBench& room) {
+Result<FaceMesh> reconstruct(const Scene& scene, const SimRig& rig, const AlgorithmSet& algorithms,
+                             test::StageBench& room) {
   room.output.reset();
   const hal::sim::PicturePair pictures = render_pair(scene, rig, {}, 1, room.pool);
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make(algorithms, test::true_calibration(rig)));
-  RELIEVO_TRY_ASSIGN(auto pair, stages.rectify({pictures.left.view(), pictures.right.view(), 0, 0}, room.context));
+  RELIEVO_TRY_ASSIGN(auto pair,
+                     stages.rectify({pictures.left.view(), pictures.right.view(), 0, 0}, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
   RELIEVO_TRY_ASSIGN(const auto cloud, stages.reconstruct(pair, matches, room.context));
   return stages.mesh(cloud, pair, room.context);
@@ -62,9 +65,11 @@ double share_kept(const FaceMesh& mesh, const Scene& rippled, const Scene& smoot
     const double far = std::sqrt(dot(p, p));
     const Vec3 ray = p * (1 / far);
     SolidPoint with, without;
-    if (!rippled.solid({}, ray, with) || !smooth.solid({}, ray, without) || !with.skin || !without.skin) continue;
+    if (!rippled.solid({}, ray, with) || !smooth.solid({}, ray, without) || !with.skin || !without.skin)
+      continue;
     if (-dot(without.normal, ray) < 0.7) continue;  // steep skin turns a wave into a step
-    const double true_mm = std::sqrt(dot(with.point, with.point)) - std::sqrt(dot(without.point, without.point));
+    const double true_mm =
+        std::sqrt(dot(with.point, with.point)) - std::sqrt(dot(without.point, without.point));
     if (std::abs(true_mm) > 2 * kHeightMm) continue;  // another surface
     const double measured_mm = far - std::sqrt(dot(without.point, without.point));
     if (std::abs(measured_mm) > 2) continue;
@@ -90,7 +95,8 @@ int run(int heads, const AlgorithmSet& algorithms) {
       const Person waved = person(seed, wave, shine, room.pool);
       const auto mesh = reconstruct(*waved.scene, rig, algorithms, room);
       if (!mesh) {
-        std::fprintf(stderr, "ripple_return: head %u: %.*s\n", seed, static_cast<int>(mesh.error().what.view().size()), mesh.error().what.view().data());
+        std::fprintf(stderr, "ripple_return: head %u: %.*s\n", seed,
+                     static_cast<int>(mesh.error().what.view().size()), mesh.error().what.view().data());
         return 1;
       }
       std::printf("%10.2f", share_kept(*mesh, *waved.scene, *smooth.scene));
@@ -108,7 +114,8 @@ int main(int argc, char** argv) {
   relievo::pipeline::AlgorithmSet algorithms;
   for (int i = 2; i + 1 < argc; i += 2)
     if (const auto done = algorithms.set(argv[i], argv[i + 1]); !done) {
-      std::fprintf(stderr, "ripple_return: %s: %.*s\n", argv[i], static_cast<int>(done.error().what.view().size()), done.error().what.view().data());
+      std::fprintf(stderr, "ripple_return: %s: %.*s\n", argv[i],
+                   static_cast<int>(done.error().what.view().size()), done.error().what.view().data());
       return 2;
     }
   return relievo::bench::run(argc > 1 ? std::atoi(argv[1]) : 3, algorithms);

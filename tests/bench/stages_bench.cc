@@ -26,7 +26,9 @@ using namespace pipeline;  // NOLINT: one file of benchmarks
 
 // The pictures and every stage's product, made once; each benchmark runs its own stage again.
 struct Bench : Workspace {
-  Bench() : Workspace(static_cast<int>(std::thread::hardware_concurrency()), std::size_t{640} << 20, std::size_t{768} << 20) {
+  Bench()
+      : Workspace(static_cast<int>(std::thread::hardware_concurrency()), std::size_t{640} << 20,
+                  std::size_t{768} << 20) {
     const hal::sim::SimRig rig = hal::sim::make_rig({});
     const auto head = hal::sim::make_head(hal::sim::traits_of(1), pool);
     const auto scene = hal::sim::make_head_scene(head, {}, pool);
@@ -42,7 +44,8 @@ struct Bench : Workspace {
     kept = output.used();
   }
   [[noreturn]] static void fail(const Error& error) {
-    std::fprintf(stderr, "bench: %.*s\n", static_cast<int>(error.what.view().size()), error.what.view().data());
+    std::fprintf(stderr, "bench: %.*s\n", static_cast<int>(error.what.view().size()),
+                 error.what.view().data());
     std::exit(1);
   }
   template <typename T>
@@ -75,12 +78,24 @@ void run(benchmark::State& state, Stage&& stage) {
   }
 }
 
-void rectify(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->rectify(b.frame, b.context).has_value(); }); }
-void match(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->match(*b.pair, b.context).has_value(); }); }
-void reconstruct(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->reconstruct(*b.pair, *b.matches, b.context).has_value(); }); }
-void mesh(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->mesh(*b.cloud, *b.pair, b.context).has_value(); }); }
-void texture(benchmark::State& s) { run(s, [](Bench& b) { return b.stages->texture(FaceMesh(*b.mesh), *b.pair, b.context).has_value(); }); }
-void peer_sgbm_3way(benchmark::State& s) { run(s, [](Bench& b) { return match_like_the_peer(*b.pair); }); }
+void rectify(benchmark::State& s) {
+  run(s, [](Bench& b) { return b.stages->rectify(b.frame, b.context).has_value(); });
+}
+void match(benchmark::State& s) {
+  run(s, [](Bench& b) { return b.stages->match(*b.pair, b.context).has_value(); });
+}
+void reconstruct(benchmark::State& s) {
+  run(s, [](Bench& b) { return b.stages->reconstruct(*b.pair, *b.matches, b.context).has_value(); });
+}
+void mesh(benchmark::State& s) {
+  run(s, [](Bench& b) { return b.stages->mesh(*b.cloud, *b.pair, b.context).has_value(); });
+}
+void texture(benchmark::State& s) {
+  run(s, [](Bench& b) { return b.stages->texture(FaceMesh(*b.mesh), *b.pair, b.context).has_value(); });
+}
+void peer_sgbm_3way(benchmark::State& s) {
+  run(s, [](Bench& b) { return match_like_the_peer(*b.pair); });
+}
 
 BENCHMARK(rectify)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(match)->Unit(benchmark::kMillisecond)->UseRealTime();

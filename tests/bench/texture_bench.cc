@@ -3,9 +3,9 @@
 //
 //   texture_bench LEFT RIGHT RIG.yml [OUT.png]
 //
-// The textured model of two pictures: what its seams look like (CIEDE2000), how fine its texels are against the
-// photographs' pixels, how much of the atlas is used, what texture and files cost; and, into OUT.png,
-// the model turned by -40, 0 and 40 degrees, to be looked at.
+// The textured model of two pictures: what its seams look like (CIEDE2000), how fine its texels are against
+// the photographs' pixels, how much of the atlas is used, what texture and files cost; and, into OUT.png, the
+// model turned by -40, 0 and 40 degrees, to be looked at.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,8 +28,8 @@
 #include "storage/export/format/obj_writer.h"
 #include "storage/export/format/ply_writer.h"
 #include "storage/export/format/png_writer.h"
-#include "storage/export/recognition_files.h"
 #include "storage/export/format/stl_writer.h"
+#include "storage/export/recognition_files.h"
 #include "tests/support/stage_bench.h"
 #include "tests/support/texture_seams.h"
 
@@ -41,15 +41,18 @@ using namespace pipeline;  // NOLINT: one small program
 template <typename T>
 T need(Result<T> result) {
   if (!result) {
-    std::fprintf(stderr, "texture_bench: %.*s %.*s\n", static_cast<int>(result.error().where().size()), result.error().where().data(),
-                 static_cast<int>(result.error().what.view().size()), result.error().what.view().data());
+    std::fprintf(stderr, "texture_bench: %.*s %.*s\n", static_cast<int>(result.error().where().size()),
+                 result.error().where().data(), static_cast<int>(result.error().what.view().size()),
+                 result.error().what.view().data());
     std::exit(1);
   }
   return *std::move(result);
 }
 
 // The best of five, so that others on the machine count less: by the clock, and on the processors.
-struct Cost { double ms = 1e9, cpu_ms = 1e9; };
+struct Cost {
+  double ms = 1e9, cpu_ms = 1e9;
+};
 Cost& operator+=(Cost& sum, const Cost& one) {
   sum.ms += one.ms;
   sum.cpu_ms += one.cpu_ms;
@@ -64,17 +67,21 @@ Cost best_of_five(Work&& work) {
     const std::clock_t cpu = std::clock();
     work();
     best.cpu_ms = std::min(best.cpu_ms, 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC);
-    best.ms = std::min(best.ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    best.ms = std::min(
+        best.ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
   }
   return best;
 }
 
 void print_seams(const char* what, const test::SeamReport& r) {
-  std::printf("%-34s %6zu edges, at the edge %.2f / %.2f, over 3 mm %.2f / %.2f (CIEDE2000, median / 95 %%)\n", what, r.step.count, r.step.median, r.step.p95,
-              r.across.median, r.across.p95);
+  std::printf(
+      "%-34s %6zu edges, at the edge %.2f / %.2f, over 3 mm %.2f / %.2f (CIEDE2000, median / 95 %%)\n", what,
+      r.step.count, r.step.median, r.step.p95, r.across.median, r.across.p95);
 }
 
-double area(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)); }
+double area(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  return 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+}
 
 // Texels and pixels of either photograph on the measured triangles, one against the other.
 void print_texels(const FaceModel& model, const RectifiedPair& pair) {
@@ -82,7 +89,8 @@ void print_texels(const FaceModel& model, const RectifiedPair& pair) {
   double all_mm2 = 0, all_texels = 0;
   for (std::size_t k = 0; k < model.mesh.triangles.size(); ++k) {
     const auto& t = model.mesh.triangles[k];
-    if (model.mesh.measured[t[0]] == 0 || model.mesh.measured[t[1]] == 0 || model.mesh.measured[t[2]] == 0) continue;
+    if (model.mesh.measured[t[0]] == 0 || model.mesh.measured[t[1]] == 0 || model.mesh.measured[t[2]] == 0)
+      continue;
     Vec2d uv[3], left[3], right[3];
     Vec3d p[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -90,11 +98,14 @@ void print_texels(const FaceModel& model, const RectifiedPair& pair) {
       p[i] = apply(pair.rectified_from_left, Vec3d{double{v.x}, double{v.y}, double{v.z}});
       left[i] = {pair.focal_px * p[i].x / p[i].z, pair.focal_px * p[i].y / p[i].z};
       right[i] = {left[i].x - pair.focal_px * pair.baseline_mm / p[i].z, left[i].y};
-      uv[i] = {double{model.texture.uv[3 * k + i].x} * model.texture.width_px, double{model.texture.uv[3 * k + i].y} * model.texture.height_px};
+      uv[i] = {double{model.texture.uv[3 * k + i].x} * model.texture.width_px,
+               double{model.texture.uv[3 * k + i].y} * model.texture.height_px};
     }
-    const Vec3d u{p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z}, w{p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
+    const Vec3d u{p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
+        w{p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
     const double mm2 = 0.5 * std::hypot(u.y * w.z - u.z * w.y, u.z * w.x - u.x * w.z, u.x * w.y - u.y * w.x);
-    const double texels = area(uv[0], uv[1], uv[2]), pixels = std::max(area(left[0], left[1], left[2]), area(right[0], right[1], right[2]));
+    const double texels = area(uv[0], uv[1], uv[2]),
+                 pixels = std::max(area(left[0], left[1], left[2]), area(right[0], right[1], right[2]));
     if (pixels > 1e-9) ratio.emplace_back(texels / pixels, mm2);
     all_mm2 += mm2;
     all_texels += texels;
@@ -106,10 +117,13 @@ void print_texels(const FaceModel& model, const RectifiedPair& pair) {
     if (fifth == 0 && below >= 0.05 * all_mm2) fifth = r;
     if (half == 0 && below >= 0.5 * all_mm2) half = r;
   }
-  const auto used = std::count_if(model.texture.origin.begin(), model.texture.origin.end(), [](std::uint8_t o) { return o != kNoSurfaceTexel; });
-  std::printf("atlas %d x %d, %.0f %% used; %.2f texels a mm and side; texels a pixel of the better photograph: median %.2f, 5 %% have less than %.2f\n",
-              model.texture.width_px, model.texture.height_px, 100.0 * static_cast<double>(used) / static_cast<double>(model.texture.origin.size()),
-              std::sqrt(all_texels / all_mm2), half, fifth);
+  const auto used = std::count_if(model.texture.origin.begin(), model.texture.origin.end(),
+                                  [](std::uint8_t o) { return o != kNoSurfaceTexel; });
+  std::printf(
+      "atlas %d x %d, %.0f %% used; %.2f texels a mm and side; texels a pixel of the better photograph: median %.2f, 5 %% have less than %.2f\n",
+      model.texture.width_px, model.texture.height_px,
+      100.0 * static_cast<double>(used) / static_cast<double>(model.texture.origin.size()),
+      std::sqrt(all_texels / all_mm2), half, fifth);
 }
 
 void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageBench& bench) {
@@ -124,18 +138,21 @@ void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageB
     all += cost;
   };
   say("texture", best_of_five([&] {
-    Arena::Mark mark(bench.output);
-    need(run_stage(c, [&](StageContext& s) { return TwoViewTexturer({}).texture(model.mesh, pair, s); }));
-  }));
+        Arena::Mark mark(bench.output);
+        need(run_stage(c, [&](StageContext& s) { return TwoViewTexturer({}).texture(model.mesh, pair, s); }));
+      }));
   say("sharpness", best_of_five([&] { texture_sharpness(model.texture, c); }));
-  say("into the head frame", best_of_five([&] { need(storage::make_export_mesh(model, storage::ExportFrame::Head)); }));
+  say("into the head frame",
+      best_of_five([&] { need(storage::make_export_mesh(model, storage::ExportFrame::Head)); }));
   say("png", best_of_five([&] { need(storage::png_bytes(model.texture)); }));
   say("ply", best_of_five([&] { storage::ply_bytes(mesh); }));
   say("stl", best_of_five([&] { storage::stl_bytes(mesh); }));
   say("obj", best_of_five([&] { storage::obj_text(mesh, "model.mtl"); }));
   say("glb", best_of_five([&] { storage::glb_bytes(mesh, png); }));
   say("portrait and range", best_of_five([&] { need(make_recognition_images(model, heap, heap)); }));
-  say("their files", best_of_five([&] { need(storage::recognition_files(images, model.landmarks, model.head_from_camera, "")); }));
+  say("their files", best_of_five([&] {
+        need(storage::recognition_files(images, model.landmarks, model.head_from_camera, ""));
+      }));
   const Cost sum = all;
   say("all", sum);
 }
@@ -167,13 +184,16 @@ void draw_three_sides(const FaceModel& model, const char* file) {
       camera.view_from_camera.rotation.m[6 + column] = axes[column].z - o.z;
     }
     camera.view_from_camera.translation_mm = o;
-    const TexturedView view = draw_textured(model.mesh, model.texture, camera, std::pmr::new_delete_resource(), std::pmr::new_delete_resource());
+    const TexturedView view = draw_textured(model.mesh, model.texture, camera,
+                                            std::pmr::new_delete_resource(), std::pmr::new_delete_resource());
     for (int y = 0; y < kHeight; ++y)
-      std::copy_n(&view.rgb[static_cast<std::size_t>(3 * y * kWidth)], 3 * kWidth, &sheet[static_cast<std::size_t>(3 * (y * 3 * kWidth + side * kWidth))]);
+      std::copy_n(&view.rgb[static_cast<std::size_t>(3 * y * kWidth)], 3 * kWidth,
+                  &sheet[static_cast<std::size_t>(3 * (y * 3 * kWidth + side * kWidth))]);
   }
   const auto png = need(storage::png_of_rgb(3 * kWidth, kHeight, sheet));
   std::FILE* out = std::fopen(file, "wb");
-  if (out == nullptr || std::fwrite(png.data(), 1, png.size(), out) != png.size() || std::fclose(out) != 0) std::exit(1);
+  if (out == nullptr || std::fwrite(png.data(), 1, png.size(), out) != png.size() || std::fclose(out) != 0)
+    std::exit(1);
 }
 
 }  // namespace
@@ -186,7 +206,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: texture_bench LEFT RIGHT RIG.yml [OUT.png]\n");
     return 2;
   }
-  test::StageBench bench(std::size_t{512} << 20, std::size_t{640} << 20, static_cast<int>(std::thread::hardware_concurrency()));
+  test::StageBench bench(std::size_t{512} << 20, std::size_t{640} << 20,
+                         static_cast<int>(std::thread::hardware_concurrency()));
   pipeline::StageContext& c = bench.context;
   const auto left = need(hal::read_picture(argv[1]));
   const auto right = need(hal::read_picture(argv[2]));
@@ -196,7 +217,8 @@ int main(int argc, char** argv) {
   const auto matches = need(stages.match(pair, c));
   const auto cloud = need(stages.reconstruct(pair, matches, c));
   auto mesh = need(stages.mesh(cloud, pair, c));
-  const auto alone = need(pipeline::run_stage(c, [&](pipeline::StageContext& s) { return pipeline::SingleViewTexturer({}).texture(mesh, pair, s); }));
+  const auto alone = need(pipeline::run_stage(
+      c, [&](pipeline::StageContext& s) { return pipeline::SingleViewTexturer({}).texture(mesh, pair, s); }));
   const auto model = need(stages.texture(std::move(mesh), pair, c));
   print_seams("seams, two-view", test::measure_seams(model.mesh, model.texture, &alone));
   print_texels(model, pair);

@@ -92,7 +92,8 @@ TEST(ApplianceSelfTest, ACameraThatDoesNotOpenIsAFault) {
   TestStages stages;
   const BootMemory memory(2 * 7 * 16, 1 << 16, 1 << 16);
   ThreadPool pool(1);
-  Appliance appliance({board, stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
+  Appliance appliance({board, stages, memory, pool,
+                       [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
   while (appliance.state() == State::SelfTest) appliance.step(milliseconds(1));
   EXPECT_EQ(appliance.state(), State::Fault);
   EXPECT_EQ(appliance.problem()->code, Errc::IoFailed);

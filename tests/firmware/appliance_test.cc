@@ -34,7 +34,9 @@ TEST_F(ApplianceTest, AfterAFailedStageThePersonTriesAgain) {
   ASSERT_TRUE(reach(State::Idle));
   appliance.ask(ui::Intent::Begin);
   ASSERT_TRUE(reach(State::Review));
-  EXPECT_EQ(path, "Idle Capture Match Capture Match Reconstruct Mesh Capture Match Reconstruct Mesh Texture Review ");
+  EXPECT_EQ(
+      path,
+      "Idle Capture Match Capture Match Reconstruct Mesh Capture Match Reconstruct Mesh Texture Review ");
   EXPECT_EQ(appliance.attempt(), 3);
 }
 

@@ -26,7 +26,8 @@ class TestStages final : public StageRunner {
   std::atomic<bool> waiting{false};
   std::optional<pipeline::DriftJudgement> drift;
   std::string ran;
-  Result<void> run(State stage, Products& products, pipeline::StageContext& context, StageRecord& record) override {
+  Result<void> run(State stage, Products& products, pipeline::StageContext& context,
+                   StageRecord& record) override {
     ran += name_of(stage).substr(0, 2);
     if (stage == State::Match) products.drift = drift;
     if (!errors.empty() && errors.front().first == stage) {
@@ -75,15 +76,16 @@ class ApplianceTest : public testing::Test {
   std::deque<Errc> keep_errors;
   std::string kept;
   std::string path;
-  Appliance appliance{{board, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
-                         if (!keep_errors.empty()) {
-                           const Errc code = keep_errors.front();
-                           keep_errors.pop_front();
-                           return Result<void>(Error{code, "as the test says"});
-                         }
-                         kept += subject;
-                         return Result<void>();
-                       }}};
+  Appliance appliance{
+      {board, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
+         if (!keep_errors.empty()) {
+           const Errc code = keep_errors.front();
+           keep_errors.pop_front();
+           return Result<void>(Error{code, "as the test says"});
+         }
+         kept += subject;
+         return Result<void>();
+       }}};
 };
 
 }  // namespace relievo::firmware

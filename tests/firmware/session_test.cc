@@ -23,7 +23,8 @@ class SessionTest : public testing::Test {
     std::memset(const_cast<std::byte*>(all.data()), 0, all.size());
   }
   bool all_zero() const {
-    return std::all_of(memory.all().begin(), memory.all().end(), [](std::byte b) { return b == std::byte{0}; });
+    return std::all_of(memory.all().begin(), memory.all().end(),
+                       [](std::byte b) { return b == std::byte{0}; });
   }
   // Fills everything a person's enrolment touches.
   void live() {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/mount.h>
 #include <cstring>
 #include <fstream>
-#include <sys/mount.h>
 
 #include "hal/picture_header.h"
 #include "hal/whole_file.h"
@@ -18,12 +18,14 @@ namespace {
 Picture pattern(int w, int h, PixelFormat format) {
   Picture p{{}, w, h, format};
   p.bytes.resize(static_cast<std::size_t>(w * h * bytes_per_pixel(format)));
-  for (std::size_t i = 0; i < p.bytes.size(); ++i) p.bytes[i] = std::byte(static_cast<unsigned char>(i * 37 + i / 7));
+  for (std::size_t i = 0; i < p.bytes.size(); ++i)
+    p.bytes[i] = std::byte(static_cast<unsigned char>(i * 37 + i / 7));
   return p;
 }
 
 void write_bytes(const std::filesystem::path& file, const std::byte* bytes, std::size_t size) {
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
 }
 
 TEST(PictureFile, EveryFormatComesBackFromPngUnchanged) {
@@ -80,7 +82,8 @@ TEST(PictureFile, EveryTruncationOfAJpegIsAnError) {
   ASSERT_TRUE(write_picture(folder / "a.jpg", pattern(24, 16, PixelFormat::Rgb8).view()));
   const auto jpeg = read_whole_file(folder / "a.jpg", 1 << 20);
   ASSERT_TRUE(jpeg);
-  for (std::size_t size = 0; size < jpeg->size(); ++size) EXPECT_FALSE(decode_picture(jpeg->data(), size)) << size;
+  for (std::size_t size = 0; size < jpeg->size(); ++size)
+    EXPECT_FALSE(decode_picture(jpeg->data(), size)) << size;
 }
 
 TEST(PictureFile, EveryDamagedByteOfAPngIsSurvived) {
@@ -113,7 +116,7 @@ TEST(PictureFile, SaysWhichFileIsMissingEmptyOrNoPicture) {
 TEST(PictureFile, AHugeHeaderIsRefusedBeforeDecoding) {
   auto png = encode_png(pattern(4, 4, PixelFormat::Grey8).view());
   ASSERT_TRUE(png);
-  (*png)[17] = std::byte{0x7f};    // a width of eight million
+  (*png)[17] = std::byte{0x7f};  // a width of eight million
   const auto read = decode_picture(png->data(), png->size());
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().what.view().find("limit"), std::string_view::npos);
@@ -125,17 +128,20 @@ TEST(PictureFile, AFullDiskIsMediaFullAndLeavesNoTrace) {
   EXPECT_EQ(full.error().code, Errc::MediaFull);
 
   const TemporaryFolder folder;
-  if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "may not mount a small tmpfs";
+  if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "may not mount a small tmpfs";
   const Picture small = pattern(40, 30, PixelFormat::Rgb8);
   ASSERT_TRUE(write_picture(folder / "a.png", small.view()));
   Picture noisy = pattern(400, 300, PixelFormat::Rgb8);
   std::uint32_t state = 1;
-  for (std::byte& b : noisy.bytes) b = std::byte(static_cast<unsigned char>((state = state * 1664525U + 1013904223U) >> 24));
+  for (std::byte& b : noisy.bytes)
+    b = std::byte(static_cast<unsigned char>((state = state * 1664525U + 1013904223U) >> 24));
   const auto written = write_picture(folder / "a.png", noisy.view());
   EXPECT_EQ(written.has_value() ? Errc::IoFailed : written.error().code, Errc::MediaFull);
   const auto old = read_picture(folder / "a.png");
   EXPECT_TRUE(old && old->width_px == 40) << "the old picture must survive";
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file was left behind";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+      << "a temporary file was left behind";
   ::umount(folder.path().c_str());
 }
 

@@ -29,7 +29,8 @@ class LampLine final : public TriggerLine {
   struct Flash {
     Instant begin, end;
   };
-  explicit LampLine(ManualClock& clock, bool one_wire = false) : TriggerLine(clock), clock_(clock), one_wire_(one_wire) {}
+  explicit LampLine(ManualClock& clock, bool one_wire = false)
+      : TriggerLine(clock), clock_(clock), one_wire_(one_wire) {}
   std::vector<Flash> flashes;
   int pulses = 0;
   bool broken = false;
@@ -87,7 +88,8 @@ TEST_F(TriggerLineTest, WithoutLightThereIsNoLimit) {
 }
 
 TEST_F(TriggerLineTest, WidthsThatCannotBeAreRefused) {
-  for (const microseconds width : {microseconds(0), microseconds(-1), TriggerLine::kLongestPulse + microseconds(1)})
+  for (const microseconds width :
+       {microseconds(0), microseconds(-1), TriggerLine::kLongestPulse + microseconds(1)})
     EXPECT_EQ(line.pulse(width, Light::Off).error().code, Errc::InvalidInput);
   EXPECT_EQ(line.pulses, 0);
 }
@@ -133,10 +135,17 @@ TEST(TriggerLine, NoScheduleFlashesMoreThanThreeTimesInAnySecond) {
       line.sluggish = microseconds(random() % 2 == 0 ? 0 : random() % 30'000);
       const microseconds width(1 + random() % 100'000);
       switch (random() % 4) {
-        case 0: clock.advance(microseconds(random() % 2000)); break;
-        case 1: clock.advance(milliseconds(random() % 400)); break;
-        case 2: clock.advance(std::max(std::chrono::nanoseconds(0), line.flash_allowed_at() - clock.now())); break;
-        default: break;
+        case 0:
+          clock.advance(microseconds(random() % 2000));
+          break;
+        case 1:
+          clock.advance(milliseconds(random() % 400));
+          break;
+        case 2:
+          clock.advance(std::max(std::chrono::nanoseconds(0), line.flash_allowed_at() - clock.now()));
+          break;
+        default:
+          break;
       }
       const auto done = line.pulse(width, random() % 8 == 0 ? Light::Off : Light::Flash);
       if (!done && done.error().code == Errc::Timeout) ++refused;

@@ -31,7 +31,8 @@ Ply read_ply(const std::filesystem::path& file) {
   for (std::string word; in >> word && word != "end_header";)
     if (word == "vertex") in >> vertices;
     else if (word == "face") in >> faces;
-  for (pipeline::Vec3d v; ply.vertices.size() < vertices && in >> v.x >> v.y >> v.z;) ply.vertices.push_back(v);
+  for (pipeline::Vec3d v; ply.vertices.size() < vertices && in >> v.x >> v.y >> v.z;)
+    ply.vertices.push_back(v);
   ply.whole = ply.vertices.size() == vertices;
   for (std::size_t n, a, b, c; ply.triangles < faces && in >> n >> a >> b >> c; ++ply.triangles)
     ply.whole = ply.whole && n == 3 && std::max({a, b, c}) < vertices && a != b && b != c && c != a;
@@ -47,7 +48,8 @@ struct Truth {
     in >> width >> height >> letter;
     in.get();
     depth_mm.resize(static_cast<std::size_t>(width * height));
-    in.read(reinterpret_cast<char*>(depth_mm.data()), static_cast<std::streamsize>(depth_mm.size() * sizeof(float)));
+    in.read(reinterpret_cast<char*>(depth_mm.data()),
+            static_cast<std::streamsize>(depth_mm.size() * sizeof(float)));
   }
   int width = 0, height = 0;
   std::vector<float> depth_mm;
@@ -73,16 +75,20 @@ class Package : public testing::Test {
 };
 
 TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
-  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()}));
-  ASSERT_TRUE(done({RELIEVO_CMAKE, "-S", RELIEVO_EXAMPLES "/two_pictures_to_ply", "-B", "example", "-G", RELIEVO_GENERATOR, "-DCMAKE_BUILD_TYPE=Release",
-        "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER, "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}));
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix",
+                    (here / "installed").string()}));
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "-S", RELIEVO_EXAMPLES "/two_pictures_to_ply", "-B", "example", "-G",
+                    RELIEVO_GENERATOR, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
+                    "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}));
   ASSERT_TRUE(done({RELIEVO_CMAKE, "--build", "example"}));
-  ASSERT_TRUE(done({RELIEVO_BINARY, "simulate", "face", "--seed", "4", "--scale", "0.5", "--truth", "-o", "face"}));
-  ASSERT_TRUE(done({(here / "example" / "two_pictures_to_ply").string(), "face/left.png", "face/right.png", "face/rig.yml", "face.ply"}));
+  ASSERT_TRUE(
+      done({RELIEVO_BINARY, "simulate", "face", "--seed", "4", "--scale", "0.5", "--truth", "-o", "face"}));
+  ASSERT_TRUE(done({(here / "example" / "two_pictures_to_ply").string(), "face/left.png", "face/right.png",
+                    "face/rig.yml", "face.ply"}));
 
   const Ply ply = read_ply(here / "face.ply");
   ASSERT_TRUE(ply.whole);
-  EXPECT_GT(ply.vertices.size(), 30'000U);   // 150 by 180 mm, a vertex every 1.2 of the pixels of 0.38 mm
+  EXPECT_GT(ply.vertices.size(), 30'000U);  // 150 by 180 mm, a vertex every 1.2 of the pixels of 0.38 mm
   EXPECT_LT(ply.vertices.size(), 130'000U);
   EXPECT_GT(ply.triangles, ply.vertices.size() * 3 / 2);
   const auto rig = pipeline::read_calibration(here / "face" / "rig.yml");
@@ -94,11 +100,13 @@ TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
     const long x = std::lround(at.x), y = std::lround(at.y);
     ASSERT_TRUE(x >= 0 && y >= 0 && x < truth.width && y < truth.height);
     const double depth = static_cast<double>(truth.depth_mm[static_cast<std::size_t>(y * truth.width + x)]);
-    if (std::abs(v.z - depth) < 15) errors.push_back(std::abs(v.z - depth));  // not where the face was completed before the room
+    if (std::abs(v.z - depth) < 15)
+      errors.push_back(std::abs(v.z - depth));  // not where the face was completed before the room
   }
   EXPECT_GT(errors.size(), ply.vertices.size() * 85 / 100);
   std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], 0.35);  // mm; a pixel of disparity is 1.5 mm here, half a pixel of place 0.2
+  EXPECT_LT(errors[errors.size() / 2],
+            0.35);  // mm; a pixel of disparity is 1.5 mm here, half a pixel of place 0.2
   EXPECT_LT(errors[errors.size() * 95 / 100], 2.5);
   RecordProperty("median_um", static_cast<int>(1000 * errors[errors.size() / 2]));
   RecordProperty("p95_um", static_cast<int>(1000 * errors[errors.size() * 95 / 100]));
@@ -106,10 +114,15 @@ TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
 
 // Who links an older or a newer library than the program was written for is told.
 TEST_F(Package, AnotherVersionIsRefused) {
-  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix", (here / "installed").string()}));
-  write_text(here / "CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(relievo 7.0 REQUIRED)\n");
-  const Said said = run_program({RELIEVO_CMAKE, "-S", ".", "-B", "b", "-G", RELIEVO_GENERATOR, "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
-                                 "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}, here.path());
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix",
+                    (here / "installed").string()}));
+  write_text(
+      here / "CMakeLists.txt",
+      "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(relievo 7.0 REQUIRED)\n");
+  const Said said = run_program(
+      {RELIEVO_CMAKE, "-S", ".", "-B", "b", "-G", RELIEVO_GENERATOR, "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
+       "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()},
+      here.path());
   EXPECT_NE(said.exit_code, 0);
   EXPECT_NE(said.err.find("relievo"), std::string::npos) << said.err;
 }

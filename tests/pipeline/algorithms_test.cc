@@ -111,7 +111,9 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
     ASSERT_FALSE(refused);
     const std::string_view where = refused.error().where();
     EXPECT_TRUE(where.starts_with(misspelt)) << "cut: " << where;
-    EXPECT_TRUE(where == misspelt || where.find(option.key.substr(option.key.find('.') + 1)) != std::string_view::npos) << option.key;
+    EXPECT_TRUE(where == misspelt ||
+                where.find(option.key.substr(option.key.find('.') + 1)) != std::string_view::npos)
+        << option.key;
     EXPECT_NE(refused.error().what.view().find("relievo algorithms"), std::string_view::npos);
   }
   const auto unknown_name = set.set("matcher", "magic");
@@ -126,7 +128,8 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
 }
 
 TEST(AlgorithmSet, ReadsWhatOlderStoresCallThings) {
-  const auto set = AlgorithmSet::from_text("selector = grid\ngrid-points.max_points = 20000\ngrid-points.step_px = 6\n");
+  const auto set =
+      AlgorithmSet::from_text("selector = grid\ngrid-points.max_points = 20000\ngrid-points.step_px = 6\n");
   ASSERT_TRUE(set);
   EXPECT_EQ(set->get("selector"), "grid-points");
   EXPECT_EQ(set->get("grid-points.step_px"), "6");

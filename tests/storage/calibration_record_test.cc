@@ -62,7 +62,8 @@ TEST(CalibrationRecord, ReadsTheFirstForm) {
   auto before = test::calibration_of_first_form(calibration);
   const auto stored = decode_calibration(before);
   ASSERT_TRUE(stored);
-  EXPECT_EQ(stored->calibration.right_from_left.translation_mm.z, calibration.right_from_left.translation_mm.z);
+  EXPECT_EQ(stored->calibration.right_from_left.translation_mm.z,
+            calibration.right_from_left.translation_mm.z);
   EXPECT_EQ(stored->calibration.rms_px, calibration.rms_px);
   EXPECT_EQ(stored->calibration.epipolar_shift_px, 0);
   EXPECT_EQ(stored->figures.grade, CalibrationGrade::Unknown);

@@ -59,9 +59,12 @@ FaceModel sample_model(int side, unsigned seed) {
     }
   }
   model.head_from_camera = {{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0.1 + seed, 1.0 / 3.0, 600.5}};
-  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7, 23.4, 0.05, 0.7, 0.21, {0.9, 0.31, 7.9, 3.6, 18.5, 7.25}};
+  model.quality = {0.12, 15'000.3, 0.91, 140.2, 190.7,
+                   23.4, 0.05,     0.7,  0.21,  {0.9, 0.31, 7.9, 3.6, 18.5, 7.25}};
   for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k)
-    model.landmarks[k] = {{static_cast<float>(k) - 4.5F, static_cast<float>(seed), 610.25F}, 0.5F + static_cast<float>(k), k != 3};
+    model.landmarks[k] = {{static_cast<float>(k) - 4.5F, static_cast<float>(seed), 610.25F},
+                          0.5F + static_cast<float>(k),
+                          k != 3};
   return model;
 }
 
@@ -101,8 +104,11 @@ pipeline::StereoCalibration sample_calibration() {
 
 std::vector<std::byte> calibration_of_first_form(const pipeline::StereoCalibration& calibration) {
   const auto now = encode_calibration(calibration);
-  constexpr std::ptrdiff_t kNewer = 8 + 1 + 3 * 8 + 2 * (pipeline::kMaxCameraWords + 1);  // the shift, the grade, three figures, the cameras' names
-  std::vector<std::byte> before(now.begin(), now.end() - static_cast<std::ptrdiff_t>(sizeof(Sha256)) - kNewer);
+  constexpr std::ptrdiff_t kNewer =
+      8 + 1 + 3 * 8 +
+      2 * (pipeline::kMaxCameraWords + 1);  // the shift, the grade, three figures, the cameras' names
+  std::vector<std::byte> before(now.begin(),
+                                now.end() - static_cast<std::ptrdiff_t>(sizeof(Sha256)) - kNewer);
   before[8] = std::byte{1};
   const Sha256 digest = sha256(before);
   ByteWriter(before).put(digest);
@@ -131,12 +137,14 @@ bool identical(const FaceModel& a, const FaceModel& b) {
          same(a.mesh.sigma_mm, b.mesh.sigma_mm) && same(a.mesh.measured, b.mesh.measured) &&
          same(a.mesh.triangles, b.mesh.triangles) && same(a.texture.rgb, b.texture.rgb) &&
          same(a.texture.uv, b.texture.uv) && same(a.texture.vertex_rgb, b.texture.vertex_rgb) &&
-         same(a.texture.origin, b.texture.origin) &&
-         a.texture.width_px == b.texture.width_px && a.texture.height_px == b.texture.height_px &&
+         same(a.texture.origin, b.texture.origin) && a.texture.width_px == b.texture.width_px &&
+         a.texture.height_px == b.texture.height_px &&
          std::memcmp(&a.head_from_camera, &b.head_from_camera, sizeof a.head_from_camera) == 0 &&
-         std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(), [](const auto& l, const auto& r) {
-           return std::memcmp(&l.at_mm, &r.at_mm, sizeof l.at_mm) == 0 && l.sigma_mm == r.sigma_mm && l.found == r.found;
-         }) &&
+         std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(),
+                    [](const auto& l, const auto& r) {
+                      return std::memcmp(&l.at_mm, &r.at_mm, sizeof l.at_mm) == 0 &&
+                             l.sigma_mm == r.sigma_mm && l.found == r.found;
+                    }) &&
          std::memcmp(&a.quality, &b.quality, sizeof a.quality) == 0;
 }
 

@@ -13,17 +13,21 @@ namespace {
 
 // A sum of waves of 5 to 20 pixels' length in random directions: band-limited, so that sampling it is exact.
 struct Texture {
-  struct Wave { double kx, ky, phase; };
+  struct Wave {
+    double kx, ky, phase;
+  };
   std::array<Wave, 48> waves{};
   double scale;
 
-  Texture(std::uint32_t seed, double contrast) : scale(contrast / std::sqrt(static_cast<double>(waves.size()) / 2)) {
+  Texture(std::uint32_t seed, double contrast)
+      : scale(contrast / std::sqrt(static_cast<double>(waves.size()) / 2)) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     for (Wave& wave : waves) {
       const double length = 5 + 15 * unit(random);
       const double angle = 6.283185307 * unit(random);
-      wave = {6.283185307 / length * std::cos(angle), 6.283185307 / length * std::sin(angle), 6.283185307 * unit(random)};
+      wave = {6.283185307 / length * std::cos(angle), 6.283185307 / length * std::sin(angle),
+              6.283185307 * unit(random)};
     }
   }
   double at(double x, double y) const {
@@ -82,17 +86,20 @@ pipeline::RectifiedPair BumpScene::render(std::pmr::memory_resource* memory) con
   }
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x) {
-      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
+      const auto k =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
       pair.left.grey[k] = static_cast<float>(texture.at(x, y) + normal(random));
       const double row = y - rows_px - rows_tilt * (x - width_px / 2.0) - moved(x, y);
       double from = x + disparity(x, row);  // x_left with x_left - d(x_left) = x
       for (int i = 0; i < 60; ++i) from = x + disparity(from, row);
-      pair.right.grey[k] = static_cast<float>(right_gain * texture.at(from, row) + right_offset + normal(random));
+      pair.right.grey[k] =
+          static_cast<float>(right_gain * texture.at(from, row) + right_offset + normal(random));
     }
   return pair;
 }
 
-pipeline::Keypoints lattice(const pipeline::RectifiedPair& pair, int step_px, std::pmr::memory_resource* memory) {
+pipeline::Keypoints lattice(const pipeline::RectifiedPair& pair, int step_px,
+                            std::pmr::memory_resource* memory) {
   pipeline::Keypoints keypoints(memory);
   keypoints.lattice_step_px = step_px;
   for (int y = 0; y < pair.height_px; y += step_px)

@@ -16,21 +16,23 @@ namespace relievo::test {
 struct BumpScene {
   int width_px = 320;
   int height_px = 256;
-  double base_px = 20;        // disparity of the plane in the middle
-  double tilt = 0.02;         // disparity per pixel of x
+  double base_px = 20;  // disparity of the plane in the middle
+  double tilt = 0.02;   // disparity per pixel of x
   double bump_px = 8;
   double bump_radius_px = 60;
-  double ripple_px = 0;       // waves along x besides, amplitude
+  double ripple_px = 0;  // waves along x besides, amplitude
   double ripple_period_px = 31;
-  double contrast = 20;       // grey levels, standard deviation
-  double noise = 1.0;         // grey levels, standard deviation, each view its own
-  double right_gain = 1.0;    // the right camera sees gain * grey + offset
+  double contrast = 20;     // grey levels, standard deviation
+  double noise = 1.0;       // grey levels, standard deviation, each view its own
+  double right_gain = 1.0;  // the right camera sees gain * grey + offset
   double right_offset = 0.0;
   std::uint32_t seed = 1;
-  bool face = true;           // a region is marked, the whole picture: one surface is wanted
-  double rows_px = 0;         // what belongs on row y of the right view stands on y + rows_px + rows_tilt * (x - middle)
+  bool face = true;  // a region is marked, the whole picture: one surface is wanted
+  double rows_px =
+      0;  // what belongs on row y of the right view stands on y + rows_px + rows_tilt * (x - middle)
   double rows_tilt = 0;
-  double moved_px = 0;        // and a Gaussian hill of this height, in the middle of the lower half, moved down besides
+  double moved_px =
+      0;  // and a Gaussian hill of this height, in the middle of the lower half, moved down besides
   double moved_radius_px = 40;
 
   double disparity(double x, double y) const;
@@ -41,6 +43,7 @@ struct BumpScene {
   bool judged(double x, double y) const;
 };
 
-pipeline::Keypoints lattice(const pipeline::RectifiedPair& pair, int step_px, std::pmr::memory_resource* memory);
+pipeline::Keypoints lattice(const pipeline::RectifiedPair& pair, int step_px,
+                            std::pmr::memory_resource* memory);
 
 }  // namespace relievo::test

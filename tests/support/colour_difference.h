@@ -12,7 +12,9 @@
 
 namespace relievo::test {
 
-struct Lab { double l = 0, a = 0, b = 0; };
+struct Lab {
+  double l = 0, a = 0, b = 0;
+};
 
 // 0 to 255 a channel, coded as sRGB (IEC 61966-2-1).
 inline Lab lab_of(const std::array<double, 3>& srgb) {
@@ -31,7 +33,9 @@ inline Lab lab_of(const std::array<double, 3>& srgb) {
 inline double ciede2000(const Lab& one, const Lab& two) {
   constexpr double kPi = std::numbers::pi;
   const auto deg = [](double d) { return d * kPi / 180; };
-  const auto seventh = [](double c) { return std::sqrt(std::pow(c, 7) / (std::pow(c, 7) + std::pow(25.0, 7))); };
+  const auto seventh = [](double c) {
+    return std::sqrt(std::pow(c, 7) / (std::pow(c, 7) + std::pow(25.0, 7)));
+  };
   const double mean_c = (std::hypot(one.a, one.b) + std::hypot(two.a, two.b)) / 2;
   const double g = 0.5 * (1 - seventh(mean_c));
   const double a1 = (1 + g) * one.a, a2 = (1 + g) * two.a;
@@ -51,12 +55,14 @@ inline double ciede2000(const Lab& one, const Lab& two) {
     if (std::abs(h1 - h2) <= kPi) h /= 2;
     else h = h < 2 * kPi ? (h + 2 * kPi) / 2 : (h - 2 * kPi) / 2;
   }
-  const double t = 1 - 0.17 * std::cos(h - deg(30)) + 0.24 * std::cos(2 * h) + 0.32 * std::cos(3 * h + deg(6)) - 0.20 * std::cos(4 * h - deg(63));
+  const double t = 1 - 0.17 * std::cos(h - deg(30)) + 0.24 * std::cos(2 * h) +
+                   0.32 * std::cos(3 * h + deg(6)) - 0.20 * std::cos(4 * h - deg(63));
   const double turn = deg(30) * std::exp(-std::pow((h * 180 / kPi - 275) / 25, 2));
   const double sl = 1 + 0.015 * (l - 50) * (l - 50) / std::sqrt(20 + (l - 50) * (l - 50));
   const double sc = 1 + 0.045 * c, sh = 1 + 0.015 * c * t;
   const double rt = -std::sin(2 * turn) * 2 * seventh(c);
-  return std::sqrt(std::pow(dl / sl, 2) + std::pow(dc / sc, 2) + std::pow(dbig_h / sh, 2) + rt * (dc / sc) * (dbig_h / sh));
+  return std::sqrt(std::pow(dl / sl, 2) + std::pow(dc / sc, 2) + std::pow(dbig_h / sh, 2) +
+                   rt * (dc / sc) * (dbig_h / sh));
 }
 
 }  // namespace relievo::test

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // FaultyStick: a folder that plays a USB stick on which something goes wrong while a record is being read
-// back, in the middle of an export or a recording. A stick that is pulled takes its folder along, as an unmounted one does.
-// Thread: any; a fault is chosen before the export begins.
+// back, in the middle of an export or a recording. A stick that is pulled takes its folder along, as an
+// unmounted one does. Thread: any; a fault is chosen before the export begins.
 #pragma once
 
 #include <atomic>
@@ -19,14 +19,14 @@ class FaultyStick final : public hal::RemovableMedia {
  public:
   enum class Fault : std::uint8_t {
     None,
-    Pulled,    // a hand pulls it
-    Forgets,   // it gives back other bytes than it took
-    Waits,     // nothing goes on until let_go_on()
-    Held,      // all is written, but the system still uses it
+    Pulled,   // a hand pulls it
+    Forgets,  // it gives back other bytes than it took
+    Waits,    // nothing goes on until let_go_on()
+    Held,     // all is written, but the system still uses it
     // When it was let go and is to be read once more:
-    ForgetsLater,   // it gives back other bytes then
-    PulledLater,    // a hand was quicker
-    NotAgain,       // the system does not mount it
+    ForgetsLater,  // it gives back other bytes then
+    PulledLater,   // a hand was quicker
+    NotAgain,      // the system does not mount it
   };
   explicit FaultyStick(std::filesystem::path folder) : folder_(std::move(folder)) { real_.plug(folder_); }
 
@@ -37,7 +37,7 @@ class FaultyStick final : public hal::RemovableMedia {
   }
   void plug_in_again() {
     if (std::filesystem::exists(pulled_folder())) {
-      std::filesystem::remove_all(folder_);   // what was written into the empty place
+      std::filesystem::remove_all(folder_);  // what was written into the empty place
       std::filesystem::rename(pulled_folder(), folder_);
     }
     real_.plug(folder_);
@@ -50,18 +50,21 @@ class FaultyStick final : public hal::RemovableMedia {
 
   std::optional<hal::Medium> current() override { return real_.current(); }
   Result<void> settle(const std::filesystem::path& folder) override {
-    const std::string hidden = folder.filename().string();   // ".CODE.part123": CODE is its name when it is whole
+    const std::string hidden =
+        folder.filename().string();  // ".CODE.part123": CODE is its name when it is whole
     newest_ = folder.parent_path() / hidden.substr(1, hidden.find('.', 1) - 1);
     if (--records_left_ == 0) strike(folder);
     return real_.settle(folder);
   }
   Result<void> flush_and_eject() override {
-    if (fault_ == Fault::Held) return Error{Errc::IoFailed, "something still uses the stick, as the test says", EBUSY};
+    if (fault_ == Fault::Held)
+      return Error{Errc::IoFailed, "something still uses the stick, as the test says", EBUSY};
     return real_.flush_and_eject();
   }
   Result<void> take_up_again() override {
     ++taken_up_;
-    if (fault_ == Fault::NotAgain) return Error{Errc::Unsupported, "it cannot be mounted again, as the test says", EPERM};
+    if (fault_ == Fault::NotAgain)
+      return Error{Errc::Unsupported, "it cannot be mounted again, as the test says", EPERM};
     if (fault_ == Fault::PulledLater) std::filesystem::rename(folder_, pulled_folder());
     if (fault_ == Fault::ForgetsLater) damage(newest_);
     return real_.take_up_again();
@@ -76,12 +79,14 @@ class FaultyStick final : public hal::RemovableMedia {
       case Fault::ForgetsLater:
       case Fault::PulledLater:
       case Fault::NotAgain:
-      case Fault::Held: return;
+      case Fault::Held:
+        return;
       case Fault::Pulled:
         real_.unplug();
         std::filesystem::rename(folder_, pulled_folder());
         return;
-      case Fault::Forgets: return damage(folder);
+      case Fault::Forgets:
+        return damage(folder);
       case Fault::Waits:
         waits_.store(true);
         waits_.notify_all();
@@ -92,7 +97,8 @@ class FaultyStick final : public hal::RemovableMedia {
   static void damage(const std::filesystem::path& folder) {
     const bool model = std::filesystem::exists(folder / "model.ply");
     const std::filesystem::path damaged = folder / (model ? "model.ply" : "right_000001.png");
-    const std::streamoff back = model ? 1 : static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2);
+    const std::streamoff back =
+        model ? 1 : static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2);
     std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
     file.seekg(-back, std::ios::end);
     const char last = static_cast<char>(file.get());

@@ -15,30 +15,49 @@ namespace relievo::test {
 
 class FullStore final : public storage::Store {
  public:
-  FullStore(std::unique_ptr<storage::Store> real, const std::atomic<bool>& full) : real_(std::move(real)), full_(full) {}
+  FullStore(std::unique_ptr<storage::Store> real, const std::atomic<bool>& full)
+      : real_(std::move(real)), full_(full) {}
 
   Result<void> check() override { return real_->check(); }
-  Result<storage::SubjectId> add_subject(const storage::NewSubject& s) override { return real_->add_subject(s); }
-  Result<std::vector<storage::Subject>> subjects(const storage::SubjectFilter& f) override { return real_->subjects(f); }
+  Result<storage::SubjectId> add_subject(const storage::NewSubject& s) override {
+    return real_->add_subject(s);
+  }
+  Result<std::vector<storage::Subject>> subjects(const storage::SubjectFilter& f) override {
+    return real_->subjects(f);
+  }
   Result<storage::Subject> subject(storage::SubjectId id) override { return real_->subject(id); }
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }
-  Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s, const storage::NewEnrolment& e) override {
+  Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s,
+                                             const storage::NewEnrolment& e) override {
     if (full_.load()) return Error{Errc::MediaFull, "as the test says"};
     return real_->add_enrolment(s, e);
   }
-  Result<std::vector<storage::Enrolment>> enrolments(storage::SubjectId s) override { return real_->enrolments(s); }
+  Result<std::vector<storage::Enrolment>> enrolments(storage::SubjectId s) override {
+    return real_->enrolments(s);
+  }
   Result<storage::Enrolment> enrolment(storage::EnrolmentId id) override { return real_->enrolment(id); }
-  Result<pipeline::FaceModel> load_model(storage::EnrolmentId id, std::pmr::memory_resource* m) override { return real_->load_model(id, m); }
-  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& c, std::string_view n, const storage::CalibrationFigures& f) override { return real_->save_calibration(c, n, f); }
-  Result<std::uint32_t> know_calibration(const pipeline::StereoCalibration& c, std::string_view n) override { return real_->know_calibration(c, n); }
+  Result<pipeline::FaceModel> load_model(storage::EnrolmentId id, std::pmr::memory_resource* m) override {
+    return real_->load_model(id, m);
+  }
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& c, std::string_view n,
+                                         const storage::CalibrationFigures& f) override {
+    return real_->save_calibration(c, n, f);
+  }
+  Result<std::uint32_t> know_calibration(const pipeline::StereoCalibration& c, std::string_view n) override {
+    return real_->know_calibration(c, n);
+  }
   Result<std::vector<storage::CalibrationInfo>> calibrations() override { return real_->calibrations(); }
   Result<pipeline::StereoCalibration> calibration(std::uint32_t r) override { return real_->calibration(r); }
   Result<pipeline::StereoCalibration> active_calibration() override { return real_->active_calibration(); }
   Result<void> activate_calibration(std::uint32_t r) override { return real_->activate_calibration(r); }
   Result<std::string> setting(std::string_view k) override { return real_->setting(k); }
-  Result<void> set_setting(std::string_view k, std::string_view v) override { return real_->set_setting(k, v); }
+  Result<void> set_setting(std::string_view k, std::string_view v) override {
+    return real_->set_setting(k, v);
+  }
   Result<void> append_audit(const storage::AuditEvent& e) override { return real_->append_audit(e); }
-  Result<std::vector<storage::AuditRecord>> audit(std::int64_t a, std::int64_t l) override { return real_->audit(a, l); }
+  Result<std::vector<storage::AuditRecord>> audit(std::int64_t a, std::int64_t l) override {
+    return real_->audit(a, l);
+  }
 
  private:
   std::unique_ptr<storage::Store> real_;

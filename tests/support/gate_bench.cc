@@ -27,14 +27,18 @@ CaptureGate open(int reduction) {
 
 }  // namespace
 
-GateBench::GateBench(int reduction) : work_(2, std::size_t{8} << 20, std::size_t{64} << 20), gate_(open(reduction)) {}
+GateBench::GateBench(int reduction)
+    : work_(2, std::size_t{8} << 20, std::size_t{64} << 20), gate_(open(reduction)) {}
 
-GateLook GateBench::look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now, GateHistory& history) {
+GateLook GateBench::look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now,
+                         GateHistory& history) {
   work_.output.reset();
-  return need(run_stage(work_.context, [&](StageContext& c) { return gate_.look(frame, calibration, now, history, c); }));
+  return need(run_stage(work_.context,
+                        [&](StageContext& c) { return gate_.look(frame, calibration, now, history, c); }));
 }
 
-GateLook GateBench::look(const Album& album, const Shot& shot, const Developing& how, GateTime now, GateHistory& history) {
+GateLook GateBench::look(const Album& album, const Shot& shot, const Developing& how, GateTime now,
+                         GateHistory& history) {
   const hal::sim::PicturePair pair = album.develop(shot, how);
   return look({pair.left.view(), pair.right.view()}, album.calibration(), now, history);
 }

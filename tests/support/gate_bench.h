@@ -16,10 +16,13 @@ class GateBench {
   // `reduction` of the relief: 1 for an album's pictures, which are a quarter of the rig's already.
   explicit GateBench(int reduction = 1);
   // The relief lies in this bench until it looks again.
-  pipeline::GateLook look(const pipeline::StereoFrame& frame, const pipeline::StereoCalibration& calibration, pipeline::GateTime now, pipeline::GateHistory& history);
-  pipeline::GateLook look(const Album& album, const Shot& shot, const Developing& how, pipeline::GateTime now, pipeline::GateHistory& history);
+  pipeline::GateLook look(const pipeline::StereoFrame& frame, const pipeline::StereoCalibration& calibration,
+                          pipeline::GateTime now, pipeline::GateHistory& history);
+  pipeline::GateLook look(const Album& album, const Shot& shot, const Developing& how, pipeline::GateTime now,
+                          pipeline::GateHistory& history);
   // As if nothing had been seen before.
-  pipeline::GateLook first_look(const pipeline::StereoFrame& frame, const pipeline::StereoCalibration& calibration);
+  pipeline::GateLook first_look(const pipeline::StereoFrame& frame,
+                                const pipeline::StereoCalibration& calibration);
   pipeline::GateLook first_look(const Album& album, const Shot& shot, const Developing& how = {});
 
  private:

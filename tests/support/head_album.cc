@@ -35,7 +35,9 @@ class Both final : public sim::Scene {
     return b;
   }
   bool solid(sim::Vec3 o, sim::Vec3 d, sim::SolidPoint& out) const override { return a_->solid(o, d, out); }
-  bool blocked(sim::Vec3 from, sim::Vec3 d, double far_mm) const override { return a_->blocked(from, d, far_mm) || b_->blocked(from, d, far_mm); }
+  bool blocked(sim::Vec3 from, sim::Vec3 d, double far_mm) const override {
+    return a_->blocked(from, d, far_mm) || b_->blocked(from, d, far_mm);
+  }
   sim::Mesh solid_mesh() const override { return a_->solid_mesh(); }
 
  private:
@@ -62,7 +64,9 @@ sim::RigOptions rig_options() {
 
 std::vector<std::uint16_t> kept(const sim::LightPicture& light) {
   std::vector<std::uint16_t> out(light.rgb.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint16_t>(std::clamp(kLightUnit * static_cast<double>(light.rgb[i]) + 0.5, 0.0, 65535.0));
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = static_cast<std::uint16_t>(
+        std::clamp(kLightUnit * static_cast<double>(light.rgb[i]) + 0.5, 0.0, 65535.0));
   return out;
 }
 
@@ -73,11 +77,13 @@ std::string name_of(const Guise& guise) {
   char text[160];
   std::string out;
   if (e.lids_open < 1 || e.jaw_mm > 0 || e.smile > 0) {
-    std::snprintf(text, sizeof text, "_lids%.2f_jaw%.1f_smile%.2f_tongue%.1f", e.lids_open, e.jaw_mm, e.smile, e.tongue_mm);
+    std::snprintf(text, sizeof text, "_lids%.2f_jaw%.1f_smile%.2f_tongue%.1f", e.lids_open, e.jaw_mm, e.smile,
+                  e.tongue_mm);
     out += text;
   }
   if (guise.wears_glasses) {
-    std::snprintf(text, sizeof text, "_glasses%.1f_%.1f_%.1f_%.1f_%.2f_%.1f", g.curve_mm, g.half_width_mm, g.half_height_mm, g.tilt_deg, g.passes, g.rim_mm);
+    std::snprintf(text, sizeof text, "_glasses%.1f_%.1f_%.1f_%.1f_%.2f_%.1f", g.curve_mm, g.half_width_mm,
+                  g.half_height_mm, g.tilt_deg, g.passes, g.rim_mm);
     out += text;
   }
   if (guise.shine != 1) {
@@ -89,8 +95,9 @@ std::string name_of(const Guise& guise) {
 
 std::string name_of(const Shot& s) {
   char text[320];
-  const int used = std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d", s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
-                s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
+  const int used = std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d",
+                                 s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
+                                 s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
   return std::string(text, static_cast<std::size_t>(used)) + name_of(s.guise);
 }
 
@@ -102,7 +109,9 @@ void smear(sim::LightPicture& light, double length_px) {
     for (int x = 0; x < light.width_px; ++x)
       for (int c = 0; c < 3; ++c) {
         float sum = 0;
-        for (int k = 0; k < n; ++k) sum += from[static_cast<std::size_t>(3 * (y * light.width_px + std::clamp(x + k - n / 2, 0, light.width_px - 1)) + c)];
+        for (int k = 0; k < n; ++k)
+          sum += from[static_cast<std::size_t>(
+              3 * (y * light.width_px + std::clamp(x + k - n / 2, 0, light.width_px - 1)) + c)];
         light.rgb[static_cast<std::size_t>(3 * (y * light.width_px + x) + c)] = sum / static_cast<float>(n);
       }
 }
@@ -116,13 +125,15 @@ void add_noise(sim::LightPicture& light, const sim::SensorOptions& sensor, std::
     return out;
   }();
   sim::Random random(sim::Random(seed).next());
-  const auto well = static_cast<float>(sensor.full_well_electrons * sensor.exposure), full = static_cast<float>(sensor.full_well_electrons);
+  const auto well = static_cast<float>(sensor.full_well_electrons * sensor.exposure),
+             full = static_cast<float>(sensor.full_well_electrons);
   const auto read = static_cast<float>(sensor.read_noise_electrons * sensor.read_noise_electrons);
   std::uint64_t draw = 0;
   for (std::size_t i = 0; i < light.rgb.size(); ++i, draw >>= 16) {
     if (i % 4 == 0) draw = random.next();
     const float deviation = std::sqrt(std::max(light.rgb[i], 0.0F) * well + read);
-    light.rgb[i] += static_cast<float>(sensor.noise) * deviation * drawer[draw & 65535] / full / static_cast<float>(sensor.exposure);
+    light.rgb[i] += static_cast<float>(sensor.noise) * deviation * drawer[draw & 65535] / full /
+                    static_cast<float>(sensor.exposure);
   }
 }
 
@@ -140,14 +151,17 @@ void blur(sim::LightPicture& light, double deviation_px) {
   if (deviation_px < 0.05) return;
   // Three boxes make a bell (Wells 1986).
   // Odd widths only, the nearest one.
-  const int n = 1 + 2 * static_cast<int>(std::lround((std::sqrt(4 * deviation_px * deviation_px + 1) - 1) / 2));
+  const int n =
+      1 + 2 * static_cast<int>(std::lround((std::sqrt(4 * deviation_px * deviation_px + 1) - 1) / 2));
   for (int round = 0; round < 3; ++round) {
     smear(light, n);
     const std::vector<float> from = light.rgb;
     for (int y = 0; y < light.height_px; ++y)
       for (int i = 0; i < 3 * light.width_px; ++i) {
         float sum = 0;
-        for (int k = -(n / 2); k <= n / 2; ++k) sum += from[static_cast<std::size_t>(3 * light.width_px * std::clamp(y + k, 0, light.height_px - 1) + i)];
+        for (int k = -(n / 2); k <= n / 2; ++k)
+          sum += from[static_cast<std::size_t>(
+              3 * light.width_px * std::clamp(y + k, 0, light.height_px - 1) + i)];
         light.rgb[static_cast<std::size_t>(3 * light.width_px * y + i)] = sum / static_cast<float>(n);
       }
   }
@@ -155,11 +169,13 @@ void blur(sim::LightPicture& light, double deviation_px) {
 
 }  // namespace
 
-Album::Album(std::filesystem::path cache) : cache_(std::move(cache)), rig_(sim::make_rig(rig_options())), calibration_(true_calibration(rig_)) {
+Album::Album(std::filesystem::path cache)
+    : cache_(std::move(cache)), rig_(sim::make_rig(rig_options())), calibration_(true_calibration(rig_)) {
   if (!cache_.empty()) std::filesystem::create_directories(cache_);
 }
 
-std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression, double shine) {
+std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression,
+                                                    double shine) {
   auto& model = heads_[std::to_string(seed) + name_of(Guise{expression, false, {}, shine})];
   if (!model) {
     sim::HeadTraits traits = sim::traits_of(seed);
@@ -177,25 +193,36 @@ void Album::expose(Shot& shot) {
   } else {
     const auto model = person(shot.seed, shot.guise.expression, shot.guise.shine);
     scene = sim::make_head_scene(model, shot.pose, pool_);
-    if (shot.guise.wears_glasses) scene = sim::make_glasses_scene(std::move(scene), sim::wearer_of(*model), shot.pose, shot.guise.glasses);
+    if (shot.guise.wears_glasses)
+      scene =
+          sim::make_glasses_scene(std::move(scene), sim::wearer_of(*model), shot.pose, shot.guise.glasses);
   }
   if (shot.extra == Extra::HandBefore || shot.extra == Extra::HandOnCheek) {
     const bool mouth = shot.extra == Extra::HandBefore;
     const sim::Vec3 by = mouth ? sim::Vec3{4, 30, -75} : sim::Vec3{34, -18, -42};
-    const sim::ArtefactPose place{mouth ? sim::rotation(0.1, 0.15, 0.3) : sim::rotation(0.1, -0.3, -0.4), sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
-    scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
+    const sim::ArtefactPose place{
+        mouth ? sim::rotation(0.1, 0.15, 0.3) : sim::rotation(0.1, -0.3, -0.4),
+        sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
+    scene = std::make_unique<Both>(std::move(scene),
+                                   std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
   }
-  const double side = shot.pose.right_mm > 0 ? -1 : 1;   // where there is more room
+  const double side = shot.pose.right_mm > 0 ? -1 : 1;  // where there is more room
   if (shot.extra == Extra::BagBeside || shot.extra == Extra::WallBehind) {
     const bool bag = shot.extra == Extra::BagBeside;
     const sim::Vec3 by = bag ? sim::Vec3{side * 158, -25, 35} : sim::Vec3{0, -20, 480};
-    const sim::ArtefactPose place{bag ? sim::rotation(0.1, side * 0.2, 0.15) : sim::rotation(0, 0, 0), sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
-    scene = std::make_unique<Both>(std::move(scene), std::make_unique<sim::PlateScene>(bag ? sim::FlatPlate{125, 170, 9} : sim::FlatPlate{1200, 900, 11}, place));
+    const sim::ArtefactPose place{
+        bag ? sim::rotation(0.1, side * 0.2, 0.15) : sim::rotation(0, 0, 0),
+        sim::Vec3{shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm} + by};
+    scene = std::make_unique<Both>(
+        std::move(scene), std::make_unique<sim::PlateScene>(
+                              bag ? sim::FlatPlate{125, 170, 9} : sim::FlatPlate{1200, 900, 11}, place));
   }
   if (shot.extra == Extra::Friend || shot.extra == Extra::Twin) {
     sim::HeadPose other = shot.pose;
     other.right_mm += side * 175, other.distance_mm += 260, other.yaw_deg += side * 14;
-    scene = std::make_unique<Both>(std::move(scene), sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}, 1), other, pool_));
+    scene = std::make_unique<Both>(
+        std::move(scene),
+        sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}, 1), other, pool_));
   }
   const sim::SensorOptions lens;
   shot.left = kept(sim::expose(*scene, rig_.left, lens, pool_));
@@ -212,7 +239,8 @@ const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra ex
   if (!cache_.empty()) in.open(file, std::ios::binary);
   shot.left.resize(kValues), shot.right.resize(kValues);
   const auto bytes = static_cast<std::streamsize>(2 * kValues);
-  if (!(in && in.read(reinterpret_cast<char*>(shot.left.data()), bytes) && in.read(reinterpret_cast<char*>(shot.right.data()), bytes))) {
+  if (!(in && in.read(reinterpret_cast<char*>(shot.left.data()), bytes) &&
+        in.read(reinterpret_cast<char*>(shot.right.data()), bytes))) {
     expose(shot);
     if (!cache_.empty()) {
       std::ofstream out(file, std::ios::binary);
@@ -226,12 +254,15 @@ const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra ex
 sim::PicturePair Album::develop(const Shot& shot, const Developing& how) const {
   sim::SensorOptions sensor;
   sensor.exposure = how.exposure;
-  const auto one = [&](const std::vector<std::uint16_t>& kept_light, const sim::SimView& view, std::uint64_t seed) {
+  const auto one = [&](const std::vector<std::uint16_t>& kept_light, const sim::SimView& view,
+                       std::uint64_t seed) {
     sim::LightPicture light{kWidth, kHeight, std::vector<float>(kept_light.size())};
-    const sim::Pixel middle = view.project({shot.pose.right_mm, shot.pose.down_mm, std::max(shot.pose.distance_mm, 300.0)});
+    const sim::Pixel middle =
+        view.project({shot.pose.right_mm, shot.pose.down_mm, std::max(shot.pose.distance_mm, 300.0)});
     const double reach = 60 * view.fx_px / std::max(shot.pose.distance_mm, 300.0);
     for (std::size_t i = 0; i < kept_light.size(); ++i) {
-      const double x = static_cast<double>(i / 3 % kWidth), share = std::clamp(0.5 + (x - middle.x) / (2 * reach), 0.0, 1.0);
+      const double x = static_cast<double>(i / 3 % kWidth),
+                   share = std::clamp(0.5 + (x - middle.x) / (2 * reach), 0.0, 1.0);
       light.rgb[i] = static_cast<float>(kept_light[i] / kLightUnit * (1 + (how.one_sided - 1) * share));
     }
     blur(light, how.defocus_px);
@@ -250,8 +281,10 @@ Album& shared_album() {
   return once;
 }
 
-sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, double yaw_deg, double pitch_deg, double roll_deg) {
-  // Frame: x along the baseline, z the mean of both optical axes, origin in the left camera; then into the left camera's.
+sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, double yaw_deg, double pitch_deg,
+                       double roll_deg) {
+  // Frame: x along the baseline, z the mean of both optical axes, origin in the left camera; then into the
+  // left camera's.
   static const sim::SimRig rig = sim::make_rig(rig_options());
   const sim::Vec3 baseline = rig.right.centre(), x = sim::normalised(baseline);
   const sim::Vec3 right_axis = rig.right.view_from_world.transposed() * sim::Vec3{0, 0, 1};
@@ -270,13 +303,18 @@ sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, doub
 
 TrueHead true_head(const Shot& shot, const pipeline::Relief& relief) {
   const sim::Vec3 tip = shot.pose.origin_mm() + shot.pose.world_from_head() * pronasale(shot.seed);
-  const auto in_relief = [&](sim::Vec3 v) { return pipeline::apply(relief.rectified_from_left, {v.x, v.y, v.z}); };
+  const auto in_relief = [&](sim::Vec3 v) {
+    return pipeline::apply(relief.rectified_from_left, {v.x, v.y, v.z});
+  };
   const sim::Mat3 turn = shot.pose.world_from_head();
   const pipeline::Vec3d out = in_relief(turn * sim::Vec3{0, 0, 1}), up = in_relief(turn * sim::Vec3{0, 1, 0});
   const pipeline::Vec3d at = in_relief({shot.pose.right_mm, shot.pose.down_mm, shot.pose.distance_mm});
   const pipeline::HeadAxes axes = pipeline::axes_facing_the_rig(at, relief.baseline_mm);
-  const auto dot = [](const pipeline::Vec3d& a, const pipeline::Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-  return {std::atan2(dot(out, axes.right), -dot(out, axes.away)) / kDegree, std::asin(dot(out, axes.down)) / kDegree,
+  const auto dot = [](const pipeline::Vec3d& a, const pipeline::Vec3d& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  };
+  return {std::atan2(dot(out, axes.right), -dot(out, axes.away)) / kDegree,
+          std::asin(dot(out, axes.down)) / kDegree,
           std::atan2(-dot(up, axes.right), -dot(up, axes.down)) / kDegree, in_relief(tip)};
 }
 

@@ -34,7 +34,8 @@ class HtmlReader {
     std::vector<HtmlElement> found;
     for (const HtmlElement& element : elements_) {
       const auto at = element.attributes.find("class");
-      if (at != element.attributes.end() && (" " + at->second + " ").find(" " + std::string(name) + " ") != std::string::npos)
+      if (at != element.attributes.end() &&
+          (" " + at->second + " ").find(" " + std::string(name) + " ") != std::string::npos)
         found.push_back(element);
     }
     return found;
@@ -90,7 +91,8 @@ class HtmlReader {
     skip("<");
     HtmlElement element;
     element.name = take_until(" />\n");
-    if (element.name.empty() || std::isalpha(static_cast<unsigned char>(element.name.front())) == 0) return fail("a bare <");
+    if (element.name.empty() || std::isalpha(static_cast<unsigned char>(element.name.front())) == 0)
+      return fail("a bare <");
     while (skip(" ")) read_attribute(element);
     const bool closed = skip("/");
     if (!skip(">")) return fail("<" + element.name + " does not end");

@@ -31,14 +31,17 @@ inline hal::Picture laid(const ImageView& upright, Side side) {
   lying.height_px = upright.width_px;
   lying.format = upright.format;
   const auto pixel = static_cast<std::size_t>(bytes_per_pixel(upright.format));
-  lying.bytes.resize(static_cast<std::size_t>(lying.width_px) * static_cast<std::size_t>(lying.height_px) * pixel);
+  lying.bytes.resize(static_cast<std::size_t>(lying.width_px) * static_cast<std::size_t>(lying.height_px) *
+                     pixel);
   for (int y = 0; y < upright.height_px; ++y)
     for (int x = 0; x < upright.width_px; ++x) {
       const int to_x = side == Side::Clockwise ? upright.height_px - 1 - y : y;
       const int to_y = side == Side::Clockwise ? x : upright.width_px - 1 - x;
-      std::memcpy(lying.bytes.data() + (static_cast<std::size_t>(to_y) * static_cast<std::size_t>(lying.width_px) +
-                                        static_cast<std::size_t>(to_x)) * pixel,
-                  upright.row(y) + static_cast<std::size_t>(x) * pixel, pixel);
+      std::memcpy(
+          lying.bytes.data() + (static_cast<std::size_t>(to_y) * static_cast<std::size_t>(lying.width_px) +
+                                static_cast<std::size_t>(to_x)) *
+                                   pixel,
+          upright.row(y) + static_cast<std::size_t>(x) * pixel, pixel);
     }
   return lying;
 }

@@ -27,7 +27,9 @@ class PlayedClock final : public hal::Clock {
  public:
   explicit PlayedClock(const PlayedWorld& world) : world_(world) {}
   hal::Instant now() const override { return real_.now() + std::chrono::seconds(world_.ahead_s.load()); }
-  std::chrono::system_clock::time_point wall_now() const override { return real_.wall_now() + std::chrono::seconds(world_.wall_shift_s.load()); }
+  std::chrono::system_clock::time_point wall_now() const override {
+    return real_.wall_now() + std::chrono::seconds(world_.wall_shift_s.load());
+  }
 
  private:
   hal::MonotonicClock real_;
@@ -50,16 +52,21 @@ class PlayedLine final : public hal::TriggerLine {
 class PlayedCamera final : public hal::Camera {
  public:
   PlayedCamera(const PlayedWorld& world, const hal::Instant& pulsed_at, int width_px, int height_px)
-      : world_(world), pulsed_at_(pulsed_at), width_px_(width_px), height_px_(height_px),
+      : world_(world),
+        pulsed_at_(pulsed_at),
+        width_px_(width_px),
+        height_px_(height_px),
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), std::byte{0x5A}) {}
-  std::deque<Errc> errors;   // one a picture, then pictures
+  std::deque<Errc> errors;  // one a picture, then pictures
   Result<void> on_start{};
-  std::string number;        // serial; changed while it is unplugged
+  std::string number;  // serial; changed while it is unplugged
   std::string_view serial() const override { return number; }
   std::atomic<bool> held{false};  // it has been pulsed and its picture does not come
 
  private:
-  Result<void> plugged() const { return world_.pulled.load() ? Result<void>(Error{Errc::Disconnected, "as the test says"}) : on_start; }
+  Result<void> plugged() const {
+    return world_.pulled.load() ? Result<void>(Error{Errc::Disconnected, "as the test says"}) : on_start;
+  }
   Result<void> do_open(const hal::CaptureMode&) override { return plugged(); }
   Result<void> do_start() override { return plugged(); }
   void do_stop() override {}
@@ -74,7 +81,9 @@ class PlayedCamera final : public hal::Camera {
       errors.pop_front();
       return Error{code, "as the test says"};
     }
-    return hal::Frame({pixels_.data(), pixels_.size(), width_px_, height_px_, width_px_, {}}, {pulsed_at_, ++sequence_}, [](void*, int) {}, this, 0);
+    return hal::Frame(
+        {pixels_.data(), pixels_.size(), width_px_, height_px_, width_px_, {}}, {pulsed_at_, ++sequence_},
+        [](void*, int) {}, this, 0);
   }
   const PlayedWorld& world_;
   const hal::Instant& pulsed_at_;
@@ -86,7 +95,10 @@ class PlayedCamera final : public hal::Camera {
 class PlayedBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
  public:
   PlayedBoard(const PlayedWorld& world, int width_px, int height_px)
-      : time(world), left_camera(world, line.pulsed_at, width_px, height_px), right_camera(world, line.pulsed_at, width_px, height_px), mode_{width_px, height_px, std::chrono::microseconds(1)} {}
+      : time(world),
+        left_camera(world, line.pulsed_at, width_px, height_px),
+        right_camera(world, line.pulsed_at, width_px, height_px),
+        mode_{width_px, height_px, std::chrono::microseconds(1)} {}
   PlayedClock time;
   PlayedLine line{time};
   PlayedCamera left_camera, right_camera;

@@ -77,8 +77,8 @@ Said run_program(const std::vector<std::string>& words, const std::filesystem::p
   return listen(start(words, folder), 0, "");
 }
 
-Said run_program_and_signal(const std::vector<std::string>& words, const std::filesystem::path& folder, int signal,
-                            const std::string& until) {
+Said run_program_and_signal(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                            int signal, const std::string& until) {
   return listen(start(words, folder), signal, until);
 }
 

@@ -11,7 +11,7 @@
 namespace relievo::test {
 
 struct Said {
-  int exit_code = -1;   // 128 + signal where it was killed
+  int exit_code = -1;  // 128 + signal where it was killed
   std::string out;
   std::string err;
 };
@@ -19,7 +19,7 @@ struct Said {
 // Waits for the end. The folder is where it runs.
 Said run_program(const std::vector<std::string>& words, const std::filesystem::path& folder);
 // Sends the signal as soon as standard output or error holds `until`, or at once where that is empty.
-Said run_program_and_signal(const std::vector<std::string>& words, const std::filesystem::path& folder, int signal,
-                            const std::string& until);
+Said run_program_and_signal(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                            int signal, const std::string& until);
 
 }  // namespace relievo::test

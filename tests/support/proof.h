@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A test that judges figures over many trials. The release build runs it. Sanitized it takes a minute or two and
-// touches no line that its shorter neighbours do not touch as well: there it skips and says so.
+// A test that judges figures over many trials. The release build runs it. Sanitized it takes a minute or two
+// and touches no line that its shorter neighbours do not touch as well: there it skips and says so.
 #pragma once
 
 #include <gtest/gtest.h>

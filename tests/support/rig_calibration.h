@@ -32,7 +32,8 @@ inline pipeline::StereoCalibration true_calibration(const hal::sim::SimRig& rig)
 }
 
 // The right camera turned about its own centre: about its x axis (nod), y (pan) and z (roll).
-inline pipeline::StereoCalibration turned(const pipeline::StereoCalibration& from, double nod, double pan, double roll) {
+inline pipeline::StereoCalibration turned(const pipeline::StereoCalibration& from, double nod, double pan,
+                                          double roll) {
   const hal::sim::Mat3 turn = hal::sim::rotation(nod, pan, roll);
   const auto by_turn = [&turn](double x, double y, double z) { return turn * hal::sim::Vec3{x, y, z}; };
   pipeline::StereoCalibration to = from;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The simulated rig for light tests: its cameras stand and see as they do, with `scale` of the pixels either way.
+// The simulated rig for light tests: its cameras stand and see as they do, with `scale` of the pixels either
+// way.
 #pragma once
 
 #include <cmath>

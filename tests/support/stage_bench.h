@@ -9,7 +9,8 @@
 namespace relievo::test {
 
 struct StageBench : pipeline::Workspace {
-  explicit StageBench(std::size_t output_bytes = std::size_t{256} << 20, std::size_t scratch_bytes = std::size_t{512} << 20, int threads = 2)
+  explicit StageBench(std::size_t output_bytes = std::size_t{256} << 20,
+                      std::size_t scratch_bytes = std::size_t{512} << 20, int threads = 2)
       : Workspace(threads, output_bytes, scratch_bytes) {}
 };
 

@@ -34,7 +34,10 @@ TinyDisk::~TinyDisk() {
   if (mounted_) ::umount2(folder_.path().c_str(), MNT_DETACH);
 }
 
-bool TinyDisk::protect(bool on) const { return ::mount(nullptr, folder_.path().c_str(), nullptr, (on ? MS_REMOUNT | MS_RDONLY : MS_REMOUNT), nullptr) == 0; }
+bool TinyDisk::protect(bool on) const {
+  return ::mount(nullptr, folder_.path().c_str(), nullptr, (on ? MS_REMOUNT | MS_RDONLY : MS_REMOUNT),
+                 nullptr) == 0;
+}
 
 std::string listing(const fs::path& folder) {
   std::set<std::string> names;
@@ -46,7 +49,9 @@ std::string listing(const fs::path& folder) {
   return all;
 }
 
-void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

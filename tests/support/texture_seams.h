@@ -13,12 +13,15 @@
 
 namespace relievo::test {
 
-struct SeamFigures { std::size_t count = 0; double median = 0, p95 = 0; };
+struct SeamFigures {
+  std::size_t count = 0;
+  double median = 0, p95 = 0;
+};
 
 struct SeamReport {
-  SeamFigures step;       // at the edge itself: a tenth of the triangle to either side
-  SeamFigures across;     // between the photographs: means over a millimetre square, 1.5 mm to either side,
-                          // beyond how much the face itself changes from there to there
+  SeamFigures step;    // at the edge itself: a tenth of the triangle to either side
+  SeamFigures across;  // between the photographs: means over a millimetre square, 1.5 mm to either side,
+                       // beyond how much the face itself changes from there to there
 };
 
 // `one_photograph`: the same surface under one view alone, by which the face's own changes are known;

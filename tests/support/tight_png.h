@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A picture to be kept in the repository: coarse in its grey levels, packed as tightly as PNG does. False where
-// it cannot be written.
+// A picture to be kept in the repository: coarse in its grey levels, packed as tightly as PNG does. False
+// where it cannot be written.
 #pragma once
 
 #include <filesystem>

@@ -39,7 +39,8 @@ class BadInput : public RelievoProcess {
       seed = seed * 1664525U + 1013904223U;
       pixel = static_cast<std::byte>(seed >> 24);
     }
-    ASSERT_TRUE(hal::write_picture(here / name, {pixels.data(), width_px, height_px, width_px, PixelFormat::Grey8}));
+    ASSERT_TRUE(
+        hal::write_picture(here / name, {pixels.data(), width_px, height_px, width_px, PixelFormat::Grey8}));
   }
   void reconstruct_refused(const std::string& left, const std::string& right, const std::string& place,
                            const std::string& trouble = "", const std::string& calibration = "rig.yml") {
@@ -103,9 +104,14 @@ TEST_F(BadInput, ACalibrationThatIsNone) {
 }
 
 TEST_F(BadInput, ACalibrationWithImpossibleNumbers) {
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"4.8000000000000000e+02", "-480."}, {"4.8000000000000000e+02", ".Nan"}, {"4.8000000000000000e+02", "1e300"},
-           {"-1.0000000000000000e+02", "0."}, {"-1.0000000000000000e+02", "-1e9"}, {"image_width: 320", "image_width: 0"}, {"image_width: 320", "image_width: -320"}}) {
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"4.8000000000000000e+02", "-480."},
+                                                        {"4.8000000000000000e+02", ".Nan"},
+                                                        {"4.8000000000000000e+02", "1e300"},
+                                                        {"-1.0000000000000000e+02", "0."},
+                                                        {"-1.0000000000000000e+02", "-1e9"},
+                                                        {"image_width: 320", "image_width: 0"},
+                                                        {"image_width: 320", "image_width: -320"}}) {
     edit_rig(from, to);
     reconstruct_refused("left.png", "right.png", "bad.yml", "", "bad.yml");
   }
@@ -117,14 +123,16 @@ TEST_F(BadInput, NoFaceInView) { reconstruct_refused("left.png", "right.png", "l
 TEST_F(BadInput, PicturesInTheWrongPlaces) {
   done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
   const auto wrong = [&](const char* left, const char* right, const char* trouble) {
-    reconstruct_refused(std::string("face/") + left, std::string("face/") + right, left, trouble, "face/rig.yml");
+    reconstruct_refused(std::string("face/") + left, std::string("face/") + right, left, trouble,
+                        "face/rig.yml");
   };
   wrong("right.png", "left.png", "left and right are swapped");
   wrong("left.png", "left.png", "the same picture");
 }
 
 TEST_F(BadInput, SettingsThatDoNotExist) {
-  const std::vector<std::string> call{"reconstruct", "left.png", "right.png", "--calibration", "rig.yml", "-o", "out"};
+  const std::vector<std::string> call{"reconstruct", "left.png", "right.png", "--calibration",
+                                      "rig.yml",     "-o",       "out"};
   for (const char* setting : {"matcher=psychic", "nobody=1", "refined.bending=much", "justaword", "="}) {
     std::vector<std::string> words = call;
     words.insert(words.end(), {"--set", setting});
@@ -166,18 +174,30 @@ TEST_F(BadInput, CalibratingFromWhatShowsNoBoard) {
 }
 
 TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
-  refused({"enrol", "--board", "toaster", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "toaster");
-  refused({"enrol", "--board", "folder:missing", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "missing");
+  refused({"enrol", "--board", "toaster", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"},
+          "toaster");
+  refused({"enrol", "--board", "folder:missing", "--subject", "Ada", "--calibration", "rig.yml", "--store",
+           "store"},
+          "missing");
   fs::create_directory(here / "empty");
-  refused({"enrol", "--board", "folder:empty", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"}, "empty");
+  refused({"enrol", "--board", "folder:empty", "--subject", "Ada", "--calibration", "rig.yml", "--store",
+           "store"},
+          "empty");
   fs::create_directory(here / "pair");
   fs::copy(here / "left.png", here / "pair/left_000000.png");
   fs::copy(here / "right.png", here / "pair/right_000000.png");
   write_text(here / "file", "no store\n");
-  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"}, "file");
-  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"}, "no.yml");
-  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--store", "store"}, "store", "relievo calibrate");
-  refused({"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"}, "no possible name");
+  refused(
+      {"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "rig.yml", "--store", "file"},
+      "file");
+  refused(
+      {"enrol", "--board", "folder:pair", "--subject", "Ada", "--calibration", "no.yml", "--store", "store"},
+      "no.yml");
+  refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--store", "store"}, "store",
+          "relievo calibrate");
+  refused(
+      {"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"},
+      "no possible name");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
@@ -189,7 +209,8 @@ TEST_F(BadInput, APersonWhoIsNotThere) {
 }
 
 TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {
-  for (const auto& words : std::vector<std::vector<std::string>>{{"--windowed", "wide"}, {"bogus"}, {"reconstruct", "left.png"}}) {
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"--windowed", "wide"}, {"bogus"}, {"reconstruct", "left.png"}}) {
     const Said said = relievo(words);
     EXPECT_EQ(said.exit_code, 2);
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;

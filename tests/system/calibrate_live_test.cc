@@ -13,7 +13,8 @@ namespace {
 class CalibrateLiveProcess : public RelievoProcess {
  protected:
   static std::vector<std::string> live(const std::string& board) {
-    return {"calibrate", "--live", "--board", board, "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"};
+    return {"calibrate", "--live",      "--board", board, "--corners",
+            "10x7",      "--square-mm", "20",      "-o",  "rig.yml"};
   }
 };
 

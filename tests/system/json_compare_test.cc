@@ -31,8 +31,10 @@ class Compare : public RelievoProcess {
   }
   void write_view(const std::string& name, const pipeline::RectifiedView& view) const {
     std::vector<std::byte> grey;
-    for (const float g : view.grey) grey.push_back(static_cast<std::byte>(std::clamp(std::lround(g), 0L, 255L)));
-    ASSERT_TRUE(hal::write_picture(here / name, {grey.data(), scene.width_px, scene.height_px, scene.width_px, PixelFormat::Grey8}));
+    for (const float g : view.grey)
+      grey.push_back(static_cast<std::byte>(std::clamp(std::lround(g), 0L, 255L)));
+    ASSERT_TRUE(hal::write_picture(
+        here / name, {grey.data(), scene.width_px, scene.height_px, scene.width_px, PixelFormat::Grey8}));
   }
   // Off by `error_px`; unknown where the scene itself does not judge.
   void write_truth(const std::string& name, double error_px) const {
@@ -40,15 +42,19 @@ class Compare : public RelievoProcess {
     file << "Pf\n" << scene.width_px << " " << scene.height_px << "\n-1\n";
     for (int y = scene.height_px - 1; y >= 0; --y)
       for (int x = 0; x < scene.width_px; ++x) {
-        const auto d = static_cast<float>(scene.judged(x, y) ? scene.disparity(x, y) + error_px : std::numeric_limits<double>::infinity());
+        const auto d = static_cast<float>(scene.judged(x, y) ? scene.disparity(x, y) + error_px
+                                                             : std::numeric_limits<double>::infinity());
         file.write(reinterpret_cast<const char*>(&d), 4);
       }
   }
   static std::vector<std::string> words(std::vector<std::string> more) {
-    more.insert(more.begin(), {"compare", "left.png", "right.png", "--rectified", "--region", "all", "--disparities", "5:45"});
+    more.insert(more.begin(), {"compare", "left.png", "right.png", "--rectified", "--region", "all",
+                               "--disparities", "5:45"});
     return more;
   }
-  Json figures(const std::string& folder) const { return Json::parse(read_text(here / (folder + "/compare.json"))); }
+  Json figures(const std::string& folder) const {
+    return Json::parse(read_text(here / (folder + "/compare.json")));
+  }
 
   BumpScene scene;
 };
@@ -71,23 +77,26 @@ TEST_F(Compare, FiguresFollowTheTruthAndAnErrorPutIn) {
 
 TEST_F(Compare, AMatrixOfSetsAsPageAndFigures) {
   const std::string odd = "<b>no rule & no fear</b>";
-  const Said said = done(words({"--truth", "truth.pfm", "--set-of", odd + ": constraints=none", "--set-of", "picky: refined.sigma_limit_px=0.01",
-                                "--set-of", "plain:", "-o", "out"}));
+  const Said said = done(words({"--truth", "truth.pfm", "--set-of", odd + ": constraints=none", "--set-of",
+                                "picky: refined.sigma_limit_px=0.01", "--set-of", "plain:", "-o", "out"}));
   EXPECT_NE(said.out.find("picky: failed: match: "), std::string::npos) << said.out;
   const Json json = figures("out");
-  for (const char* key : {"version", "made_at", "bad_beyond_px", "sets", "pairs", "runs", "shared_pixels"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"version", "made_at", "bad_beyond_px", "sets", "pairs", "runs", "shared_pixels"})
+    EXPECT_TRUE(json.contains(key)) << key;
   ASSERT_EQ(json["runs"].size(), 3U);
   EXPECT_EQ(json["runs"][0]["set"], odd);
   EXPECT_TRUE(json["runs"][0]["failure"].is_null());
   EXPECT_TRUE(json["runs"][1]["failure"].is_string()) << "a set that fails is a row that says why";
   EXPECT_EQ(json["runs"][2]["matches"]["constraints"].size(), 3U);
-  for (const auto& rule : json["runs"][2]["matches"]["constraints"]) EXPECT_LE(rule["truly_bad"], rule["judged"]);
+  for (const auto& rule : json["runs"][2]["matches"]["constraints"])
+    EXPECT_LE(rule["truly_bad"], rule["judged"]);
   EXPECT_EQ(json["sets"][0]["algorithms"]["constraints"], "none");
   ASSERT_EQ(json["shared_pixels"].size(), 1U) << "of the two that give something";
   const std::string html = read_text(here / "out/index.html");
   const tests::HtmlReader page(html);
   EXPECT_EQ(page.error(), "");
-  for (const char* outside : {"http", "url(", "@import", "<script", "<b>no rule"}) EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  for (const char* outside : {"http", "url(", "@import", "<script", "<b>no rule"})
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
   EXPECT_NE(page.text().find(odd), std::string::npos) << "a name is text";
   EXPECT_NE(page.text().find("match: "), std::string::npos) << "the page says why a set failed";
   for (const char* never : {"nan", "inf "}) EXPECT_EQ(page.text().find(never), std::string::npos) << never;
@@ -100,12 +109,15 @@ TEST_F(Compare, ThePageSaysFirstThatNoTruthIsKnownAndExplainsOnlyWhatItHas) {
     EXPECT_EQ(page.error(), "");
     return page.text();
   };
-  const auto has = [](const std::string& page, const char* words) { return page.find(words) != std::string::npos; };
+  const auto has = [](const std::string& page, const char* words) {
+    return page.find(words) != std::string::npos;
+  };
   const Said said = done(words({"-o", "untold"}));
   EXPECT_TRUE(said.out.find("no truth is known") < said.out.find("matched")) << said.out;
   const std::string untold = text("untold");
   EXPECT_LT(untold.find("No truth is known."), untold.find("Left-right")) << "before any figure is explained";
-  for (const char* words : {"A pixel is bad", "seen by both", "Photo:", "Surfaces", "best figure"}) EXPECT_FALSE(has(untold, words)) << words;
+  for (const char* words : {"A pixel is bad", "seen by both", "Photo:", "Surfaces", "best figure"})
+    EXPECT_FALSE(has(untold, words)) << words;
   done(words({"--truth", "truth.pfm", "-o", "told"}));
   const std::string told = text("told");
   EXPECT_FALSE(has(told, "No truth is known"));
@@ -113,18 +125,23 @@ TEST_F(Compare, ThePageSaysFirstThatNoTruthIsKnownAndExplainsOnlyWhatItHas) {
 }
 
 TEST_F(Compare, SetsWithTheSameMatchesAreDrawnOnce) {
-  done(words({"--set-of", "one: mesher=grid", "--set-of", "two: mesher=delaunay", "--set-of", "other: constraints=none", "-o", "out"}));
+  done(words({"--set-of", "one: mesher=grid", "--set-of", "two: mesher=delaunay", "--set-of",
+              "other: constraints=none", "-o", "out"}));
   const std::string html = read_text(here / "out/index.html");
   std::size_t drawn = 0;
-  for (std::size_t at = html.find(": disparities\""); at != std::string::npos; at = html.find(": disparities\"", at + 1)) ++drawn;
+  for (std::size_t at = html.find(": disparities\""); at != std::string::npos;
+       at = html.find(": disparities\"", at + 1))
+    ++drawn;
   EXPECT_EQ(drawn, 2U);
   EXPECT_NE(html.find("one, two: disparities"), std::string::npos);
 }
 
 TEST_F(Compare, AKeptMapIsATruthToItself) {
   done(words({"--keep-maps", "--set-of", "the one: constraints=none", "-o", "first"}));
-  ASSERT_EQ(listing(here / "first"), "1-1_" + here.path().filename().string() + "_the_one.pfm\ncompare.json\nindex.html\n");
-  done(words({"--set-of", "again: constraints=none", "--truth", "first/1-1_" + here.path().filename().string() + "_the_one.pfm", "-o", "second"}));
+  ASSERT_EQ(listing(here / "first"),
+            "1-1_" + here.path().filename().string() + "_the_one.pfm\ncompare.json\nindex.html\n");
+  done(words({"--set-of", "again: constraints=none", "--truth",
+              "first/1-1_" + here.path().filename().string() + "_the_one.pfm", "-o", "second"}));
   const Json same = figures("second")["runs"][0]["disparity"];
   EXPECT_EQ(same["bad"], 0);
   EXPECT_EQ(same["rms_px"], 0) << "the same twice, to the last bit";
@@ -132,8 +149,8 @@ TEST_F(Compare, AKeptMapIsATruthToItself) {
 
 TEST_F(Compare, ManyPairsEachWithItsTruth) {
   write_truth("off.pfm", 3);
-  done({"compare", "left.png", "right.png", "left.png", "right.png", "--rectified", "--region", "all", "--disparities", "5:45", "--truth", "truth.pfm",
-        "--truth", "off.pfm", "-o", "out"});
+  done({"compare", "left.png", "right.png", "left.png", "right.png", "--rectified", "--region", "all",
+        "--disparities", "5:45", "--truth", "truth.pfm", "--truth", "off.pfm", "-o", "out"});
   const Json json = figures("out");
   ASSERT_EQ(json["pairs"].size(), 2U);
   EXPECT_NE(json["pairs"][0]["name"], json["pairs"][1]["name"]);
@@ -142,7 +159,9 @@ TEST_F(Compare, ManyPairsEachWithItsTruth) {
 }
 
 TEST_F(Compare, RefusesInOneLineAndLeavesNothing) {
-  const auto refused_words = [this](const std::vector<std::string>& more, const std::string& place) { refused(words(more), place); };
+  const auto refused_words = [this](const std::vector<std::string>& more, const std::string& place) {
+    refused(words(more), place);
+  };
   write_text(here / "file", "taken");
   write_text(here / "bad.toml", "matcher = \n");
   write_text(here / "short.pfm", "Pf 3 3 -1 x");
@@ -163,7 +182,9 @@ TEST_F(Compare, RefusesInOneLineAndLeavesNothing) {
 }
 
 TEST_F(Compare, WrongWordsAreWrongUsage) {
-  const auto wrong = [this](const std::vector<std::string>& call) { EXPECT_EQ(relievo(call).exit_code, 2) << call[1]; };
+  const auto wrong = [this](const std::vector<std::string>& call) {
+    EXPECT_EQ(relievo(call).exit_code, 2) << call[1];
+  };
   wrong({"compare", "left.png", "--rectified", "-o", "out"});
   wrong({"compare", "left.png", "right.png", "-o", "out"});
   wrong({"compare", "left.png", "right.png", "--rectified", "--calibration", "rig.yml", "-o", "out"});

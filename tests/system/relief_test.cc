@@ -15,7 +15,9 @@ using RelievoRelief = RelievoProcess;
 TEST_F(RelievoRelief, APhotographOfAFaceIsRefusedAndTheFaceIsNot) {
   done({"simulate", "face", "--seed", "8", "--scale", "0.4", "-o", "face"});
   const auto reconstruct = [](std::string from, std::string to) {
-    return std::vector<std::string>{"reconstruct", from + "/left.png", from + "/right.png", "--calibration", from + "/rig.yml", "-o", std::move(to)};
+    return std::vector<std::string>{"reconstruct",   from + "/left.png", from + "/right.png",
+                                    "--calibration", from + "/rig.yml",  "-o",
+                                    std::move(to)};
   };
   done(reconstruct("face", "model"));
   const std::string report = read_text(here / "model/report.json");
@@ -23,12 +25,14 @@ TEST_F(RelievoRelief, APhotographOfAFaceIsRefusedAndTheFaceIsNot) {
 
   // 360 mm: what the picture shows is as large as life again.
   done({"simulate", "photograph", "face/left.png", "--width-mm", "360", "--scale", "0.4", "-o", "flat"});
-  done({"simulate", "photograph", "face/left.png", "--width-mm", "360", "--scale", "0.4", "--radius-mm", "110", "--gloss", "0.02", "-o", "bent"});
+  done({"simulate", "photograph", "face/left.png", "--width-mm", "360", "--scale", "0.4", "--radius-mm",
+        "110", "--gloss", "0.02", "-o", "bent"});
   for (const char* held : {"flat", "bent"}) {
     refused(reconstruct(held, "none"), "off a bent sheet", "please look into the cameras yourself");
     EXPECT_FALSE(std::filesystem::exists(here / "none"));
   }
-  const Said enrolled = relievo({"enrol", "--board", "folder:flat", "--calibration", "flat/rig.yml", "--subject", "Ada", "--store", "store"});
+  const Said enrolled = relievo({"enrol", "--board", "folder:flat", "--calibration", "flat/rig.yml",
+                                 "--subject", "Ada", "--store", "store"});
   EXPECT_EQ(enrolled.exit_code, 1);
   EXPECT_NE(enrolled.err.find("please look into the cameras yourself"), std::string::npos) << enrolled.err;
   EXPECT_EQ(done({"subjects", "list", "--store", "store"}).out.find("Ada"), std::string::npos);

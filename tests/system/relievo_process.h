@@ -29,7 +29,8 @@ class RelievoProcess : public testing::Test {
     return said;
   }
   // It must refuse: exit code 1, one line that names the place and the trouble, and nothing written.
-  void refused(const std::vector<std::string>& words, const std::string& place, const std::string& trouble = "") {
+  void refused(const std::vector<std::string>& words, const std::string& place,
+               const std::string& trouble = "") {
     const std::string before = listing(here.path());
     const Said said = relievo(words);
     std::string call;

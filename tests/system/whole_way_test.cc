@@ -19,41 +19,52 @@ class WholeWay : public RelievoProcess {
  protected:
   void expect_files(const std::string& folder, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
-      EXPECT_TRUE(fs::exists(here / (folder + "/" + name)) && fs::file_size(here / (folder + "/" + name)) > 0) << folder << "/" << name;
+      EXPECT_TRUE(fs::exists(here / (folder + "/" + name)) && fs::file_size(here / (folder + "/" + name)) > 0)
+          << folder << "/" << name;
     }
   }
 
   void calibrate() {
     done({"simulate", "board", "-o", "board", "--scale", "0.33", "--pairs", "8"});
-    done({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--report", "report", "--store", "store"});
-    expect_files(".", {"rig.yml", "store/relievo.db", "report/index.html", "report/report.json", "report/corners_00.png"});
+    done({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--report",
+          "report", "--store", "store"});
+    expect_files(".", {"rig.yml", "store/relievo.db", "report/index.html", "report/report.json",
+                       "report/corners_00.png"});
     const std::string list = done({"calibration", "list", "--store", "store"}).out;
     EXPECT_NE(list.find("*    1"), std::string::npos) << list;
     EXPECT_TRUE(list.find("pass") != std::string::npos || list.find("usable") != std::string::npos) << list;
-    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20.5", "-o", "wrong.yml", "--store", "store"}, "board", "refused");
+    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20.5", "-o", "wrong.yml", "--store",
+             "store"},
+            "board", "refused");
     done({"calibration", "export", "-o", "again.yml", "--store", "store"});
     EXPECT_EQ(done({"calibration", "show", "--store", "store"}).out, read_text(here / "again.yml") + "\n");
   }
 
   void reconstruct() {
     done({"simulate", "face", "-o", "face", "--scale", "0.33", "--truth"});
-    done({"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", "model", "--frame", "camera"});
-    expect_files("model", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb", "portrait.png", "range.png", "recognition.json", "report.json"});
+    done({"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", "model",
+          "--frame", "camera"});
+    expect_files("model", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
+                           "portrait.png", "range.png", "recognition.json", "report.json"});
     const std::string report = read_text(here / "model/report.json");
-    for (const char* key : {"\"version\"", "\"calibration\"", "\"algorithms\"", "\"stages\"", "\"arena_peak_bytes\"",
-                            "\"total_ms\"", "\"peak_rss_bytes\"", "\"quality\"", "\"texture_sharpness\"", "Match", "Reconstruct", "Mesh", "Texture"}) {
+    for (const char* key : {"\"version\"", "\"calibration\"", "\"algorithms\"", "\"stages\"",
+                            "\"arena_peak_bytes\"", "\"total_ms\"", "\"peak_rss_bytes\"", "\"quality\"",
+                            "\"texture_sharpness\"", "Match", "Reconstruct", "Mesh", "Texture"}) {
       EXPECT_NE(report.find(key), std::string::npos) << key;
     }
-    const Said compared = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--truth", "face", "-o", "compared"});
+    const Said compared = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml",
+                                "--truth", "face", "-o", "compared"});
     EXPECT_NE(compared.out.find("interior median"), std::string::npos);
     expect_files("compared", {"compare.json", "model.ply"});
     compare_surfaces();
   }
 
-  // Each mesher's own, with what it took; one map for what they share, and how many windows a correlation is of.
+  // Each mesher's own, with what it took; one map for what they share, and how many windows a correlation is
+  // of.
   void compare_surfaces() {
-    const Said said = done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--set-of", "grid: mesher=grid", "--set-of",
-                            "delaunay: mesher=delaunay", "-o", "surfaces"});
+    const Said said =
+        done({"compare", "face/left.png", "face/right.png", "--calibration", "rig.yml", "--set-of",
+              "grid: mesher=grid", "--set-of", "delaunay: mesher=delaunay", "-o", "surfaces"});
     EXPECT_NE(said.out.find("mesh "), std::string::npos) << said.out;
     const std::string html = read_text(here / "surfaces/index.html");
     std::vector<std::string> pictures;
@@ -65,7 +76,8 @@ class WholeWay : public RelievoProcess {
     }
     EXPECT_GT(pictures[0].size(), 10000U);
     EXPECT_NE(pictures[0], pictures[1]) << "two surfaces";
-    for (const char* words : {"ms to mesh", "grid, delaunay: disparities", " windows</small>"}) EXPECT_NE(html.find(words), std::string::npos) << words;
+    for (const char* words : {"ms to mesh", "grid, delaunay: disparities", " windows</small>"})
+      EXPECT_NE(html.find(words), std::string::npos) << words;
   }
 
   void enrol() {
@@ -73,10 +85,13 @@ class WholeWay : public RelievoProcess {
     fs::copy(here / "face/left.png", here / "pairs/left_000000.png");
     fs::copy(here / "face/right.png", here / "pairs/right_000000.png");
     EXPECT_NE(done(enrol_words()).out.find("stored: Ada Lovelace"), std::string::npos);
-    EXPECT_NE(done({"subjects", "list", "--store", "store"}).out.find("1 enrolment   Ada Lovelace"), std::string::npos);
-    EXPECT_NE(done({"subjects", "show", "Ada Lovelace", "--store", "store"}).out.find("calibration 1"), std::string::npos);
+    EXPECT_NE(done({"subjects", "list", "--store", "store"}).out.find("1 enrolment   Ada Lovelace"),
+              std::string::npos);
+    EXPECT_NE(done({"subjects", "show", "Ada Lovelace", "--store", "store"}).out.find("calibration 1"),
+              std::string::npos);
     done({"subjects", "export", "Ada Lovelace", "-o", "exported", "--store", "store"});
-    expect_files("exported", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb", "portrait.png", "range.png", "recognition.json", "report.json"});
+    expect_files("exported", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
+                              "portrait.png", "range.png", "recognition.json", "report.json"});
     EXPECT_EQ(done({"selftest", "--store", "store"}).exit_code, 0);
     refused({"subjects", "show", "Nobody", "--store", "store"}, "Nobody");
   }
@@ -93,18 +108,22 @@ class WholeWay : public RelievoProcess {
     words[4] = "Bob";
     words.insert(words.end(), {"--calibration", file});
     EXPECT_NE(done(words).out.find("Calibration  warn"), std::string::npos);
-    EXPECT_NE(done({"subjects", "show", "Bob", "--store", "store"}).out.find("calibration 2"), std::string::npos);
+    EXPECT_NE(done({"subjects", "show", "Bob", "--store", "store"}).out.find("calibration 2"),
+              std::string::npos);
     const std::string list = done({"calibration", "list", "--store", "store"}).out;
-    EXPECT_NE(list.find("*    1"), std::string::npos) << "to measure with one is not to put it in use: " << list;
+    EXPECT_NE(list.find("*    1"), std::string::npos)
+        << "to measure with one is not to put it in use: " << list;
     EXPECT_NE(list.find("1  of an enrolment, from " + file), std::string::npos) << list;
     done({"subjects", "erase", "Bob", "--store", "store"});
   }
 
   void notice_a_knock() {
     const auto reconstruct = [](const std::string& calibration) {
-      return std::vector<std::string>{"reconstruct", "face/left.png", "face/right.png", "--calibration", calibration, "-o", "knocked"};
+      return std::vector<std::string>{
+          "reconstruct", "face/left.png", "face/right.png", "--calibration", calibration, "-o", "knocked"};
     };
-    EXPECT_NE(read_text(here / "model/report.json").find("\"verdict\": \"ok\""), std::string::npos) << read_text(here / "model/report.json");
+    EXPECT_NE(read_text(here / "model/report.json").find("\"verdict\": \"ok\""), std::string::npos)
+        << read_text(here / "model/report.json");
     knock(0.5, "nudged.yml");
     EXPECT_NE(done(reconstruct("nudged.yml")).out.find("Calibration  warn"), std::string::npos);
     EXPECT_NE(read_text(here / "knocked/report.json").find("\"verdict\": \"warn\""), std::string::npos);
@@ -121,7 +140,8 @@ class WholeWay : public RelievoProcess {
     EXPECT_EQ(enrolled.exit_code, 1);
     EXPECT_NE(enrolled.err.find("calibrate again"), std::string::npos) << enrolled.err;
     EXPECT_NE(done({"subjects", "list", "--store", "store"}).out.find("1 enrolment "), std::string::npos);
-    EXPECT_NE(read_text(here / "store/relievo.db").find("calibration.drift"), std::string::npos) << "in the log of events";
+    EXPECT_NE(read_text(here / "store/relievo.db").find("calibration.drift"), std::string::npos)
+        << "in the log of events";
     done({"calibration", "activate", "1", "--store", "store"});
     EXPECT_NE(done({"calibration", "list", "--store", "store"}).out.find("*    1"), std::string::npos);
   }
@@ -140,10 +160,12 @@ class WholeWay : public RelievoProcess {
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", "stopped"},
              {"simulate", "board", "-o", "stopped", "--scale", "0.33", "--pairs", "2"},
-             {"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "stopped.yml", "--report", "stopped"}}) {
+             {"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "stopped.yml", "--report",
+              "stopped"}}) {
       std::vector<std::string> all = words;
       all.insert(all.begin(), RELIEVO_BINARY);
-      const Said said = run_program_and_signal(all, here.path(), SIGTERM, words.front() == "calibrate" ? "view 01" : "");
+      const Said said =
+          run_program_and_signal(all, here.path(), SIGTERM, words.front() == "calibrate" ? "view 01" : "");
       // Killed before it listens, stopped, or done before the signal came: never half.
       if (said.exit_code == 0) {
         fs::remove_all(here / "stopped");
@@ -160,13 +182,19 @@ class WholeWay : public RelievoProcess {
       return;
     }
     const std::string full = disk.path().string();
-    refused({"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", full + "/model"}, full + "/model", "full");
+    refused(
+        {"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", full + "/model"},
+        full + "/model", "full");
     EXPECT_EQ(listing(disk.path()), "");
-    refused({"subjects", "export", "Ada Lovelace", "-o", full + "/model", "--store", "store"}, full + "/model", "full");
+    refused({"subjects", "export", "Ada Lovelace", "-o", full + "/model", "--store", "store"},
+            full + "/model", "full");
     EXPECT_EQ(listing(disk.path()), "");
-    refused({"simulate", "board", "-o", full + "/board", "--scale", "0.33", "--pairs", "2"}, full + "/board", "room");
+    refused({"simulate", "board", "-o", full + "/board", "--scale", "0.33", "--pairs", "2"}, full + "/board",
+            "room");
     EXPECT_EQ(listing(disk.path()), "");
-    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "unwritten.yml", "--report", full + "/report"}, full + "/report", "room");
+    refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "unwritten.yml",
+             "--report", full + "/report"},
+            full + "/report", "room");
     EXPECT_EQ(listing(disk.path()), "");
     std::vector<std::string> words = enrol_words();
     words.back() = full + "/store";
@@ -200,9 +228,11 @@ TEST_F(WholeWay, FromAChessboardToAModelThatComesBack) {
 }
 
 TEST_F(WholeWay, TheSimulatedRigNeedsNoCalibration) {
-  EXPECT_NE(done({"enrol", "--board", "sim", "--subject", "Ada", "--store", "fresh"}).out.find("stored: Ada"), std::string::npos);
+  EXPECT_NE(done({"enrol", "--board", "sim", "--subject", "Ada", "--store", "fresh"}).out.find("stored: Ada"),
+            std::string::npos);
   // It is kept for the model, and not taken into use.
-  EXPECT_NE(done({"calibration", "list", "--store", "fresh"}).out.find("relievo calibration activate"), std::string::npos);
+  EXPECT_NE(done({"calibration", "list", "--store", "fresh"}).out.find("relievo calibration activate"),
+            std::string::npos);
   refused({"selftest", "--store", "fresh"}, "fresh", "is in use");
   done({"calibration", "activate", "1", "--store", "fresh"});
   EXPECT_NE(done({"selftest", "--store", "fresh"}).out.find("calibration  in order"), std::string::npos);
@@ -210,9 +240,11 @@ TEST_F(WholeWay, TheSimulatedRigNeedsNoCalibration) {
 
 TEST_F(WholeWay, AlgorithmsAreListedWithOptionsRangesAndSources) {
   const std::string all = done({"algorithms"}).out;
-  for (const char* word : {"selector: ", "grid-points", "zmncc", "Bardsley 2004", "default refined"}) EXPECT_NE(all.find(word), std::string::npos) << word;
+  for (const char* word : {"selector: ", "grid-points", "zmncc", "Bardsley 2004", "default refined"})
+    EXPECT_NE(all.find(word), std::string::npos) << word;
   const std::string one = done({"algorithms", "zmncc"}).out;
-  for (const char* word : {"matcher = zmncc", "source: ", "zmncc.window_px = 25", "3 to 63"}) EXPECT_NE(one.find(word), std::string::npos) << word;
+  for (const char* word : {"matcher = zmncc", "source: ", "zmncc.window_px = 25", "3 to 63"})
+    EXPECT_NE(one.find(word), std::string::npos) << word;
   refused({"algorithms", "magic"}, "magic", "relievo algorithms");
 }
 

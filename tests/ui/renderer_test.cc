@@ -89,7 +89,8 @@ TEST_F(RendererTest, WhatLiesOutsideTheClipIsNotDrawn) {
 }
 
 TEST_F(RendererTest, APictureMayBeMirroredAndIsForgotten) {
-  const std::byte two[] = {std::byte{255}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{255}};
+  const std::byte two[] = {std::byte{255}, std::byte{0}, std::byte{0},
+                           std::byte{0},   std::byte{0}, std::byte{255}};
   list.pictures[static_cast<std::size_t>(PictureSlot::Live)] = {{two, 2, 1, 6, PixelFormat::Rgb8}, 1};
   add(Mark::Image, kAll, {255, 255, 255, 255}).picture = PictureSlot::Live;
   draw();
@@ -132,7 +133,8 @@ TEST_F(RendererTest, LettersComeFromTheAtlas) {
   const auto place = atlas.place(4, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x) *atlas.row(place->x + x, place->y + y) = 255;
-  add(Mark::Glyph, {10, 10, 4, 4}, {250, 120, 60, 255}).uv = {static_cast<float>(place->x), static_cast<float>(place->y), 4, 4};
+  add(Mark::Glyph, {10, 10, 4, 4}, {250, 120, 60, 255}).uv = {static_cast<float>(place->x),
+                                                              static_cast<float>(place->y), 4, 4};
   draw();
   EXPECT_EQ(at(12, 12), (Colour{250, 120, 60, 255}));
   EXPECT_EQ(at(20, 12), (Colour{0, 0, 0, 255}));
@@ -185,14 +187,14 @@ TEST_F(RendererTest, AModelStandsInTheMiddleOfWhatIsFree) {
     add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
     draw();
     EXPECT_NEAR(middle_of_lit(), 59.5F, 1.5F) << middle_mm;
-    list.commands.back().share = 2.0F / 3;   // the lower third is covered
+    list.commands.back().share = 2.0F / 3;  // the lower third is covered
     draw();
     EXPECT_NEAR(middle_of_lit(), 39.5F, 1.5F) << middle_mm;
   }
 }
 
-// Points, edges, surface, texture and light: each does its own in whatever state the others are; the last two where
-// there is a surface, or its edges, to be seen by them.
+// Points, edges, surface, texture and light: each does its own in whatever state the others are; the last two
+// where there is a surface, or its edges, to be seen by them.
 TEST_F(RendererTest, EverySwitchOfAModelIsItsOwn) {
   pipeline::FaceModel model = square_at(0);
   model.texture.width_px = model.texture.height_px = 1;
@@ -219,7 +221,9 @@ TEST_F(RendererTest, EverySwitchOfAModelIsItsOwn) {
     }
   }
   const std::vector<std::uint8_t> nothing = shown(24);
-  EXPECT_TRUE(std::all_of(nothing.begin(), nothing.end(), [&](std::uint8_t v) { return v == nothing.front(); })) << "nothing is switched on that could be seen";
+  EXPECT_TRUE(std::all_of(nothing.begin(), nothing.end(), [&](std::uint8_t v) {
+    return v == nothing.front();
+  })) << "nothing is switched on that could be seen";
 }
 
 }  // namespace

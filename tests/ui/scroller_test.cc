@@ -94,7 +94,8 @@ TEST_F(ScrollerTest, ACardThatHugsEndsWhereItsRowsDo) {
     tree_.leaf(below);
     tree_.close();
     tree_.layout(kScreen, *text_, {});
-    EXPECT_EQ(tree_.find("card")->rect.h, std::min(2 * kPad + static_cast<float>(rows) * kRow, kScreen.h - kRow));
+    EXPECT_EQ(tree_.find("card")->rect.h,
+              std::min(2 * kPad + static_cast<float>(rows) * kRow, kScreen.h - kRow));
     EXPECT_EQ(tree_.find("below")->rect.bottom(), kScreen.h) << "what stands below stays at its place";
   }
 }

@@ -91,7 +91,8 @@ TEST_F(SdlDisplayTest, AKeypadIsEnough) {
   push_key(SDLK_a);  // says nothing
   push_key(SDLK_RETURN);
   push_key(SDLK_ESCAPE);
-  for (const Input::Kind kind : {Input::Kind::Next, Input::Kind::Previous, Input::Kind::Activate, Input::Kind::Back}) {
+  for (const Input::Kind kind :
+       {Input::Kind::Next, Input::Kind::Previous, Input::Kind::Activate, Input::Kind::Back}) {
     const auto input = display->poll();
     ASSERT_TRUE(input.has_value());
     EXPECT_EQ(input->kind, kind);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come out.
+// The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come
+// out.
 #include "ui/service.h"
 
 #include <gtest/gtest.h>

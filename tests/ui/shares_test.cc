@@ -30,7 +30,9 @@ class SharesTest : public testing::Test {
   std::vector<Rect> children(std::string_view id) const {
     std::vector<Rect> found;
     const Node* parent = tree_.find(id);
-    for (std::int32_t at = parent->first_child; at >= 0; at = tree_.nodes()[static_cast<std::size_t>(at)].next) found.push_back(tree_.nodes()[static_cast<std::size_t>(at)].rect);
+    for (std::int32_t at = parent->first_child; at >= 0;
+         at = tree_.nodes()[static_cast<std::size_t>(at)].next)
+      found.push_back(tree_.nodes()[static_cast<std::size_t>(at)].rect);
     return found;
   }
 
@@ -116,7 +118,10 @@ TEST_F(SharesTest, LinesAreAsHighAsTheirScriptHasThemWhateverFontTheyComeFrom) {
     const char* language;
     const char* words;
     const type::Lines& lines;
-  } cases[] = {{"en", "One moment please", type::kLines}, {"ar", "لحظة من فضلك", type::kArabicLines}, {"he", "רק רגע בבקשה", type::kLines}, {"ja", "少々お待ちください", type::kHanLines}};
+  } cases[] = {{"en", "One moment please", type::kLines},
+               {"ar", "لحظة من فضلك", type::kArabicLines},
+               {"he", "רק רגע בבקשה", type::kLines},
+               {"ja", "少々お待ちください", type::kHanLines}};
   for (const auto& one : cases) {
     TextStyle style;
     style.size_px = 40;
@@ -124,7 +129,8 @@ TEST_F(SharesTest, LinesAreAsHighAsTheirScriptHasThemWhateverFontTheyComeFrom) {
     const auto high = [&](const std::string& words) { return text_->measure(words, style, 2000).height_px; };
     EXPECT_NEAR(high(one.words), 40 * (one.lines.above + one.lines.below), 2) << one.language;
     EXPECT_NEAR(high(one.words), high("148 220"), 2) << one.language << ": another font stands on the line";
-    EXPECT_NEAR(high(std::string(one.words) + "\n" + one.words) - high(one.words), 40 * one.lines.apart, 1) << one.language;
+    EXPECT_NEAR(high(std::string(one.words) + "\n" + one.words) - high(one.words), 40 * one.lines.apart, 1)
+        << one.language;
   }
 }
 

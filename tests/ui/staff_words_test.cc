@@ -28,7 +28,8 @@ class StaffWordsTest : public testing::Test {
   static std::string bare(std::string_view text) {
     std::string all(text);
     for (const char* mark : {"\u2066", "\u2068", "\u2069"}) {
-      for (std::size_t at = all.find(mark); at != std::string::npos; at = all.find(mark)) all.erase(at, std::string(mark).size());
+      for (std::size_t at = all.find(mark); at != std::string::npos; at = all.find(mark))
+        all.erase(at, std::string(mark).size());
     }
     return all;
   }
@@ -57,7 +58,8 @@ TEST_F(StaffWordsTest, AnAngleStandsAtItsNumberATemperatureDoesNot) {
 }
 
 TEST_F(StaffWordsTest, BehindAColonFrenchAndSpanishGoOnSmall) {
-  constexpr const char* kPhotograph = "that looks like a picture of a face: please look into the cameras yourself";
+  constexpr const char* kPhotograph =
+      "that looks like a picture of a face: please look into the cameras yourself";
   EXPECT_TRUE(in(Language::French).said(kPhotograph, false).starts_with("cela ressemble"));
   EXPECT_TRUE(in(Language::Spanish).said(kPhotograph, false).starts_with("parece"));
   EXPECT_TRUE(in(Language::German).said(kPhotograph, false).starts_with("Das sieht"));
@@ -65,14 +67,16 @@ TEST_F(StaffWordsTest, BehindAColonFrenchAndSpanishGoOnSmall) {
   EXPECT_TRUE(in(Language::French).said(kPhotograph).starts_with("Cela")) << "a sentence of its own";
   StaffFrame page = in(Language::French);
   EXPECT_STREQ(page.continued("Échec"), "échec");
-  for (const char* same : {"OpenCV a renoncé", "×", "où", "", "1 px"}) EXPECT_STREQ(page.continued(same), same);
+  for (const char* same : {"OpenCV a renoncé", "×", "où", "", "1 px"})
+    EXPECT_STREQ(page.continued(same), same);
 }
 
 TEST_F(StaffWordsTest, OnlyWhatIsANumberGetsTheMark) {
   StaffFrame page = in(Language::German);
   EXPECT_EQ(bare(page.as_number("+0.42")), "+0,42");
   EXPECT_EQ(bare(page.as_number("-6.0 px")), "\u22126,0 px");
-  for (const char* same : {"", ".", "7", "1.", ".5", "1.2.3", "4.6.0-rc1", "serial 4.2", "sample-1"}) EXPECT_EQ(page.as_number(same), same);
+  for (const char* same : {"", ".", "7", "1.", ".5", "1.2.3", "4.6.0-rc1", "serial 4.2", "sample-1"})
+    EXPECT_EQ(page.as_number(same), same);
 }
 
 TEST_F(StaffWordsTest, DatesHaveTheOrderOfTheLanguage) {
@@ -80,27 +84,35 @@ TEST_F(StaffWordsTest, DatesHaveTheOrderOfTheLanguage) {
   EXPECT_EQ(bare(in(Language::German).date("2026-03-14 09:12")), "14.03.2026\u00a009:12");
   EXPECT_EQ(bare(in(Language::French).date("2026-03-14")), "14/03/2026");
   EXPECT_EQ(bare(in(Language::Chinese).date("2026-03-14")), "2026/03/14");
-  for (const char* none : {"", "2026-03", "yesterday, at 9", "20x6-03-14"}) EXPECT_EQ(in(Language::German).date(none), none);
+  for (const char* none : {"", "2026-03", "yesterday, at 9", "20x6-03-14"})
+    EXPECT_EQ(in(Language::German).date(none), none);
 }
 
 TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
   const std::string few = Sentence("only {} of {} pairs agree with each other", {"5", "14"}).packed();
   EXPECT_EQ(bare(in(Language::English).said(few)), "Only 5 of 14 pairs agree with each other");
   EXPECT_EQ(bare(in(Language::German).said(few)), "Nur 5 von 14 Paaren stimmen miteinander überein");
-  const std::string moved = Sentence(Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at("2.47 px")).packed();
-  EXPECT_EQ(bare(in(Language::German).said(moved)), "Eine Kamera hat sich seit der Kalibrierung bewegt: Kalibrieren Sie neu (2,47 px)");
+  const std::string moved =
+      Sentence(Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(
+                   "2.47 px"))
+          .packed();
+  EXPECT_EQ(bare(in(Language::German).said(moved)),
+            "Eine Kamera hat sich seit der Kalibrierung bewegt: Kalibrieren Sie neu (2,47 px)");
   const std::string arabic(in(Language::Arabic).said(moved));
-  EXPECT_FALSE(arabic.starts_with("\u2068")) << "its own words tell the direction, not what stands behind them";
+  EXPECT_FALSE(arabic.starts_with("\u2068"))
+      << "its own words tell the direction, not what stands behind them";
   EXPECT_EQ(in(Language::German).said(""), "");
   EXPECT_STREQ(in(Language::French).begun("écart"), "Écart");
   EXPECT_STREQ(in(Language::French).begun("à côté"), "À côté");
-  for (const char* same : {"", "÷ 2", "ßig", "Écart", "2 px", "左"}) EXPECT_STREQ(in(Language::French).begun(same), same);
+  for (const char* same : {"", "÷ 2", "ßig", "Écart", "2 px", "左"})
+    EXPECT_STREQ(in(Language::French).begun(same), same);
   EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
 }
 
 TEST_F(StaffWordsTest, NoLineEndsBetweenAValueAndItsUnit) {
   StaffFrame page = in(Language::English);
-  EXPECT_EQ(bare(page.filled("{} mm, {} % or {} mms at {} px", {"1", "2", "3", "4"})), "1\u00a0mm, 2\u00a0% or 3 mms at 4\u00a0px");
+  EXPECT_EQ(bare(page.filled("{} mm, {} % or {} mms at {} px", {"1", "2", "3", "4"})),
+            "1\u00a0mm, 2\u00a0% or 3 mms at 4\u00a0px");
   EXPECT_EQ(bare(in(Language::German).filled("{} sr (um {})", {"1", "2"})), "1\u00a0sr (um 2)");
 }
 
@@ -114,24 +126,30 @@ TEST_F(StaffWordsTest, AChangedSettingIsCalledAsOnItsPage) {
         const std::string figure = std::to_string(value), said = bare(said_change(page, info.key, figure));
         EXPECT_NE(said.find(name_of(page.tr, info.setting)), std::string::npos) << said;
         EXPECT_NE(said.find(bare(said_value(page, info.setting, value))), std::string::npos) << said;
-        if (info.key.find('_') != std::string_view::npos) { EXPECT_EQ(said.find(info.key), std::string::npos) << said; }
+        if (info.key.find('_') != std::string_view::npos) {
+          EXPECT_EQ(said.find(info.key), std::string::npos) << said;
+        }
       }
     }
   }
   StaffFrame page = in(Language::German);
-  for (const auto& [key, value] : {std::pair{"no_such", "1"}, std::pair{"language", "8"}, std::pair{"patience_s", "30 s"}, std::pair{"patience_s", ""}})
+  for (const auto& [key, value] : {std::pair{"no_such", "1"}, std::pair{"language", "8"},
+                                   std::pair{"patience_s", "30 s"}, std::pair{"patience_s", ""}})
     EXPECT_EQ(said_change(page, key, value), "") << key << value;
 }
 
 TEST_F(StaffWordsTest, TheLogSaysAChangedSettingInWords) {
   StaffFrame page = in(Language::German);
   page.begin("", nullptr);
-  page.logged({"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}});
+  page.logged(
+      {"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}});
   page.logged({"2026-03-14 10:20:44", false, "setting gone is 7", "setting {} is {}", {"gone", "7"}});
   page.end();
   std::string all;
   for (const Node& node : tree_.nodes()) all += bare(node.text) + "\n";
-  EXPECT_NE(all.find(std::string("Einstellung „") + name_of(page.tr, Setting::PatienceS) + "“: 30\u00a0s"), std::string::npos) << all;
+  EXPECT_NE(all.find(std::string("Einstellung „") + name_of(page.tr, Setting::PatienceS) + "“: 30\u00a0s"),
+            std::string::npos)
+      << all;
   EXPECT_EQ(all.find("patience_s"), std::string::npos);
   EXPECT_NE(all.find("Einstellung gone ist 7"), std::string::npos) << "an older version's";
 }
@@ -140,10 +158,12 @@ TEST_F(StaffWordsTest, WherePartsAreWordsTheyAreSaid) {
   StaffFrame page = in(Language::German);
   const auto german = [&](std::string_view place) { return bare(said_place(page, place)); };
   EXPECT_EQ(german("serial 4061 → serial 4088"), "Seriennummer 4088 statt Seriennummer 4061");
-  EXPECT_EQ(german("serial 1 → at /dev/a; at /dev/b → serial 2"), "links an /dev/a statt Seriennummer 1, rechts Seriennummer 2 statt an /dev/b");
+  EXPECT_EQ(german("serial 1 → at /dev/a; at /dev/b → serial 2"),
+            "links an /dev/a statt Seriennummer 1, rechts Seriennummer 2 statt an /dev/b");
   EXPECT_EQ(german("left picture"), "linkes Bild");
   EXPECT_EQ(german("2.47 px"), "2,47 px");
-  for (const char* same : {"/dev/video0", "", "serial 4061", "left pictures", "mesher.grid", "zh.txt"}) EXPECT_EQ(german(same), same);
+  for (const char* same : {"/dev/video0", "", "serial 4061", "left pictures", "mesher.grid", "zh.txt"})
+    EXPECT_EQ(german(same), same);
 }
 
 TEST(SentenceTest, PackedItIsOneLine) {

@@ -35,7 +35,8 @@ TEST(SteadyFrame, TakesNothingFromTheHeap) {
   Ui ui(std::move(*text));
   ViewState view;
   for (const Language language : {Language::English, Language::Arabic}) {
-    for (const Step step : {Step::Attract, Step::Consent, Step::Name, Step::Position, Step::Working, Step::Review, Step::Thanks}) {
+    for (const Step step : {Step::Attract, Step::Consent, Step::Name, Step::Position, Step::Working,
+                            Step::Review, Step::Thanks}) {
       Visit visit;
       visit.step = step;
       visit.language = language;

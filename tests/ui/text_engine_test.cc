@@ -24,7 +24,8 @@ class TextEngineTest : public testing::Test {
   double ink_middle(const TextLabel& label) const {
     double sum = 0, weighted = 0;
     for (int y = 0; y < static_cast<int>(label.atlas.h); ++y) {
-      const std::uint8_t* row = engine->atlas().row(static_cast<int>(label.atlas.x), static_cast<int>(label.atlas.y) + y);
+      const std::uint8_t* row =
+          engine->atlas().row(static_cast<int>(label.atlas.x), static_cast<int>(label.atlas.y) + y);
       for (int x = 0; x < static_cast<int>(label.atlas.w); ++x) sum += row[x], weighted += row[x] * (x + 0.5);
     }
     return sum > 0 ? weighted / sum / label.atlas.w : -1;
@@ -55,9 +56,12 @@ TEST_F(TextEngineTest, NoWordStandsAlone) {
     const TextSize size = engine->measure(text, style, width);
     EXPECT_LE(size.width_px, width + 1);
     if (size.lines > 1) {
-      EXPECT_GT(size.width_px * static_cast<float>(size.lines), 0.9F * engine->measure(text, style, 5000).width_px);
+      EXPECT_GT(size.width_px * static_cast<float>(size.lines),
+                0.9F * engine->measure(text, style, 5000).width_px);
       // Even lines: the box is not much wider than its share.
-      EXPECT_LT(size.width_px, 1.45F * engine->measure(text, style, 5000).width_px / static_cast<float>(size.lines)) << width;
+      EXPECT_LT(size.width_px,
+                1.45F * engine->measure(text, style, 5000).width_px / static_cast<float>(size.lines))
+          << width;
     }
   }
 }
@@ -81,7 +85,8 @@ TEST_F(TextEngineTest, SoftHyphensSayWhereAWordMayBreakAndOnlyWhereItMust) {
 std::vector<std::string> phrases(const std::string& text, bool japanese) {
   std::vector<std::string> all;
   std::size_t from = 0;
-  for (const std::size_t to : phrase_starts(text, japanese)) all.push_back(text.substr(from, to - from)), from = to;
+  for (const std::size_t to : phrase_starts(text, japanese))
+    all.push_back(text.substr(from, to - from)), from = to;
   all.push_back(text.substr(from));
   return all;
 }
@@ -98,10 +103,13 @@ TEST(Phrases, SentencesBeginBehindWhatEndsOne) {
 TEST(Phrases, AreWhatIsReadInOneBreath) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(phrases("正面を見て動かないでください", true), (Words{"正面を", "見て", "動かないでください"}));
-  EXPECT_EQ(phrases("ここに入力、またはQRコードを提示", true), (Words{"ここに", "入力、", "または", "QRコードを", "提示"}));
-  EXPECT_EQ(phrases("するかどうかをお決めください。撮り直す", true), (Words{"するかどうかを", "お決めください。", "撮り直す"}));
+  EXPECT_EQ(phrases("ここに入力、またはQRコードを提示", true),
+            (Words{"ここに", "入力、", "または", "QRコードを", "提示"}));
+  EXPECT_EQ(phrases("するかどうかをお決めください。撮り直す", true),
+            (Words{"するかどうかを", "お決めください。", "撮り直す"}));
   EXPECT_EQ(phrases("触れると「はじめる」です", true), (Words{"触れると", "「はじめる」", "です"}));
-  EXPECT_EQ(phrases("動かずにもう一度お願いします。", true), (Words{"動かずに", "もう一度", "お願いします。"}));
+  EXPECT_EQ(phrases("動かずにもう一度お願いします。", true),
+            (Words{"動かずに", "もう一度", "お願いします。"}));
   EXPECT_EQ(phrases("続きました。あと300秒で", true), (Words{"続きました。", "あと300秒で"}));
   EXPECT_EQ(phrases("記録には何も保存されません", true), (Words{"記録には", "何も保存されません"}));
   EXPECT_EQ(phrases("很好。请目视前方，保持不动", false), (Words{"很好。", "请目视前方，", "保持不动"}));
@@ -114,7 +122,8 @@ TEST_F(TextEngineTest, ChineseAndJapaneseBreakBetweenPhrases) {
     const char* language;
     const char* text;
     const char* longest;
-  } cases[] = {{"ja", "そのままです。正面を見て動かないでください", "見て動かないでください"}, {"zh-Hans", "很好。请目视前方，保持不动", "很好。请目视前方，"}};
+  } cases[] = {{"ja", "そのままです。正面を見て動かないでください", "見て動かないでください"},
+               {"zh-Hans", "很好。请目视前方，保持不动", "很好。请目视前方，"}};
   for (const auto& one : cases) {
     TextStyle style;
     style.language = one.language;
@@ -137,13 +146,21 @@ TEST(Phrases, FillLinesFullOrEvenly) {
   EXPECT_EQ(fill_lines({}, 15, true), Starts{});
 }
 
-// Whatever an operator writes in a heading and whoever's name stands in it: every language, both directions mixed,
-// every width. Pango itself ended the program at some of these when it was told where it must not break.
+// Whatever an operator writes in a heading and whoever's name stands in it: every language, both directions
+// mixed, every width. Pango itself ended the program at some of these when it was told where it must not
+// break.
 TEST_F(TextEngineTest, HeadingsOfMixedScriptsAreSetAtEveryWidth) {
-  const char* const texts[] = {
-      "תודה, Ada-Marie Lovelace-Byron. הדיוקן שלכם נשמר.", "שלום! Portrait 3D של أحمد بن يوسف. הבט קדימה?", "شكرًا يا Grace Hopper. حُفظت صورتك (ID-148 220).",
-      "Thank you, أحمد بن عبد الله. Your portrait is stored. 谢谢。", "ありがとうございます、Ada Lovelaceさん。אברהם様の「肖像」は保存されました。", "谢谢，محمد。您的 3D 肖像（第 2 版）已保存。",
-      "Donau­dampf­schiff­fahrts­gesell­schaft. ב", "A. B. C! D? E. \u2067א. ב.\u2069 \u2066c. d.\u2069", ". . ? ! .", "x. \u202eabc. def\u202c. y", "\u2028. \u2029. a\n. b. c"};
+  const char* const texts[] = {"תודה, Ada-Marie Lovelace-Byron. הדיוקן שלכם נשמר.",
+                               "שלום! Portrait 3D של أحمد بن يوسف. הבט קדימה?",
+                               "شكرًا يا Grace Hopper. حُفظت صورتك (ID-148 220).",
+                               "Thank you, أحمد بن عبد الله. Your portrait is stored. 谢谢。",
+                               "ありがとうございます、Ada Lovelaceさん。אברהם様の「肖像」は保存されました。",
+                               "谢谢，محمد。您的 3D 肖像（第 2 版）已保存。",
+                               "Donau­dampf­schiff­fahrts­gesell­schaft. ב",
+                               "A. B. C! D? E. \u2067א. ב.\u2069 \u2066c. d.\u2069",
+                               ". . ? ! .",
+                               "x. \u202eabc. def\u202c. y",
+                               "\u2028. \u2029. a\n. b. c"};
   for (const char* language : {"en", "ar", "he", "zh-Hans", "ja"}) {
     for (const Weight weight : {Weight::Regular, Weight::Bold}) {
       TextStyle style;
@@ -170,7 +187,9 @@ TEST_F(TextEngineTest, TwoLinesArePartedBetweenTheirSentences) {
     style.weight = Weight::Bold;
     style.right_to_left = right_to_left;
     style.language = right_to_left ? "he" : "en";
-    const std::string first = right_to_left ? "תודה." : "Thank you.", second = right_to_left ? "הדיוקן שלכם נשמר במכשיר הזה" : "Your portrait is stored on this kiosk";
+    const std::string first = right_to_left ? "תודה." : "Thank you.",
+                      second = right_to_left ? "הדיוקן שלכם נשמר במכשיר הזה"
+                                             : "Your portrait is stored on this kiosk";
     const float longest = engine->measure(second, style, 5000).width_px;
     const TextSize size = engine->measure(first + " " + second, style, longest + 8);
     EXPECT_EQ(size.lines, 2);
@@ -184,7 +203,9 @@ TEST_F(TextEngineTest, InkLiesInsideTheBox) {
       TextStyle style;
       style.right_to_left = right_to_left;
       style.align = align;
-      const TextLabel& label = engine->label(right_to_left ? "يستغرق ذلك حوالي دقيقة واحدة. نصنع صورة" : "It takes about a minute. We make a picture", style, 260);
+      const TextLabel& label = engine->label(right_to_left ? "يستغرق ذلك حوالي دقيقة واحدة. نصنع صورة"
+                                                           : "It takes about a minute. We make a picture",
+                                             style, 260);
       EXPECT_GT(label.size.lines, 1);
       EXPECT_GE(label.ink.x, -3) << right_to_left;
       EXPECT_LE(label.ink.right(), label.size.width_px + 4) << right_to_left;
@@ -203,19 +224,24 @@ TEST_F(TextEngineTest, NumbersKeepTheirOrderInArabic) {
   EXPECT_GT(heavy_right, ink_middle(reversed) + 0.1) << "888 has more ink than 111";
 }
 
-// The page tells the direction of a paragraph, whatever stands in it: names, figures and what is isolated are no words
-// from which it could be read.
+// The page tells the direction of a paragraph, whatever stands in it: names, figures and what is isolated are
+// no words from which it could be read.
 TEST_F(TextEngineTest, ALabelWithoutALetterOfItsScriptStillRunsFromTheRight) {
   TextStyle from_right, from_left;
   from_right.right_to_left = true;
-  for (const char* text : {"\u2066MMMM\u2069 \u2066i\u2069", "\u2068MMMM\u2069 \u2068i\u2069", "\u2066MMMM\u2069: \u20661\u2069", "\u2066MMMM\u2069 ———", "MMMM ———", "8888 ———"}) {
-    EXPECT_GT(ink_middle(engine->label(text, from_right, 800)), ink_middle(engine->label(text, from_left, 800)) + 0.05) << text << ": what comes first stands on the right";
+  for (const char* text :
+       {"\u2066MMMM\u2069 \u2066i\u2069", "\u2068MMMM\u2069 \u2068i\u2069", "\u2066MMMM\u2069: \u20661\u2069",
+        "\u2066MMMM\u2069 ———", "MMMM ———", "8888 ———"}) {
+    EXPECT_GT(ink_middle(engine->label(text, from_right, 800)),
+              ink_middle(engine->label(text, from_left, 800)) + 0.05)
+        << text << ": what comes first stands on the right";
   }
   // Of one run its letters keep their order.
   EXPECT_LT(ink_middle(engine->label("MMMM i", from_right, 800)), 0.5);
   EXPECT_LT(ink_middle(engine->label("\u2066MMMM i\u2069", from_right, 800)), 0.5);
   // Divided, each line runs so.
-  const TextLabel divided = engine->label("\u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069 \u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069", from_right, 300);
+  const TextLabel divided = engine->label(
+      "\u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069 \u2066MMMMMMMM\u2069 \u2066iiiiiiii\u2069", from_right, 300);
   EXPECT_EQ(divided.size.lines, 2);
   EXPECT_GT(ink_middle(divided), 0.5);
 }
@@ -233,7 +259,8 @@ TEST_F(TextEngineTest, ForgettingLeavesNoInk) {
   (void)engine->label("Ada Lovelace", {}, 800);
   engine->forget();
   const std::uint8_t* all = engine->atlas().texels();
-  const std::size_t count = static_cast<std::size_t>(engine->atlas().side_px()) * static_cast<std::size_t>(engine->atlas().side_px());
+  const std::size_t count = static_cast<std::size_t>(engine->atlas().side_px()) *
+                            static_cast<std::size_t>(engine->atlas().side_px());
   EXPECT_TRUE(std::all_of(all, all + count, [](std::uint8_t v) { return v == 0; }));
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 TEST(Theme, ContrastIsAsWcagDefinesIt) {
   EXPECT_NEAR(contrast({0, 0, 0, 255}, {255, 255, 255, 255}), 21.0, 1e-9);
-  EXPECT_NEAR(contrast({119, 119, 119, 255}, {255, 255, 255, 255}), 4.48, 0.01);  // the known border case #777
+  EXPECT_NEAR(contrast({119, 119, 119, 255}, {255, 255, 255, 255}), 4.48,
+              0.01);  // the known border case #777
   EXPECT_NEAR(contrast({200, 10, 10, 255}, {200, 10, 10, 255}), 1.0, 1e-9);
 }
 
@@ -18,12 +19,22 @@ void every_text_can_be_read(const Palette& p, const char* name) {
     const char* what;
     Colour text, ground;
   };
-  const Pair pairs[] = {{"ink", p.ink, p.ground},           {"ink below", p.ink, p.ground_end},   {"ink on a card", p.ink, p.card},
-                        {"soft", p.ink_soft, p.ground},     {"soft below", p.ink_soft, p.ground_end}, {"soft on a card", p.ink_soft, p.card},
-                        {"main button", p.accent_ink, p.accent}, {"quiet button", p.link, p.quiet}, {"key", p.link, p.card},
-                        {"good", p.good, p.ground},         {"good below", p.good, p.ground_end}, {"warn", p.warn, p.ground},
-                        {"bad", p.bad, p.card},             {"good on a card", p.good, p.card}};
-  for (const Pair& pair : pairs) EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << name << ": " << pair.what;
+  const Pair pairs[] = {{"ink", p.ink, p.ground},
+                        {"ink below", p.ink, p.ground_end},
+                        {"ink on a card", p.ink, p.card},
+                        {"soft", p.ink_soft, p.ground},
+                        {"soft below", p.ink_soft, p.ground_end},
+                        {"soft on a card", p.ink_soft, p.card},
+                        {"main button", p.accent_ink, p.accent},
+                        {"quiet button", p.link, p.quiet},
+                        {"key", p.link, p.card},
+                        {"good", p.good, p.ground},
+                        {"good below", p.good, p.ground_end},
+                        {"warn", p.warn, p.ground},
+                        {"bad", p.bad, p.card},
+                        {"good on a card", p.good, p.card}};
+  for (const Pair& pair : pairs)
+    EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << name << ": " << pair.what;
 }
 
 TEST(Theme, EveryTextCanBeRead) {

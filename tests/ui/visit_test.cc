@@ -46,7 +46,9 @@ class VisitTest : public testing::Test {
   void to_review() {
     to_position();
     act(ActionKind::TakePicture);
-    for (const Screen s : {Screen::Capture, Screen::Match, Screen::Reconstruct, Screen::Mesh, Screen::Texture, Screen::Review}) machine(s);
+    for (const Screen s :
+         {Screen::Capture, Screen::Match, Screen::Reconstruct, Screen::Mesh, Screen::Texture, Screen::Review})
+      machine(s);
     ASSERT_EQ(visit.step, Step::Review);
   }
 

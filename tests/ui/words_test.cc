@@ -45,7 +45,9 @@ std::set<std::string> texts_in_the_screens() {
 
 std::size_t count(const std::string& text, const std::string& sought) {
   std::size_t found = 0;
-  for (std::size_t at = text.find(sought); at != std::string::npos; at = text.find(sought, at + sought.size())) ++found;
+  for (std::size_t at = text.find(sought); at != std::string::npos;
+       at = text.find(sought, at + sought.size()))
+    ++found;
   return found;
 }
 
@@ -59,7 +61,8 @@ std::vector<std::string> entries(const std::string& code, const std::string& key
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) {
     const std::size_t quote = line.find('"');
-    if (line.rfind(keyword, 0) == 0 && line.size() > quote + 2) all.push_back(line.substr(quote + 1, line.size() - quote - 2));
+    if (line.rfind(keyword, 0) == 0 && line.size() > quote + 2)
+      all.push_back(line.substr(quote + 1, line.size() - quote - 2));
   }
   EXPECT_GT(all.size(), 500U) << code << ".po was not read";
   return all;
@@ -78,7 +81,9 @@ std::vector<std::string> letters(const std::string& text) {
 }
 
 bool is_kana(const std::string& letter) { return letter >= "\u3041" && letter <= "\u30fe"; }
-bool is_east_asian(const std::string& letter) { return is_kana(letter) || (letter >= "\u4e00" && letter <= "\u9fff"); }
+bool is_east_asian(const std::string& letter) {
+  return is_kana(letter) || (letter >= "\u4e00" && letter <= "\u9fff");
+}
 
 class WordsTest : public testing::Test {
  protected:
@@ -102,7 +107,8 @@ void every_text_is_known(Language language, const std::set<std::string>& texts) 
   const std::string po{std::istreambuf_iterator<char>(in), {}};
   for (const std::string& text : texts) {
     EXPECT_TRUE(has_entry(po, text)) << code << ".po lacks: " << text;
-    const bool counts = text.find("{} second") != std::string::npos || text.find("{} day") != std::string::npos;
+    const bool counts =
+        text.find("{} second") != std::string::npos || text.find("{} day") != std::string::npos;
     const std::string said = counts ? words.plural(text.c_str(), "", 5) : words(text.c_str());
     EXPECT_EQ(holes(said), holes(text)) << said;
   }
@@ -137,16 +143,20 @@ TEST_F(WordsTest, EveryFaultOfAConsentTextIsInTheLanguagesOfTheStaff) {
     std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / file);
     const std::string source{std::istreambuf_iterator<char>(in), {}};
     static const std::regex fault(R"rx((?:Errc::(?:InvalidInput|IoFailed), |wrong\([^"]*)"([^"]+)")rx");
-    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) texts.insert((*at)[1]);
+    for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at)
+      texts.insert((*at)[1]);
   }
   ASSERT_EQ(texts.size(), 15U);
   every_language_knows(texts);
 }
 
-// The log's page says in the reader's language what firmware/ notes in English, and what goes wrong in the rooms that a capture
-// and the staff's work pass through. Left out: what the pages have words of their own for.
+// The log's page says in the reader's language what firmware/ notes in English, and what goes wrong in the
+// rooms that a capture and the staff's work pass through. Left out: what the pages have words of their own
+// for.
 TEST_F(WordsTest, WhatIsNotedInTheLogIsInEveryLanguage) {
-  static const std::regex noted(R"rx((?:log_?(?:\(\))?(?:\.|->)say|by_role\([a-z_]+|Literal)\((?:[^";]*, )?"((?:[^"\\]|\\.)+)")rx"), chosen(R"rx(by_role\([a-z_]+, "([^"]+)", "([^"]+)"\))rx");
+  static const std::regex noted(
+      R"rx((?:log_?(?:\(\))?(?:\.|->)say|by_role\([a-z_]+|Literal)\((?:[^";]*, )?"((?:[^"\\]|\\.)+)")rx"),
+      chosen(R"rx(by_role\([a-z_]+, "([^"]+)", "([^"]+)"\))rx");
   static const std::regex fault(R"rx(Errc::(\w+),\s*"([^"]+)")rx");
   const std::filesystem::path rooms = std::filesystem::path(RELIEVO_SOURCE_DIR) / "firmware";
   std::set<std::string> texts, faults;
@@ -154,8 +164,10 @@ TEST_F(WordsTest, WhatIsNotedInTheLogIsInEveryLanguage) {
     if (entry.path().extension() != ".cc") continue;
     std::ifstream in(entry.path());
     const std::string source{std::istreambuf_iterator<char>(in), {}};
-    for (std::sregex_iterator at(source.begin(), source.end(), noted), end; at != end; ++at) texts.insert((*at)[1]);
-    for (std::sregex_iterator at(source.begin(), source.end(), chosen), end; at != end; ++at) texts.insert({(*at)[1], (*at)[2]});
+    for (std::sregex_iterator at(source.begin(), source.end(), noted), end; at != end; ++at)
+      texts.insert((*at)[1]);
+    for (std::sregex_iterator at(source.begin(), source.end(), chosen), end; at != end; ++at)
+      texts.insert({(*at)[1], (*at)[2]});
     const std::string room = *entry.path().lexically_relative(rooms).begin();
     if (room != "capture" && room != "work" && room != "service") continue;
     for (std::sregex_iterator at(source.begin(), source.end(), fault), end; at != end; ++at) {
@@ -172,7 +184,8 @@ TEST_F(WordsTest, WhatIsNotedInTheLogIsInEveryLanguage) {
 std::vector<std::pair<std::string, std::string>> joined_literals(const std::filesystem::path& file) {
   std::ifstream in(file);
   const std::string source{std::istreambuf_iterator<char>(in), {}};
-  static const std::regex texts(R"rx((\w*)[\s,({]*((?:"(?:[^"\\]|\\.)*"\s*)+))rx"), one(R"rx("((?:[^"\\]|\\.)*)")rx");
+  static const std::regex texts(R"rx((\w*)[\s,({]*((?:"(?:[^"\\]|\\.)*"\s*)+))rx"),
+      one(R"rx("((?:[^"\\]|\\.)*)")rx");
   std::vector<std::pair<std::string, std::string>> all;
   for (std::sregex_iterator at(source.begin(), source.end(), texts), end; at != end; ++at) {
     const std::string run = (*at)[2];
@@ -183,13 +196,15 @@ std::vector<std::pair<std::string, std::string>> joined_literals(const std::file
   return all;
 }
 
-// Why a calibration is good or refused, that the cameras have moved, what a stage gave up for: said with its figures.
+// Why a calibration is good or refused, that the cameras have moved, what a stage gave up for: said with its
+// figures.
 TEST_F(WordsTest, WhatStagesAndCalibrationsSayIsInEveryLanguage) {
   const std::filesystem::path pipeline = std::filesystem::path(RELIEVO_SOURCE_DIR) / "pipeline";
   std::set<std::string> texts;
   for (const char* file : {"calibrate/quality/quality_verdict.cc", "calibrate/drift.cc"}) {
     for (const auto& [before, text] : joined_literals(pipeline / file)) {
-      const bool shown = text.find("promised)") == std::string::npos || text.find("disagree") != std::string::npos;  // that all is well is nowhere said
+      const bool shown = text.find("promised)") == std::string::npos ||
+                         text.find("disagree") != std::string::npos;  // that all is well is nowhere said
       if (text.find("{}") != std::string::npos && shown) texts.insert(text);
     }
   }
@@ -198,14 +213,17 @@ TEST_F(WordsTest, WhatStagesAndCalibrationsSayIsInEveryLanguage) {
   }
   EXPECT_GE(texts.size(), 26U);
   const std::size_t reasons = texts.size();
-  static const std::set<std::string> refusals{"NoFace", "TooFewMatches", "PoorGeometry", "LibraryFailed", "OutOfMemory"};
+  static const std::set<std::string> refusals{"NoFace", "TooFewMatches", "PoorGeometry", "LibraryFailed",
+                                              "OutOfMemory"};
   for (const char* room : {"match", "mesh", "reconstruct", "texture", "relief", "gate", "stage.h"}) {
     std::vector<std::filesystem::path> files{pipeline / room};
-    if (std::filesystem::is_directory(files.front())) files.assign(std::filesystem::recursive_directory_iterator(files.front()), {});
+    if (std::filesystem::is_directory(files.front()))
+      files.assign(std::filesystem::recursive_directory_iterator(files.front()), {});
     for (const auto& file : files) {
       if (file.extension() != ".cc" && file.extension() != ".h") continue;
       for (const auto& [before, text] : joined_literals(file)) {
-        if (refusals.count(before) == 1 && text != "the file holds no match") texts.insert(text);  // of a command's argument
+        if (refusals.count(before) == 1 && text != "the file holds no match")
+          texts.insert(text);  // of a command's argument
       }
     }
   }
@@ -221,14 +239,18 @@ TEST_F(WordsTest, WhatNobodyTranslatedIsNoticed) {
 TEST_F(WordsTest, ArabicHasItsSixForms) {
   const Words words(Language::Arabic);
   std::set<std::string> forms;
-  for (const unsigned long n : {0UL, 1UL, 2UL, 5UL}) forms.insert(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", n));
+  for (const unsigned long n : {0UL, 1UL, 2UL, 5UL})
+    forms.insert(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", n));
   EXPECT_EQ(forms.size(), 4U);
   EXPECT_EQ(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 103),
-            std::string(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 3)));
+            std::string(
+                words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 3)));
 }
 
 TEST_F(WordsTest, NothingIsOneInFrenchAndManyInSpanish) {
-  const auto days = [](Language language, unsigned long n) { return std::string(Words(language).plural("{} day", "{} days", n)); };
+  const auto days = [](Language language, unsigned long n) {
+    return std::string(Words(language).plural("{} day", "{} days", n));
+  };
   EXPECT_EQ(days(Language::French, 0), days(Language::French, 1));
   EXPECT_NE(days(Language::French, 2), days(Language::French, 1));
   EXPECT_EQ(days(Language::Spanish, 0), days(Language::Spanish, 2));
@@ -238,9 +260,12 @@ TEST_F(WordsTest, NothingIsOneInFrenchAndManyInSpanish) {
 // What stands behind a breakable space, or behind none, in French; what opens and what closes in Spanish.
 TEST_F(WordsTest, FrenchAndSpanishPunctuateAsTheirReadersDo) {
   for (const std::string& said : translations("fr")) {
-    for (std::size_t at = said.find_first_of(":;?!"); at != std::string::npos; at = said.find_first_of(":;?!", at + 1)) {
+    for (std::size_t at = said.find_first_of(":;?!"); at != std::string::npos;
+         at = said.find_first_of(":;?!", at + 1)) {
       const bool inside_a_name = at + 1 < said.size() && said[at] == ':' && said[at + 1] != ' ';
-      EXPECT_TRUE(inside_a_name || ends_with(said.substr(0, at), "\u00a0") || ends_with(said.substr(0, at), "\u202f")) << said;
+      EXPECT_TRUE(inside_a_name || ends_with(said.substr(0, at), "\u00a0") ||
+                  ends_with(said.substr(0, at), "\u202f"))
+          << said;
     }
     EXPECT_EQ(said.find('\''), std::string::npos) << said;
   }
@@ -251,11 +276,14 @@ TEST_F(WordsTest, FrenchAndSpanishPunctuateAsTheirReadersDo) {
 }
 
 TEST_F(WordsTest, HebrewCountsOneTwoAndManyChineseAndJapaneseDoNot) {
-  const auto days = [](Language language, unsigned long n) { return std::string(Words(language).plural("{} day", "{} days", n)); };
+  const auto days = [](Language language, unsigned long n) {
+    return std::string(Words(language).plural("{} day", "{} days", n));
+  };
   EXPECT_NE(days(Language::Hebrew, 1), days(Language::Hebrew, 2));
   EXPECT_NE(days(Language::Hebrew, 2), days(Language::Hebrew, 3));
   EXPECT_EQ(days(Language::Hebrew, 0), days(Language::Hebrew, 3));
-  for (const Language language : {Language::Chinese, Language::Japanese}) EXPECT_EQ(days(language, 1), days(language, 365));
+  for (const Language language : {Language::Chinese, Language::Japanese})
+    EXPECT_EQ(days(language, 1), days(language, 365));
 }
 
 // Behind their letters no mark of half a width stands, and no letter of the one in the other.
@@ -275,15 +303,17 @@ TEST_F(WordsTest, ChineseAndJapanesePunctuateInFullWidth) {
   }
 }
 
-// Where words run to the left, a text that begins with a figure or a name says so, and what is read as one from
-// the left is isolated.
+// Where words run to the left, a text that begins with a figure or a name says so, and what is read as one
+// from the left is isolated.
 TEST_F(WordsTest, FiguresAndNamesDoNotTurnArabicAndHebrewRound) {
   for (const char* code : {"ar", "he"}) {
     for (const std::string& said : translations(code)) {
       EXPECT_EQ(std::isalnum(static_cast<unsigned char>(said.front())), 0) << said;
       EXPECT_EQ(count(said, "\u2066"), count(said, "\u2069")) << said;
       // The sign stands beside its number, as StaffFrame::number() writes both.
-      EXPECT_EQ(count(said, "{}%") + count(said, "{} %") + count(said, "{}\u00a0%"), count(said, "\u2066{}\u00a0%\u2069")) << said;
+      EXPECT_EQ(count(said, "{}%") + count(said, "{} %") + count(said, "{}\u00a0%"),
+                count(said, "\u2066{}\u00a0%\u2069"))
+          << said;
       for (std::size_t at = said.find('^'); at != std::string::npos; at = said.find('^', at + 1))
         EXPECT_GT(count(said.substr(0, at), "\u2066"), count(said.substr(0, at), "\u2069")) << said;
     }

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A touch panel for two fingers, made in the kernel by uinput as a USB panel's driver would (multitouch protocol B).
-// Unlike a panel of the virtual machine it can be had with more than one finger. Fingers do what the lines on standard
-// input say, in steps of the panel (0 to 32767 both ways):
+// A touch panel for two fingers, made in the kernel by uinput as a USB panel's driver would (multitouch
+// protocol B). Unlike a panel of the virtual machine it can be had with more than one finger. Fingers do what
+// the lines on standard input say, in steps of the panel (0 to 32767 both ways):
 //   down FINGER X Y    move FINGER X Y    up FINGER
-// The panel is unplugged when standard input ends. Exit code 1: no panel could be made, or a line made no sense.
+// The panel is unplugged when standard input ends. Exit code 1: no panel could be made, or a line made no
+// sense.
 #include <fcntl.h>
 #include <linux/uinput.h>
 #include <sys/ioctl.h>
@@ -34,7 +35,8 @@ class TouchPanel {
     may(UI_SET_KEYBIT, BTN_TOUCH);
     may(UI_SET_EVBIT, EV_ABS);
     may(UI_SET_PROPBIT, INPUT_PROP_DIRECT);  // what is touched is what is seen: a panel, no pad
-    for (const int axis : {ABS_X, ABS_Y, ABS_MT_POSITION_X, ABS_MT_POSITION_Y}) good = good && has_axis(axis, kSteps);
+    for (const int axis : {ABS_X, ABS_Y, ABS_MT_POSITION_X, ABS_MT_POSITION_Y})
+      good = good && has_axis(axis, kSteps);
     good = good && has_axis(ABS_MT_SLOT, kFingers - 1) && has_axis(ABS_MT_TRACKING_ID, 65535);
     uinput_setup setup{};
     setup.id.bustype = BUS_USB;
@@ -48,11 +50,15 @@ class TouchPanel {
   }
 
   bool down(int finger, int x, int y) {
-    return tell(EV_ABS, ABS_MT_SLOT, finger) && tell(EV_ABS, ABS_MT_TRACKING_ID, next_contact_++) && place(finger, x, y) && (fingers_++ > 0 || tell(EV_KEY, BTN_TOUCH, 1)) && done();
+    return tell(EV_ABS, ABS_MT_SLOT, finger) && tell(EV_ABS, ABS_MT_TRACKING_ID, next_contact_++) &&
+           place(finger, x, y) && (fingers_++ > 0 || tell(EV_KEY, BTN_TOUCH, 1)) && done();
   }
-  bool move(int finger, int x, int y) { return tell(EV_ABS, ABS_MT_SLOT, finger) && place(finger, x, y) && done(); }
+  bool move(int finger, int x, int y) {
+    return tell(EV_ABS, ABS_MT_SLOT, finger) && place(finger, x, y) && done();
+  }
   bool up(int finger) {
-    return tell(EV_ABS, ABS_MT_SLOT, finger) && tell(EV_ABS, ABS_MT_TRACKING_ID, -1) && (--fingers_ > 0 || tell(EV_KEY, BTN_TOUCH, 0)) && done();
+    return tell(EV_ABS, ABS_MT_SLOT, finger) && tell(EV_ABS, ABS_MT_TRACKING_ID, -1) &&
+           (--fingers_ > 0 || tell(EV_KEY, BTN_TOUCH, 0)) && done();
   }
 
  private:
@@ -70,7 +76,8 @@ class TouchPanel {
     return write(device_, &event, sizeof event) == sizeof event;
   }
   bool place(int finger, int x, int y) {
-    const bool alone = finger > 0 || (tell(EV_ABS, ABS_X, x) && tell(EV_ABS, ABS_Y, y));  // for who knows one finger only
+    const bool alone =
+        finger > 0 || (tell(EV_ABS, ABS_X, x) && tell(EV_ABS, ABS_Y, y));  // for who knows one finger only
     return alone && tell(EV_ABS, ABS_MT_POSITION_X, x) && tell(EV_ABS, ABS_MT_POSITION_Y, y);
   }
   bool done() { return tell(EV_SYN, SYN_REPORT, 0); }

@@ -10,36 +10,49 @@
 namespace relievo::ui {
 
 enum class BenchAct : std::uint8_t {
-  None,          // the page was opened
-  Capture,       // a new test capture, and all stages of it
-  Run,           // again, with the algorithms as they are chosen now: from the first stage they change (0), or at the latest from stage 1 .. 4
+  None,     // the page was opened
+  Capture,  // a new test capture, and all stages of it
+  Run,  // again, with the algorithms as they are chosen now: from the first stage they change (0), or at the
+        // latest from stage 1 .. 4
   Stop,
-  ShowStage,     // BenchStage
-  Point,         // touched in the left picture: x << 12 | y, 4096ths of the picture
-  PointRight,    // in the right one
-  ByHand,        // the next two touches are a match by hand; again: no longer
-  ChooseKind,    // index into kinds
-  ChooseName,    // index into the chosen kind's names: chosen, or for rules switched
-  EditOption,    // index into options
-  TypeDigit,     // '0' to '9', '.', '-', 'e'
-  EraseDigit, UseTyped, UseDefault, LeaveOption,
-  ResetSet,      // every choice as it is by default
-  ApplySet,      // visitors are measured with these from now on
-  KeepResult,    // the present result is put aside, to be compared with the next
-  ShowTable,     // BenchTable
-  TurnPage,      // by so many pages
+  ShowStage,   // BenchStage
+  Point,       // touched in the left picture: x << 12 | y, 4096ths of the picture
+  PointRight,  // in the right one
+  ByHand,      // the next two touches are a match by hand; again: no longer
+  ChooseKind,  // index into kinds
+  ChooseName,  // index into the chosen kind's names: chosen, or for rules switched
+  EditOption,  // index into options
+  TypeDigit,   // '0' to '9', '.', '-', 'e'
+  EraseDigit,
+  UseTyped,
+  UseDefault,
+  LeaveOption,
+  ResetSet,    // every choice as it is by default
+  ApplySet,    // visitors are measured with these from now on
+  KeepResult,  // the present result is put aside, to be compared with the next
+  ShowTable,   // BenchTable
+  TurnPage,    // by so many pages
   WatchCameras,
-  ShowRelief,    // beside the left picture, in place of the right one; again: no longer
-  BrighterShot, DarkerShot,
-  BeginCalibration, StopCalibration, CancelCalibration, StoreCalibration,
-  Columns, Rows, Square, Charuco,  // of the board: one more or less; a tenth of a millimetre times the value; other kind
-  Activate,                        // a stored calibration: its row
-  ExportCalibration,               // the one in use, to the stick
-  ImportCalibration,               // from the stick: stored, and in use
-  Record, StopRecording,           // the test capture, on the stick
-  Save,                            // all of the reconstruction, on the stick
-  ListSaved, LeaveSaved,           // those that are on it
-  Load                             // one of them: its row; what was captured goes when it is read
+  ShowRelief,  // beside the left picture, in place of the right one; again: no longer
+  BrighterShot,
+  DarkerShot,
+  BeginCalibration,
+  StopCalibration,
+  CancelCalibration,
+  StoreCalibration,
+  Columns,
+  Rows,
+  Square,
+  Charuco,            // of the board: one more or less; a tenth of a millimetre times the value; other kind
+  Activate,           // a stored calibration: its row
+  ExportCalibration,  // the one in use, to the stick
+  ImportCalibration,  // from the stick: stored, and in use
+  Record,
+  StopRecording,  // the test capture, on the stick
+  Save,           // all of the reconstruction, on the stick
+  ListSaved,
+  LeaveSaved,  // those that are on it
+  Load         // one of them: its row; what was captured goes when it is read
 };
 
 // What a wish of the staff's side (ui/service.h) says, once it has come to the workbench.

@@ -18,20 +18,20 @@ namespace relievo::ui {
 
 struct BenchCamera {
   BenchPicture picture;
-  float mean = 0, clipped = 0;            // of the middle: 1 is white; the share that is burnt out
-  float focus = 0;                        // how sharp the middle is against the sharpest seen since the watch began
+  float mean = 0, clipped = 0;  // of the middle: 1 is white; the share that is burnt out
+  float focus = 0;              // how sharp the middle is against the sharpest seen since the watch began
   std::uint64_t frames = 0, lost = 0, damaged = 0;
 };
 struct BenchCameras {
   bool watched = false;
-  std::array<BenchCamera, 2> camera;      // left, right
+  std::array<BenchCamera, 2> camera;  // left, right
   float skew_us = 0, pairs_per_second = 0;
   std::uint64_t pairs = 0, apart = 0;
-  float exposure_us = 0, gain = 0;        // as asked for last
+  float exposure_us = 0, gain = 0;  // as asked for last
   bool can_be_set = false;
   bool relief_shown = false;
-  BenchPicture relief;                    // near is bright, black is unknown
-  std::string_view problem;               // why there is no relief
+  BenchPicture relief;       // near is bright, black is unknown
+  std::string_view problem;  // why there is no relief
 };
 
 inline constexpr std::size_t kCalibrationRows = 6, kCoverageCells = 8;
@@ -39,12 +39,30 @@ struct BenchCalibrationRow {
   std::uint32_t revision = 0;
   bool active = false;
   std::string_view made_at, note;
-  float rms_px = 0, depth_error_mm = 0;   // 0: not known
+  float rms_px = 0, depth_error_mm = 0;  // 0: not known
 };
 // As in pipeline/calibrate/live/live_advice.h, one for one. Sides are those of the left camera's picture.
 enum class BoardAdvice : std::uint8_t {
-  ShowBoard, LeftCameraMissesIt, RightCameraMissesIt, HoldStill, TooBlurred, Closer, Farther, Left, Right, Up, Down, TiltLeft, TiltRight,
-  TiltForward, TiltBack, TurnClockwise, TurnCounterclockwise, AlreadyHave, SwappedCameras, Done
+  ShowBoard,
+  LeftCameraMissesIt,
+  RightCameraMissesIt,
+  HoldStill,
+  TooBlurred,
+  Closer,
+  Farther,
+  Left,
+  Right,
+  Up,
+  Down,
+  TiltLeft,
+  TiltRight,
+  TiltForward,
+  TiltBack,
+  TurnClockwise,
+  TurnCounterclockwise,
+  AlreadyHave,
+  SwappedCameras,
+  Done
 };
 enum class BoardEnd : std::uint8_t { NotYet, GoalReached, Plateau, Full };
 enum class BenchVerdict : std::uint8_t { None, Good, Warn, Refuse };
@@ -53,19 +71,21 @@ struct BenchCalibration {
   float square_mm = 20;
   bool charuco = false;
   bool running = false, ended = false, stored = false;
-  std::array<BenchPicture, 2> pictures;   // with the corners and the wanted board drawn in
+  std::array<BenchPicture, 2> pictures;  // with the corners and the wanted board drawn in
   BoardAdvice advice = BoardAdvice::ShowBoard;
   BoardEnd end = BoardEnd::NotYet;
   bool a_little = false;
   int pairs = 0, views = 0, disagreeing = 0;
-  std::array<float, 4> bars{};            // across, down, size, tilt: 0 to 1
-  std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2> seen{};  // corners in each part of the pictures, row by row
-  float error_mm = 0, goal_mm = 0;        // predicted, of distances, one standard deviation
+  std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
+  std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>
+      seen{};                       // corners in each part of the pictures, row by row
+  float error_mm = 0, goal_mm = 0;  // predicted, of distances, one standard deviation
   BenchVerdict verdict = BenchVerdict::None;
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
-  std::span<const std::string> reasons;   // why it is good, doubted or refused, most important first: packed (hal/base/sentence.h)
-  std::string_view exported;              // the folder on the stick; empty: none was
-  std::string_view problem;               // what went wrong: packed
+  std::span<const std::string>
+      reasons;  // why it is good, doubted or refused, most important first: packed (hal/base/sentence.h)
+  std::string_view exported;  // the folder on the stick; empty: none was
+  std::string_view problem;   // what went wrong: packed
   std::array<BenchCalibrationRow, kCalibrationRows> history{};
   std::size_t history_count = 0;
 };

@@ -30,20 +30,20 @@ struct BenchOption {
 struct BenchChoice {
   std::span<const BenchKind> kinds;
   std::size_t kind = 0;
-  std::span<const BenchName> names;       // of the kind
-  std::span<const BenchOption> options;   // of the kind's chosen algorithms
-  const BenchOption* edited = nullptr;    // one of them
-  std::string_view typed, refused;        // what was typed, and why it was not taken
-  bool changed = false;                   // since the last run
+  std::span<const BenchName> names;      // of the kind
+  std::span<const BenchOption> options;  // of the kind's chosen algorithms
+  const BenchOption* edited = nullptr;   // one of them
+  std::string_view typed, refused;       // what was typed, and why it was not taken
+  bool changed = false;                  // since the last run
 };
 
 inline constexpr std::size_t kTableColumns = 8;
 struct BenchRows {
   BenchTable table = BenchTable::Matches;
-  std::span<const std::string_view> heads;    // symbols and units
-  std::span<const std::string_view> cells;    // row by row
+  std::span<const std::string_view> heads;  // symbols and units
+  std::span<const std::string_view> cells;  // row by row
   std::size_t page = 0, pages = 0;
-  std::uint64_t rows = 0;                     // of the whole table
+  std::uint64_t rows = 0;  // of the whole table
 };
 
 }  // namespace relievo::ui

@@ -15,14 +15,24 @@
 
 namespace relievo::ui {
 
-enum class BenchStage : std::uint8_t { Input, Processed, Rectified, Matches, Disparity, Cloud, Mesh, Texture, Count };
+enum class BenchStage : std::uint8_t {
+  Input,
+  Processed,
+  Rectified,
+  Matches,
+  Disparity,
+  Cloud,
+  Mesh,
+  Texture,
+  Count
+};
 inline constexpr std::size_t kBenchStages = static_cast<std::size_t>(BenchStage::Count);
 enum class BenchTable : std::uint8_t { Matches, Points, Model, Calibration, Count };
 inline constexpr std::size_t kBenchTables = static_cast<std::size_t>(BenchTable::Count);
 enum class BenchPhase : std::uint8_t { Empty, Capturing, Running, Ready, Failed };
 
 struct BenchPicture {
-  ImageView pixels;          // Rgb8; empty: there is none
+  ImageView pixels;  // Rgb8; empty: there is none
   std::uint32_t version = 0;
 };
 
@@ -36,28 +46,28 @@ struct BenchRule {
 // What a set of algorithms made of the capture.
 struct BenchResult {
   bool there = false;
-  std::string_view algorithms;                  // what differs from the default, one "key = value" a line
-  std::string_view failure;                     // of a stage, packed (hal/base/sentence.h); empty: all four are done
-  std::size_t failed_at = 0;                    // Match, Reconstruct, Mesh, Texture
-  std::array<float, 4> seconds{};               // Match, Reconstruct, Mesh, Texture
-  std::array<std::uint64_t, 4> made{};          // accepted matches, points, triangles, texels
+  std::string_view algorithms;          // what differs from the default, one "key = value" a line
+  std::string_view failure;             // of a stage, packed (hal/base/sentence.h); empty: all four are done
+  std::size_t failed_at = 0;            // Match, Reconstruct, Mesh, Texture
+  std::array<float, 4> seconds{};       // Match, Reconstruct, Mesh, Texture
+  std::array<std::uint64_t, 4> made{};  // accepted matches, points, triangles, texels
   float arena_peak_mib = 0;
   std::uint64_t matches = 0, accepted = 0;
   std::array<BenchRule, kBenchRules> rules{};
   std::size_t rule_count = 0;
-  float median_sigma_mm = 0, coverage = 0;      // 0: no model
-  float epipolar_px = -1;                       // rms disagreement of the rows; below 0: not measured
-  float photo_correlation = -2;                 // of the right view predicted through the model; below -1: not measured
+  float median_sigma_mm = 0, coverage = 0;  // 0: no model
+  float epipolar_px = -1;                   // rms disagreement of the rows; below 0: not measured
+  float photo_correlation = -2;  // of the right view predicted through the model; below -1: not measured
 };
 
 // A place that was touched, and its partner.
 struct BenchPoint {
   bool touched = false, matched = false, by_hand = false;
-  bool waits_for_right = false;                 // the left point of a match by hand is set
+  bool waits_for_right = false;  // the left point of a match by hand is set
   pipeline::Vec2f left_px, right_px;
-  float left_x = 0, right_x = 0, y = 0;         // shares of the pictures
+  float left_x = 0, right_x = 0, y = 0;  // shares of the pictures
   float disparity_px = 0, sigma_px = 0, cost = 0;
-  std::string_view rejected_by;                 // the rule; empty: accepted
+  std::string_view rejected_by;  // the rule; empty: accepted
   pipeline::Vec3f at_mm;
   float sigma_mm = 0;
 };

@@ -26,34 +26,35 @@ enum class BenchPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare
 // The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
 struct BenchRecording {
   bool running = false;
-  bool reading = false;                   // what runs
+  bool reading = false;  // what runs
   float progress = 0;
   Outcome outcome = Outcome::None;
-  std::string_view where;                 // the folder on the stick; empty: nothing is there
+  std::string_view where;  // the folder on the stick; empty: nothing is there
 };
 
 inline constexpr std::size_t kSavedRows = 6;
 struct BenchSaved {
-  bool listed = false;                    // shown in place of the capture
-  std::span<const std::string> names;     // the newest first, kSavedRows at most
+  bool listed = false;                 // shown in place of the capture
+  std::span<const std::string> names;  // the newest first, kSavedRows at most
 };
 
 struct BenchView {
   BenchPhase phase = BenchPhase::Empty;
-  bool calibrated = true;                 // without a calibration there is no test capture, unless it was loaded with its own
+  bool calibrated =
+      true;  // without a calibration there is no test capture, unless it was loaded with its own
   float progress = 0;
-  std::uint8_t working_on = 0;            // while phase is Running: Match, Reconstruct, Mesh, Texture
-  std::string_view problem;               // packed (hal/base/sentence.h)
+  std::uint8_t working_on = 0;  // while phase is Running: Match, Reconstruct, Mesh, Texture
+  std::string_view problem;     // packed (hal/base/sentence.h)
   BenchStage stage = BenchStage::Rectified;
-  std::array<BenchPicture, 2> shown{};    // of the stage; the second is empty where there is one only
-  std::array<BenchPicture, 2> compared{}; // the same stage of the result put aside, and of the present one
+  std::array<BenchPicture, 2> shown{};     // of the stage; the second is empty where there is one only
+  std::array<BenchPicture, 2> compared{};  // the same stage of the result put aside, and of the present one
   BenchPoint point;
-  bool by_hand = false;                   // touches make a match
-  bool can_record = false;                // there is a capture, and nobody is at work on it
+  bool by_hand = false;     // touches make a match
+  bool can_record = false;  // there is a capture, and nobody is at work on it
   BenchRecording recording;
   BenchSaved saved;
-  BenchResult result, kept;               // the present one, and the one put aside
-  bool applied = false;                   // visitors are measured with the chosen algorithms now
+  BenchResult result, kept;  // the present one, and the one put aside
+  bool applied = false;      // visitors are measured with the chosen algorithms now
   const pipeline::FaceModel* model = nullptr;
   const pipeline::PointCloud* cloud = nullptr;
   std::uint32_t model_number = 0;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Settings: what the staff may choose about the device, as plain data. Each setting is a row of one table: its key on the
-// disk, the values it can have, who may choose it. A value that is none of them cannot be set, so whoever reads one need
-// not check it. Everything holds at once; how a visit begins (language, text, contrast) holds from the next visit on.
-// Thread: any, as plain data. Errors: set() says false.
+// Settings: what the staff may choose about the device, as plain data. Each setting is a row of one table:
+// its key on the disk, the values it can have, who may choose it. A value that is none of them cannot be set,
+// so whoever reads one need not check it. Everything holds at once; how a visit begins (language, text,
+// contrast) holds from the next visit on. Thread: any, as plain data. Errors: set() says false.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@
 namespace relievo::ui {
 
 enum class Setting : std::uint8_t {
-  Language,        // a Language: in which a visit begins
-  TextPercent, Contrast,
+  Language,  // a Language: in which a visit begins
+  TextPercent,
+  Contrast,
   PatienceS,       // without a touch, until a visitor is asked whether they are there
   Automatic,       // the picture is taken by itself
   CountdownMs,     // before it is
@@ -56,8 +57,8 @@ class Settings {
 inline constexpr std::uint8_t kSettingLess = 1, kSettingMore = 2;
 
 struct SettingsView {
-  Settings settings;               // as they will be: what is being saved is shown already
-  bool clock_jumped = false;       // nothing is erased by age until KeepDays is chosen anew
+  Settings settings;          // as they will be: what is being saved is shown already
+  bool clock_jumped = false;  // nothing is erased by age until KeepDays is chosen anew
 };
 
 }  // namespace relievo::ui

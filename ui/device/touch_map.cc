@@ -10,7 +10,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr double kLeastScale = 0.25, kMostScale = 4;   // of picture to panel, along either axis
+constexpr double kLeastScale = 0.25, kMostScale = 4;  // of picture to panel, along either axis
 
 using Row = std::array<double, 3>;
 
@@ -24,7 +24,8 @@ struct Normal {
 };
 
 double det(const std::array<Row, 3>& a) {
-  return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+  return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+         a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
          a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
@@ -42,7 +43,8 @@ Row solve(const Normal& normal, const Row& right, double determinant) {
 bool is_plausible(const std::array<double, 6>& m) {
   const double a = m[0] * m[0] + m[3] * m[3], d = m[1] * m[1] + m[4] * m[4], b = m[0] * m[1] + m[3] * m[4];
   const double middle = (a + d) / 2, spread = std::sqrt((a - d) * (a - d) / 4 + b * b);
-  return std::isfinite(middle + spread) && middle - spread > kLeastScale * kLeastScale && middle + spread < kMostScale * kMostScale;
+  return std::isfinite(middle + spread) && middle - spread > kLeastScale * kLeastScale &&
+         middle + spread < kMostScale * kMostScale;
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
     }
   }
   const double determinant = det(normal.a);
-  if (determinant < 1e-4) return Error{Errc::InvalidInput, "the touches lie too close together, or on one line: touch the crosses"};
+  if (determinant < 1e-4)
+    return Error{Errc::InvalidInput, "the touches lie too close together, or on one line: touch the crosses"};
   const Row x = solve(normal, right_x, determinant), y = solve(normal, right_y, determinant);
   TouchFit fit;
   fit.map.m = {x[0], x[1], x[2], y[0], y[1], y[2]};
@@ -73,13 +76,15 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
   double squares = 0;
   for (const TouchedCross& one : crosses) {
     const TouchPoint at = fit.map(one.touched);
-    squares += std::pow(static_cast<double>(at.x - one.cross.x), 2) + std::pow(static_cast<double>(at.y - one.cross.y), 2);
+    squares += std::pow(static_cast<double>(at.x - one.cross.x), 2) +
+               std::pow(static_cast<double>(at.y - one.cross.y), 2);
   }
   fit.off = std::sqrt(squares / static_cast<double>(crosses.size()));
   fit.mirrored = x[0] * y[1] - x[1] * y[0] < 0;
   const double sign = fit.mirrored ? -1 : 1;
   fit.turned_deg = std::atan2(y[0] - sign * x[1], x[0] + sign * y[1]) * 180 / std::numbers::pi;
-  if (fit.off > kMostTouchOff) return Error{Errc::InvalidInput, "the touches do not fit together: one of them was beside its cross"};
+  if (fit.off > kMostTouchOff)
+    return Error{Errc::InvalidInput, "the touches do not fit together: one of them was beside its cross"};
   return fit;
 }
 
@@ -99,7 +104,9 @@ Result<TouchMap> parse_touch_map(std::string_view text) {
   TouchMap map;
   in >> version;
   for (double& part : map.m) in >> part;
-  if (!in || version != "1" || (in >> rest) || !is_plausible(map.m)) return Error{Errc::InvalidInput, "the touch screen's correction cannot be read: the panel is taken as it is"};
+  if (!in || version != "1" || (in >> rest) || !is_plausible(map.m))
+    return Error{Errc::InvalidInput,
+                 "the touch screen's correction cannot be read: the panel is taken as it is"};
   return map;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TouchMap: where on the picture a finger is, from where the panel says it is: an affine map, for panels that are mounted
-// turned, mirrored, or a little off. fit_touch_map() finds it by least squares from crosses that were touched.
-// Units: shares of the screen's width and height, so that it holds for every resolution. Angles: degrees, clockwise as
-// seen. Thread: any. Errors of fit_touch_map(): InvalidInput (fewer than three crosses, touches on one line, a touch far
-// off, a scale no panel has); parse: InvalidInput.
+// TouchMap: where on the picture a finger is, from where the panel says it is: an affine map, for panels that
+// are mounted turned, mirrored, or a little off. fit_touch_map() finds it by least squares from crosses that
+// were touched. Units: shares of the screen's width and height, so that it holds for every resolution.
+// Angles: degrees, clockwise as seen. Thread: any. Errors of fit_touch_map(): InvalidInput (fewer than three
+// crosses, touches on one line, a touch far off, a scale no panel has); parse: InvalidInput.
 #pragma once
 
 #include <array>
@@ -32,14 +32,15 @@ struct TouchMap {
   bool operator==(const TouchMap&) const = default;
 };
 
-// What a person reads of one; `off` is the root mean square of what is left at the crosses, in shares of the screen.
+// What a person reads of one; `off` is the root mean square of what is left at the crosses, in shares of the
+// screen.
 struct TouchFit {
   TouchMap map;
   double off = 0;
-  double turned_deg = 0;   // of the panel against the picture, -180 to 180
+  double turned_deg = 0;  // of the panel against the picture, -180 to 180
   bool mirrored = false;
 };
-inline constexpr double kMostTouchOff = 0.02;   // a fingertip's unsteadiness, twice
+inline constexpr double kMostTouchOff = 0.02;  // a fingertip's unsteadiness, twice
 
 Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses);
 std::string text_of(const TouchMap& map);

@@ -16,7 +16,8 @@ void Visit::look_as_set() {
 }
 
 bool Visit::looks_as_set() const {
-  return language == home_ && text_percent() == settings_.of(Setting::TextPercent) && high_contrast == settings_.is_on(Setting::Contrast);
+  return language == home_ && text_percent() == settings_.of(Setting::TextPercent) &&
+         high_contrast == settings_.is_on(Setting::Contrast);
 }
 
 // What the staff has chosen is seen at once where nobody's visit has begun.

@@ -22,8 +22,9 @@ constexpr std::array<LanguageInfo, kLanguages> kInfo{{
     {"zh-Hans", "简体中文", false, '.'},
     {"ja", "日本語", false, '.'},
 }};
-constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-fr", "relievo-es",
-                                                       "relievo-ar", "relievo-he", "relievo-zh", "relievo-ja"};
+constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-fr",
+                                                       "relievo-es", "relievo-ar", "relievo-he",
+                                                       "relievo-zh", "relievo-ja"};
 
 const char* domain_of(Language language) { return kDomains[static_cast<std::size_t>(language)]; }
 
@@ -40,8 +41,11 @@ Result<void> prepare_languages() {
   const std::string folder = named != nullptr ? named : RELIEVO_LOCALE_DIR;
   for (const char* domain : kDomains) {
     if (domain == domain_of(Language::English)) continue;
-    if (!std::filesystem::exists(std::filesystem::path(folder) / "C.UTF-8" / "LC_MESSAGES" / (std::string(domain) + ".mo")))
-      return Error{Errc::NotFound, "has no words in other languages: install Relievo whole, or set RELIEVO_LOCALE_DIR"}.at(folder);
+    if (!std::filesystem::exists(std::filesystem::path(folder) / "C.UTF-8" / "LC_MESSAGES" /
+                                 (std::string(domain) + ".mo")))
+      return Error{Errc::NotFound,
+                   "has no words in other languages: install Relievo whole, or set RELIEVO_LOCALE_DIR"}
+          .at(folder);
     bindtextdomain(domain, folder.c_str());
     bind_textdomain_codeset(domain, "UTF-8");
   }
@@ -57,6 +61,8 @@ const char* Words::plural(const char* one, const char* many, unsigned long numbe
   return dngettext(domain_of(language_), one, many, number);
 }
 
-bool Words::knows(const char* english) const { return language_ == Language::English || (*this)(english) != english; }
+bool Words::knows(const char* english) const {
+  return language_ == Language::English || (*this)(english) != english;
+}
 
 }  // namespace relievo::ui

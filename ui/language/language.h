@@ -15,12 +15,22 @@
 
 namespace relievo::ui {
 
-enum class Language : std::uint8_t { English, German, French, Spanish, Arabic, Hebrew, Chinese, Japanese, Count };
+enum class Language : std::uint8_t {
+  English,
+  German,
+  French,
+  Spanish,
+  Arabic,
+  Hebrew,
+  Chinese,
+  Japanese,
+  Count
+};
 inline constexpr std::size_t kLanguages = static_cast<std::size_t>(Language::Count);
 
 struct LanguageInfo {
-  const char* code;       // BCP 47
-  const char* own_name;   // as its speakers write it
+  const char* code;      // BCP 47
+  const char* own_name;  // as its speakers write it
   bool right_to_left;
   char decimal_mark;
 };

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What begins with "card" there: the graphics devices in one place, their sockets in the other. In order of their names.
+// What begins with "card" there: the graphics devices in one place, their sockets in the other. In order of
+// their names.
 std::vector<fs::path> cards_in(const fs::path& folder) {
   std::vector<fs::path> cards;
   std::error_code error;
@@ -36,14 +37,25 @@ std::string status_of(const fs::path& socket) {
 std::optional<Error> why_no_screen(const ScreenPlaces& places) {
   const std::vector<fs::path> cards = cards_in(places.devices);
   if (cards.empty())
-    return Error{Errc::NotFound, "there is no graphics device: is its driver in the kernel (dmesg | grep drm)? Where nobody looks, SDL_VIDEODRIVER=offscreen"}.at(places.devices.native());
+    return Error{
+        Errc::NotFound,
+        "there is no graphics device: is its driver in the kernel (dmesg | grep drm)? Where nobody looks, SDL_VIDEODRIVER=offscreen"}
+        .at(places.devices.native());
   const auto usable = [](const fs::path& card) { return access(card.c_str(), R_OK | W_OK) == 0; };
   if (std::none_of(cards.begin(), cards.end(), usable))
-    return Error{Errc::IoFailed, "this user may not use the screen: put the user into the groups video, render and input, and log in again"}.at(cards.front().native());
+    return Error{
+        Errc::IoFailed,
+        "this user may not use the screen: put the user into the groups video, render and input, and log in again"}
+        .at(cards.front().native());
   std::vector<fs::path> sockets = cards_in(places.monitors);
   std::erase_if(sockets, [](const fs::path& socket) { return status_of(socket).empty(); });
-  if (!sockets.empty() && std::none_of(sockets.begin(), sockets.end(), [](const fs::path& socket) { return status_of(socket) != "disconnected"; }))
-    return Error{Errc::NotFound, "no monitor is plugged in: check its cable and its power, or force one with video= on the kernel's command line"}.at(sockets.front().native());
+  if (!sockets.empty() && std::none_of(sockets.begin(), sockets.end(), [](const fs::path& socket) {
+        return status_of(socket) != "disconnected";
+      }))
+    return Error{
+        Errc::NotFound,
+        "no monitor is plugged in: check its cable and its power, or force one with video= on the kernel's command line"}
+        .at(sockets.front().native());
   return std::nullopt;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Why no whole screen could be opened, in words of what to do: SDL says "no available video device" of a driver that is
-// missing, of a file this user may not open, and of a monitor that is not plugged in.
-// Thread: any. Errors: none.
+// Why no whole screen could be opened, in words of what to do: SDL says "no available video device" of a
+// driver that is missing, of a file this user may not open, and of a monitor that is not plugged in. Thread:
+// any. Errors: none.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 namespace relievo::ui {
 
 struct ScreenPlaces {
-  std::filesystem::path devices = "/dev/dri";        // card0, card1, ... : what draws
-  std::filesystem::path monitors = "/sys/class/drm"; // card0-HDMI-A-1/status ...: what shows it
+  std::filesystem::path devices = "/dev/dri";         // card0, card1, ... : what draws
+  std::filesystem::path monitors = "/sys/class/drm";  // card0-HDMI-A-1/status ...: what shows it
 };
 
 // None: cards can be opened and a monitor is there, it is something else.

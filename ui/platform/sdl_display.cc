@@ -23,20 +23,23 @@ class SdlDisplay final : public Display {
   Result<void> open(const DisplayOptions& options) {
     SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // a finger is a finger, a mouse a mouse
     SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
-    // Without a desktop SDL need not look for one. Its signal handlers stay: they give the console's keyboard back when we
-    // crash. Signals that ask us to end are the firmware's, which takes them afterwards.
+    // Without a desktop SDL need not look for one. Its signal handlers stay: they give the console's keyboard
+    // back when we crash. Signals that ask us to end are the firmware's, which takes them afterwards.
     if (without_desktop()) SDL_SetHint(SDL_HINT_VIDEODRIVER, "kmsdrm");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return failed();
-    SDL_ShowCursor(SDL_DISABLE);  // KMS shows an arrow from the start where a mouse could be; ours comes when one moves
+    SDL_ShowCursor(
+        SDL_DISABLE);  // KMS shows an arrow from the start where a mouse could be; ours comes when one moves
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
-    for (const SDL_GLattr channel : {SDL_GL_RED_SIZE, SDL_GL_GREEN_SIZE, SDL_GL_BLUE_SIZE}) SDL_GL_SetAttribute(channel, 8);
+    for (const SDL_GLattr channel : {SDL_GL_RED_SIZE, SDL_GL_GREEN_SIZE, SDL_GL_BLUE_SIZE})
+      SDL_GL_SetAttribute(channel, 8);
     SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
     const bool whole = options.width_px <= 0 || options.height_px <= 0;
     Uint32 flags = SDL_WINDOW_OPENGL;
     if (whole) flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
-    window_ = SDL_CreateWindow("Relievo", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, whole ? 1280 : options.width_px, whole ? 800 : options.height_px, flags);
+    window_ = SDL_CreateWindow("Relievo", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                               whole ? 1280 : options.width_px, whole ? 800 : options.height_px, flags);
     if (window_ == nullptr) return failed();
     context_ = SDL_GL_CreateContext(window_);
     if (context_ == nullptr) return failed();
@@ -51,7 +54,9 @@ class SdlDisplay final : public Display {
   void push(const Input& finger) override {
     const auto [w, h] = size();
     SDL_Event event{};
-    event.type = finger.kind == Input::Kind::Down ? SDL_FINGERDOWN : finger.kind == Input::Kind::Up ? SDL_FINGERUP : SDL_FINGERMOTION;
+    event.type = finger.kind == Input::Kind::Down ? SDL_FINGERDOWN
+                 : finger.kind == Input::Kind::Up ? SDL_FINGERUP
+                                                  : SDL_FINGERMOTION;
     event.tfinger.fingerId = finger.finger;
     event.tfinger.x = finger.x / static_cast<float>(w);
     event.tfinger.y = finger.y / static_cast<float>(h);
@@ -78,7 +83,9 @@ class SdlDisplay final : public Display {
     if (without_desktop()) {
       if (auto why = why_no_screen()) return *why;
     }
-    return Error{Errc::LibraryFailed, "no screen can be opened: check SDL_VIDEODRIVER and the graphics driver"}.at(SDL_GetError());
+    return Error{Errc::LibraryFailed,
+                 "no screen can be opened: check SDL_VIDEODRIVER and the graphics driver"}
+        .at(SDL_GetError());
   }
 
   std::pair<int, int> size() const {
@@ -95,42 +102,56 @@ class SdlDisplay final : public Display {
 
   static std::optional<Input> key(const SDL_KeyboardEvent& key) {
     switch (key.keysym.sym) {
-      case SDLK_TAB: return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
+      case SDLK_TAB:
+        return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
       case SDLK_RIGHT:
-      case SDLK_DOWN: return Input{Input::Kind::Next};
+      case SDLK_DOWN:
+        return Input{Input::Kind::Next};
       case SDLK_LEFT:
-      case SDLK_UP: return Input{Input::Kind::Previous};
+      case SDLK_UP:
+        return Input{Input::Kind::Previous};
       case SDLK_RETURN:
       case SDLK_KP_ENTER:
       case SDLK_SPACE:
         if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
         return Input{Input::Kind::Activate};
       case SDLK_ESCAPE:
-      case SDLK_AC_BACK: return Input{Input::Kind::Back};
-      default: return std::nullopt;
+      case SDLK_AC_BACK:
+        return Input{Input::Kind::Back};
+      default:
+        return std::nullopt;
     }
   }
 
   std::optional<Input> input_of(const SDL_Event& event) {
     switch (event.type) {
-      case SDL_QUIT: return Input{Input::Kind::Quit};
-      case SDL_FINGERDOWN: return finger(Input::Kind::Down, event.tfinger);
-      case SDL_FINGERMOTION: return finger(Input::Kind::Move, event.tfinger);
-      case SDL_FINGERUP: return finger(Input::Kind::Up, event.tfinger);
-      case SDL_KEYDOWN: return key(event.key);
+      case SDL_QUIT:
+        return Input{Input::Kind::Quit};
+      case SDL_FINGERDOWN:
+        return finger(Input::Kind::Down, event.tfinger);
+      case SDL_FINGERMOTION:
+        return finger(Input::Kind::Move, event.tfinger);
+      case SDL_FINGERUP:
+        return finger(Input::Kind::Up, event.tfinger);
+      case SDL_KEYDOWN:
+        return key(event.key);
       case SDL_MOUSEBUTTONDOWN:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
         held_ = true;
-        return Input{Input::Kind::Down, kMouse, static_cast<float>(event.button.x), static_cast<float>(event.button.y)};
+        return Input{Input::Kind::Down, kMouse, static_cast<float>(event.button.x),
+                     static_cast<float>(event.button.y)};
       case SDL_MOUSEBUTTONUP:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
         held_ = false;
-        return Input{Input::Kind::Up, kMouse, static_cast<float>(event.button.x), static_cast<float>(event.button.y)};
+        return Input{Input::Kind::Up, kMouse, static_cast<float>(event.button.x),
+                     static_cast<float>(event.button.y)};
       case SDL_MOUSEMOTION:
         SDL_ShowCursor(SDL_ENABLE);
         if (!held_) return std::nullopt;
-        return Input{Input::Kind::Move, kMouse, static_cast<float>(event.motion.x), static_cast<float>(event.motion.y)};
-      default: return std::nullopt;
+        return Input{Input::Kind::Move, kMouse, static_cast<float>(event.motion.x),
+                     static_cast<float>(event.motion.y)};
+      default:
+        return std::nullopt;
     }
   }
 

@@ -30,46 +30,63 @@ struct Rect {
   float x = 0, y = 0, w = 0, h = 0;
   constexpr float right() const { return x + w; }
   constexpr float bottom() const { return y + h; }
-  constexpr bool holds(float px, float py) const { return px >= x && py >= y && px < right() && py < bottom(); }
+  constexpr bool holds(float px, float py) const {
+    return px >= x && py >= y && px < right() && py < bottom();
+  }
   bool operator==(const Rect&) const = default;
 };
 
 enum class Mark : std::uint8_t {
-  Flat,    // a rectangle, from `fill` at the top to `fill_end` at the bottom
-  Shape,   // rounded, with a border; blurred it is a shadow
-  Glyph,   // a part of the text atlas, in `fill`
-  Image,   // a picture with round corners
-  Ring,    // an ellipse's line in `border`, `share` of it from the top clockwise; `fill` outside it.
-           // The ellipse lies in the middle of the rect; uv.x and uv.y are its half axes, pixels
-  Face     // the model, in three dimensions
+  Flat,   // a rectangle, from `fill` at the top to `fill_end` at the bottom
+  Shape,  // rounded, with a border; blurred it is a shadow
+  Glyph,  // a part of the text atlas, in `fill`
+  Image,  // a picture with round corners
+  Ring,   // an ellipse's line in `border`, `share` of it from the top clockwise; `fill` outside it.
+          // The ellipse lies in the middle of the rect; uv.x and uv.y are its half axes, pixels
+  Face    // the model, in three dimensions
 };
 
 // Pictures that change while they are shown; `version` tells the renderer when.
-enum class PictureSlot : std::uint8_t { None, Live, Matches, Cloud, Mesh, Texture, Attract, BenchLeft, BenchRight, Count };
+enum class PictureSlot : std::uint8_t {
+  None,
+  Live,
+  Matches,
+  Cloud,
+  Mesh,
+  Texture,
+  Attract,
+  BenchLeft,
+  BenchRight,
+  Count
+};
 inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlot::Count);
 struct Picture {
-  ImageView pixels;         // Rgb8 or Grey8, rows without padding
+  ImageView pixels;           // Rgb8 or Grey8, rows without padding
   std::uint32_t version = 0;  // 0: there is none
-  bool operator==(const Picture& other) const { return version == other.version && pixels.bytes == other.pixels.bytes; }
+  bool operator==(const Picture& other) const {
+    return version == other.version && pixels.bytes == other.pixels.bytes;
+  }
 };
 
 // How the model is looked at.
 struct FaceLook {
   float yaw_deg = 0, pitch_deg = 0;
   float zoom = 1;
-  float light_deg = -35;    // where the light stands, from the left
+  float light_deg = -35;  // where the light stands, from the left
   bool textured = true;
-  bool fill = true, lit = true;        // the surface itself; shaded by the light
-  bool edges = false, points = false;  // the triangles' sides, as fine as the screen shows (edge_level.h); the measured points
-  bool backdrop = false;               // what the photograph showed around it stands behind, and its rim fades into that
+  bool fill = true, lit = true;  // the surface itself; shaded by the light
+  bool edges = false,
+       points =
+           false;  // the triangles' sides, as fine as the screen shows (edge_level.h); the measured points
+  bool backdrop = false;  // what the photograph showed around it stands behind, and its rim fades into that
   bool operator==(const FaceLook&) const = default;
 };
 
 struct Command {
   Mark mark = Mark::Flat;
   Rect rect;
-  Rect clip;                // nothing is drawn outside
-  Rect uv{0, 0, 1, 1};      // of the picture, 0 to 1; of the atlas, texels
+  Rect clip;            // nothing is drawn outside
+  Rect uv{0, 0, 1, 1};  // of the picture, 0 to 1; of the atlas, texels
   Colour fill, fill_end, border;
   float radius = 0, border_px = 0, blur_px = 0, share = 1;
   PictureSlot picture = PictureSlot::None;

@@ -24,8 +24,10 @@ class FaceView {
     const pipeline::PointCloud* cloud = nullptr;  // may be missing: then the model's vertices are its points
     std::uint32_t version = 0;
   };
-  // `covered`: the share of the window, at its lower end, that something else lies on: the model stands in the middle of the rest.
-  virtual std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px, float covered = 0) = 0;
+  // `covered`: the share of the window, at its lower end, that something else lies on: the model stands in
+  // the middle of the rest.
+  virtual std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px,
+                             float covered = 0) = 0;
   virtual void forget() = 0;
 };
 

@@ -22,7 +22,7 @@ constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind th
 constexpr float kFadeMm = 6;           // of the rim, into what stands behind
 constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
-constexpr float kEdgePx = 9;           // of the screen: sides shorter than this would run into a grey
+constexpr float kEdgePx = 9;  // of the screen: sides shorter than this would run into a grey
 constexpr float kEdgeWidthPx = 1.1F;
 
 struct Corner {
@@ -60,7 +60,8 @@ std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::Point
 std::vector<float> within(const pipeline::FaceMesh& mesh) {
   std::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0);  // 0 where the triangles around a vertex close
   for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+    for (std::size_t i = 0; i < 3; ++i)
+      turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
   std::vector<float> share(turn.size(), 1.0F);
   for (std::size_t v = 0; v < turn.size(); ++v)
     if (turn[v] != 0) share[v] = 0;
@@ -69,7 +70,8 @@ std::vector<float> within(const pipeline::FaceMesh& mesh) {
       for (std::size_t j = 1; j < 3; ++j) {
         const auto &a = mesh.vertices_mm[t[i]], &b = mesh.vertices_mm[t[(i + j) % 3]];
         if (share[t[i]] >= 1) continue;
-        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]], share[t[i]] + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) / kFadeMm);
+        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]],
+                                         share[t[i]] + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) / kFadeMm);
       }
   };
   for (int pass = 0; pass < 2; ++pass) {
@@ -84,14 +86,16 @@ std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
   const pipeline::Backdrop& b = model.backdrop;
   std::vector<Tinted> corners;
   const auto corner = [&](int c, int r) {
-    const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(b.columns) + static_cast<std::size_t>(c);
+    const std::size_t k =
+        static_cast<std::size_t>(r) * static_cast<std::size_t>(b.columns) + static_cast<std::size_t>(c);
     const Dot d = dot_of(model.head_from_camera, b.at_mm[k]);
     return Tinted{d.x, d.y, d.z, b.rgba[k]};
   };
   for (int r = 0; r + 1 < b.rows; ++r)
     for (int c = 0; c + 1 < b.columns; ++c) {
       const Tinted p = corner(c, r), q = corner(c + 1, r), o = corner(c, r + 1), d = corner(c + 1, r + 1);
-      if ((p.rgba[3] | q.rgba[3] | o.rgba[3] | d.rgba[3]) != 0) corners.insert(corners.end(), {p, o, d, p, d, q});
+      if ((p.rgba[3] | q.rgba[3] | o.rgba[3] | d.rgba[3]) != 0)
+        corners.insert(corners.end(), {p, o, d, p, d, q});
     }
   return corners;
 }
@@ -111,7 +115,8 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
       const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
       const bool flat = model.texture.uv.size() <= 3 * i + k;
       const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
-      corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm, static_cast<float>(m.x),
+      corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
+                         static_cast<float>(p.z) + kMiddleBehindMm, static_cast<float>(m.x),
                          static_cast<float>(m.y), static_cast<float>(m.z), uv.x, uv.y, share[at]});
     }
   }
@@ -136,17 +141,20 @@ class GlesFaceView final : public FaceView {
     return {};
   }
 
-  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px, float covered) override {
+  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px,
+                     float covered) override {
     if (subject.model == nullptr || subject.version == 0) return 0;
     const std::uint32_t version = subject.version;
     const int most = std::max(width_px, height_px);
     const int times = most * 2 <= kMostSidePx ? 2 : 1;
     const int w = width_px * times, h = height_px * times;
-    const bool same = version == version_ && look == look_ && covered == covered_ && w == width_ && h == height_;
+    const bool same =
+        version == version_ && look == look_ && covered == covered_ && w == width_ && h == height_;
     if (same && colour_ != 0) return colour_;
     if (version != version_) upload(*subject.model);
     if (look.points && version != points_version_) upload_points(subject);
-    if (look.edges) upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
+    if (look.edges)
+      upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
     GLint bound = 0;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
@@ -179,16 +187,21 @@ class GlesFaceView final : public FaceView {
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model);
     count_ = static_cast<int>(corners.size());
-    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [](const Corner& one, const Corner& other) { return one.y < other.y; });
+    const auto [low, high] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [](const Corner& one, const Corner& other) { return one.y < other.y; });
     middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(),
+                 GL_STATIC_DRAW);
     upload_backdrop(model);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const auto& atlas = model.texture;
     textured_ = atlas.width_px > 0 && atlas.height_px > 0 && !atlas.rgb.empty();
-    if (textured_) glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE, atlas.rgb.data());
+    if (textured_)
+      glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                   atlas.rgb.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -200,7 +213,8 @@ class GlesFaceView final : public FaceView {
     const std::vector<Tinted> corners = tinted_of(model);
     backdrop_count_ = static_cast<int>(corners.size());
     glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Tinted)), corners.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Tinted)), corners.data(),
+                 GL_STATIC_DRAW);
   }
 
   void point_at_corners() const {
@@ -209,7 +223,8 @@ class GlesFaceView final : public FaceView {
     std::size_t offset = 0;
     for (GLuint i = 0; i < 4; ++i) {
       glEnableVertexAttribArray(i);
-      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<const void*>(offset));  // NOLINT
+      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner),
+                            reinterpret_cast<const void*>(offset));  // NOLINT
       offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
     }
   }
@@ -220,7 +235,8 @@ class GlesFaceView final : public FaceView {
     point_count_ = static_cast<int>(dots.size());
     points_version_ = subject.version;
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots.size() * sizeof(Dot)), dots.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots.size() * sizeof(Dot)), dots.data(),
+                 GL_STATIC_DRAW);
   }
 
   // Indices of corners, so that sides have normals and texels. A level holds for a range of zooms.
@@ -232,13 +248,15 @@ class GlesFaceView final : public FaceView {
     const pipeline::FaceMesh& mesh = subject.model->mesh;
     std::vector<std::uint32_t> corner(mesh.vertices_mm.size(), 0), indices;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) corner[mesh.triangles[i][k]] = static_cast<std::uint32_t>(3 * i + k);
+      for (std::size_t k = 0; k < 3; ++k)
+        corner[mesh.triangles[i][k]] = static_cast<std::uint32_t>(3 * i + k);
     for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
     edge_count_ = static_cast<int>(indices.size());
     if (edge_buffer_ == 0) glGenBuffers(1, &edge_buffer_);
     glBindVertexArray(array_);  // which keeps the buffer of indices
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+                 indices.data(), GL_STATIC_DRAW);
   }
 
   void make_frame(int w, int h) {
@@ -283,7 +301,8 @@ class GlesFaceView final : public FaceView {
     clip[13] = -f * middle_mm_;
     clip[14] = -a * kDistanceMm + b;
     clip[15] = kDistanceMm;
-    for (std::size_t c = 0; c < 4; ++c) clip[4 * c + 1] += covered_ * clip[4 * c + 3];   // half the window is 1
+    for (std::size_t c = 0; c < 4; ++c)
+      clip[4 * c + 1] += covered_ * clip[4 * c + 3];  // half the window is 1
     return t;
   }
 
@@ -293,7 +312,8 @@ class GlesFaceView final : public FaceView {
     glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, t.clip);
     glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, t.turned);
     glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kDistanceMm);
-    glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm, std::cos(side) / norm);
+    glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm,
+                std::cos(side) / norm);
     glUniform1f(glGetUniformLocation(program_, "textured"), look_.textured && textured_ ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
@@ -330,7 +350,8 @@ class GlesFaceView final : public FaceView {
 
   void draw_backdrop(const Turned& t) const {
     const float away = std::max(std::abs(look_.yaw_deg), std::abs(look_.pitch_deg));
-    const float opacity = std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F);
+    const float opacity =
+        std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F);
     if (backdrop_count_ == 0 || opacity <= 0) return;
     glUseProgram(backdrop_program_);
     glUniformMatrix4fv(glGetUniformLocation(backdrop_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
@@ -342,7 +363,8 @@ class GlesFaceView final : public FaceView {
     glDisableVertexAttribArray(2);
     glDisableVertexAttribArray(3);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Tinted), nullptr);
-    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Tinted), reinterpret_cast<const void*>(offsetof(Tinted, rgba)));  // NOLINT
+    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Tinted),
+                          reinterpret_cast<const void*>(offsetof(Tinted, rgba)));  // NOLINT
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, backdrop_count_);
     glDepthMask(GL_TRUE);
@@ -358,7 +380,8 @@ class GlesFaceView final : public FaceView {
   void draw_points(const Turned& t) const {
     glUseProgram(point_program_);
     glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
-    glUniform1f(glGetUniformLocation(point_program_, "size"), std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
+    glUniform1f(glGetUniformLocation(point_program_, "size"),
+                std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
     glDisableVertexAttribArray(1);
     glDisableVertexAttribArray(2);
@@ -367,13 +390,14 @@ class GlesFaceView final : public FaceView {
     glDrawArrays(GL_POINTS, 0, point_count_);
   }
 
-  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0, array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+  GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0,
+         array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
-  float covered_ = 0, middle_mm_ = 0;   // where the middle of the model is, upwards, as it looks ahead
+  float covered_ = 0, middle_mm_ = 0;  // where the middle of the model is, upwards, as it looks ahead
   float edge_level_mm_ = 0;
   int count_ = 0, point_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0, height_ = 0;
-  int times_ = 1;                       // pixels of the frame for one of the screen
+  int times_ = 1;  // pixels of the frame for one of the screen
   bool textured_ = false;
 };
 

@@ -15,7 +15,7 @@ namespace relievo::ui {
 Result<std::uint32_t> compile_program(const char* vertex, const char* fragment);
 
 namespace shader {
-extern const char* const kQuadVertex;   // every flat mark: one quad an instance
+extern const char* const kQuadVertex;  // every flat mark: one quad an instance
 extern const char* const kFlat;
 extern const char* const kShape;
 extern const char* const kGlyph;
@@ -25,7 +25,7 @@ extern const char* const kFaceVertex;
 extern const char* const kFace;
 extern const char* const kBackdropVertex;
 extern const char* const kBackdrop;
-extern const char* const kPointVertex;   // its points
+extern const char* const kPointVertex;  // its points
 extern const char* const kPoint;
 }  // namespace shader
 

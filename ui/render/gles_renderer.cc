@@ -24,12 +24,17 @@ struct Instance {
 
 std::size_t program_of(Mark mark) {
   switch (mark) {
-    case Mark::Flat: return 0;
-    case Mark::Shape: return 1;
-    case Mark::Glyph: return 2;
+    case Mark::Flat:
+      return 0;
+    case Mark::Shape:
+      return 1;
+    case Mark::Glyph:
+      return 2;
     case Mark::Image:
-    case Mark::Face: return 3;
-    case Mark::Ring: return 4;
+    case Mark::Face:
+      return 3;
+    case Mark::Ring:
+      return 4;
   }
   return 0;
 }
@@ -50,7 +55,8 @@ class GlesRenderer final : public Renderer {
   }
 
   Result<void> prepare() {
-    const char* const fragments[kPrograms] = {shader::kFlat, shader::kShape, shader::kGlyph, shader::kImage, shader::kRing};
+    const char* const fragments[kPrograms] = {shader::kFlat, shader::kShape, shader::kGlyph, shader::kImage,
+                                              shader::kRing};
     for (std::size_t i = 0; i < kPrograms; ++i) {
       RELIEVO_TRY_ASSIGN(programs_[i].name, compile_program(shader::kQuadVertex, fragments[i]));
       programs_[i].screen = glGetUniformLocation(programs_[i].name, "screen");
@@ -127,7 +133,8 @@ class GlesRenderer final : public Renderer {
       glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, side, side, 0, GL_RED, GL_UNSIGNED_BYTE, atlas.texels());
       smooth_texture();
     } else if (rows.first < rows.last) {
-      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, rows.first, side, rows.last - rows.first, GL_RED, GL_UNSIGNED_BYTE, atlas.row(0, rows.first));
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, rows.first, side, rows.last - rows.first, GL_RED, GL_UNSIGNED_BYTE,
+                      atlas.row(0, rows.first));
     }
     atlas_generation_ = atlas.generation();
     atlas_side_ = static_cast<float>(side);
@@ -138,7 +145,8 @@ class GlesRenderer final : public Renderer {
     const ImageView& view = picture.pixels;
     const bool grey = view.format == PixelFormat::Grey8;
     glBindTexture(GL_TEXTURE_2D, pictures_[slot]);
-    glTexImage2D(GL_TEXTURE_2D, 0, grey ? GL_R8 : GL_RGB8, view.width_px, view.height_px, 0, grey ? GL_RED : GL_RGB, GL_UNSIGNED_BYTE, view.bytes);
+    glTexImage2D(GL_TEXTURE_2D, 0, grey ? GL_R8 : GL_RGB8, view.width_px, view.height_px, 0,
+                 grey ? GL_RED : GL_RGB, GL_UNSIGNED_BYTE, view.bytes);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, grey ? GL_RED : GL_GREEN);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, grey ? GL_RED : GL_BLUE);
     smooth_texture();
@@ -150,11 +158,13 @@ class GlesRenderer final : public Renderer {
     for (const Command& c : list.commands) {
       Rect uv = c.uv;
       if (c.mark == Mark::Face) uv = {0, 1, 1, -1};  // its first row is the bottom one
-      instances_.push_back({c.rect, uv, c.fill, c.fill_end, c.border, c.radius, c.border_px, c.blur_px, c.share});
+      instances_.push_back(
+          {c.rect, uv, c.fill, c.fill_end, c.border, c.radius, c.border_px, c.blur_px, c.share});
     }
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)), instances_.data(), GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)),
+                 instances_.data(), GL_STREAM_DRAW);
   }
 
   void point_at(std::size_t first) const {
@@ -162,11 +172,13 @@ class GlesRenderer final : public Renderer {
       GLint count;
       GLenum type;
     };
-    constexpr Field fields[] = {{4, GL_FLOAT}, {4, GL_FLOAT}, {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_FLOAT}};
+    constexpr Field fields[] = {{4, GL_FLOAT},         {4, GL_FLOAT},         {4, GL_UNSIGNED_BYTE},
+                                {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_FLOAT}};
     std::size_t offset = first * sizeof(Instance);
     for (GLuint i = 0; i < 6; ++i) {
       glEnableVertexAttribArray(i);
-      glVertexAttribPointer(i, fields[i].count, fields[i].type, fields[i].type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, sizeof(Instance),
+      glVertexAttribPointer(i, fields[i].count, fields[i].type,
+                            fields[i].type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, sizeof(Instance),
                             reinterpret_cast<const void*>(offset));  // NOLINT: GL's way of saying an offset
       glVertexAttribDivisor(i, 1);
       offset += fields[i].type == GL_FLOAT ? 16U : 4U;
@@ -177,7 +189,9 @@ class GlesRenderer final : public Renderer {
     const Command& c = list.commands[first];
     GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[static_cast<std::size_t>(c.picture)];
     if (c.mark == Mark::Face) {
-      texture = face_->draw({list.face, list.cloud, list.face_version}, list.face_look, static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)), 1 - c.share);
+      texture = face_->draw({list.face, list.cloud, list.face_version}, list.face_look,
+                            static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)),
+                            1 - c.share);
       if (texture == 0) return;
       glViewport(0, 0, width_, height_);
       glEnable(GL_BLEND);
@@ -185,7 +199,8 @@ class GlesRenderer final : public Renderer {
     }
     if (c.mark == Mark::Image && versions_[static_cast<std::size_t>(c.picture)] == 0) return;
     const float x0 = std::max(0.0F, std::floor(c.clip.x)), y1 = std::ceil(c.clip.bottom());
-    glScissor(static_cast<GLint>(x0), static_cast<GLint>(static_cast<float>(height_) - y1), static_cast<GLsizei>(std::max(0.0F, std::ceil(c.clip.right()) - x0)),
+    glScissor(static_cast<GLint>(x0), static_cast<GLint>(static_cast<float>(height_) - y1),
+              static_cast<GLsizei>(std::max(0.0F, std::ceil(c.clip.right()) - x0)),
               static_cast<GLsizei>(std::max(0.0F, y1 - std::floor(c.clip.y))));
     const Program& program = programs_[program_of(c.mark)];
     glUseProgram(program.name);

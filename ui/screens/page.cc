@@ -10,28 +10,35 @@ namespace relievo::ui {
 namespace {
 
 constexpr Colour kNone{};
-constexpr float kMostSignShare = 1.35F;   // signs on buttons that stay as large as they are grow no further
+constexpr float kMostSignShare = 1.35F;  // signs on buttons that stay as large as they are grow no further
 
 constexpr std::string_view kUnits[] = {"mm", "px", "sr", "%"};
 
 bool begins_with_unit(std::string_view text) {
   return std::ranges::any_of(kUnits, [text](std::string_view unit) {
-    return text.starts_with(unit) && (text.size() == unit.size() || std::string_view(" ,;:.)").find(text[unit.size()]) != std::string_view::npos);
+    return text.starts_with(unit) &&
+           (text.size() == unit.size() ||
+            std::string_view(" ,;:.)").find(text[unit.size()]) != std::string_view::npos);
   });
 }
 
 int number_of(Step step) {
   switch (step) {
-    case Step::Consent: return 0;
+    case Step::Consent:
+      return 0;
     case Step::Name:
-    case Step::Known: return 1;
-    case Step::Position: return 2;
+    case Step::Known:
+      return 1;
+    case Step::Position:
+      return 2;
     case Step::Working:
-    case Step::Review: return 3;
+    case Step::Review:
+      return 3;
     case Step::Attract:
     case Step::Thanks:
     case Step::Trouble:
-    case Step::Starting: break;
+    case Step::Starting:
+      break;
   }
   return -1;
 }
@@ -39,12 +46,21 @@ int number_of(Step step) {
 }  // namespace
 
 float unit_of(const Rect& screen) {
-  return screen.w >= screen.h ? std::min(screen.w / 1280, screen.h / 800) : std::min(screen.w / 800, screen.h / 1280);
+  return screen.w >= screen.h ? std::min(screen.w / 1280, screen.h / 800)
+                              : std::min(screen.w / 800, screen.h / 1280);
 }
 
-Page::Page(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Palette& palette_in, const Rect& screen)
-    : tree(tree_in), view(view_in), visit(visit_in), palette(palette_in), tr(visit_in.language), unit(unit_of(screen)),
-      text_share(static_cast<float>(visit_in.text_percent()) / 100), width_dp(screen.w / unit), height_dp(screen.h / unit),
+Page::Page(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Palette& palette_in,
+           const Rect& screen)
+    : tree(tree_in),
+      view(view_in),
+      visit(visit_in),
+      palette(palette_in),
+      tr(visit_in.language),
+      unit(unit_of(screen)),
+      text_share(static_cast<float>(visit_in.text_percent()) / 100),
+      width_dp(screen.w / unit),
+      height_dp(screen.h / unit),
       portrait(screen.h > screen.w) {}
 
 Node Page::box(Flow flow, float gap, float pad_x, float pad_y) const {
@@ -94,9 +110,11 @@ void Page::sign(const char* letter, float size, Colour colour) {
   tree.leaf(node);
 }
 
-void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow, const ButtonSize& lengths) {
+void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
+                  Action action, float grow, const ButtonSize& lengths) {
   const bool main = look == ButtonLook::Main;
-  Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x, lengths.pad_y);
+  Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x,
+                  lengths.pad_y);
   node.id = id;
   node.name = label;
   node.role = Role::Button;
@@ -137,7 +155,8 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   node.box.border = palette.quiet_border;
   node.box.border_px = std::max(1.5F, px(2));
   tree.open(node);
-  Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular, palette.link, TextAlign::Centre);
+  Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular,
+                        palette.link, TextAlign::Centre);
   sign_node.role = Role::Icon;
   sign_node.style.icon = true;
   tree.leaf(sign_node);
@@ -158,10 +177,13 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
     const std::size_t at = rest.find("{}");
     if (at == std::string_view::npos) break;
     // First strong isolate … pop: a name or number keeps its own direction.
-    for (const std::string_view part : {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
+    for (const std::string_view part :
+         {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)})
+      length += tree.keep(part).size();
     rest.remove_prefix(at + 2);
     // A line never ends between a value and its unit.
-    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1))) length += tree.keep("\u00a0").size(), rest.remove_prefix(1);
+    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1)))
+      length += tree.keep("\u00a0").size(), rest.remove_prefix(1);
   }
   return {first.data(), length + tree.keep(rest).size()};
 }
@@ -177,14 +199,19 @@ void Page::begin(bool with_back) {
 
 void Page::bar(bool with_back) {
   tree.open(box(Flow::Row, space::kS));
-  tree.open(grown([&] { Node n = box(Flow::Row, space::kS); n.box.across = Across::Centre; return n; }()));
+  tree.open(grown([&] {
+    Node n = box(Flow::Row, space::kS);
+    n.box.across = Across::Centre;
+    return n;
+  }()));
   if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
   if (!portrait || !with_back) steps();
   tree.close();
   reading_tools();
   square_button("help", tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   // What is being stored is stored: who accepted gets their code.
-  if (view.screen != Screen::Store) square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  if (view.screen != Screen::Store)
+    square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   tree.close();
 }
 

@@ -19,26 +19,31 @@
 namespace relievo::ui {
 
 namespace icon {  // letters of the icon font
-inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d", *kDown = "\uf045", *kTranslate = "\uf5ca",
-                            *kHelp = "\uf2d7", *kGood = "\uf5e0", *kCheck = "\uf12c", *kClose = "\uf156", *kCamera = "\uf100",
-                            *kAgain = "\uf450", *kErase = "\uf06e", *kText = "\uf27f", *kAlert = "\uf028", *kSun = "\uf5a8",
-                            *kZoomIn = "\uf34b", *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636", *kContrast = "\uf197",
-                            *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f", *kTurnLeft = "\uf465", *kTurnRight = "\uf467",
-                            *kShape = "\uf563", *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
-                            *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374", *kMore = "\uf415";
+inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d", *kDown = "\uf045",
+                            *kTranslate = "\uf5ca", *kHelp = "\uf2d7", *kGood = "\uf5e0", *kCheck = "\uf12c",
+                            *kClose = "\uf156", *kCamera = "\uf100", *kAgain = "\uf450", *kErase = "\uf06e",
+                            *kText = "\uf27f", *kAlert = "\uf028", *kSun = "\uf5a8", *kZoomIn = "\uf34b",
+                            *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636",
+                            *kContrast = "\uf197", *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f",
+                            *kTurnLeft = "\uf465", *kTurnRight = "\uf467", *kShape = "\uf563",
+                            *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
+                            *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
+                            *kMore = "\uf415";
 }  // namespace icon
 
-// What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of them alone
-// would turn round the line it is read in. First: with the direction of its first letter; Left: from the left.
+// What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of
+// them alone would turn round the line it is read in. First: with the direction of its first letter; Left:
+// from the left.
 namespace isolate {
-inline constexpr char kFirst[] = {'\xe2', '\x81', '\xa8', '\0'}, kLeft[] = {'\xe2', '\x81', '\xa6', '\0'}, kEnd[] = {'\xe2', '\x81', '\xa9', '\0'};
+inline constexpr char kFirst[] = {'\xe2', '\x81', '\xa8', '\0'}, kLeft[] = {'\xe2', '\x81', '\xa6', '\0'},
+                      kEnd[] = {'\xe2', '\x81', '\xa9', '\0'};
 }  // namespace isolate
 
 enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
 
 // Lengths of a button, in dp; of the letters, as they are at 100 %.
 struct ButtonSize {
-  float height = 0, width = 0;   // at least
+  float height = 0, width = 0;  // at least
   float pad_x = 0, pad_y = 0, gap = 0, radius = 0;
   float sign = 0, text = 0;
   bool shadow = false;
@@ -60,8 +65,8 @@ class Page {
   const Visit& visit;
   const Palette& palette;
   Words tr;
-  float unit;              // pixels of a dp
-  float text_share;        // 1 to 1.5
+  float unit;        // pixels of a dp
+  float text_share;  // 1 to 1.5
   float width_dp, height_dp;
   bool portrait;
 
@@ -69,20 +74,30 @@ class Page {
   bool mirrored() const { return info_of(visit.language).right_to_left; }
   // A box with nothing in it yet; gap and padding in dp.
   Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;
-  Node grown(Node node, float share = 1) const { node.box.grow = share; return node; }
-  Node sized(Node node, float width_dp_, float height_dp_) const { node.box.width = px(width_dp_), node.box.height = px(height_dp_); return node; }
+  Node grown(Node node, float share = 1) const {
+    node.box.grow = share;
+    return node;
+  }
+  Node sized(Node node, float width_dp_, float height_dp_) const {
+    node.box.width = px(width_dp_), node.box.height = px(height_dp_);
+    return node;
+  }
   void space(float grow_share);
 
-  Node text(std::string_view words, float size, Weight weight, Colour colour, TextAlign align = TextAlign::Start) const;
-  void heading(std::string_view id, std::string_view words, float size = type::kTitle, TextAlign align = TextAlign::Start);
+  Node text(std::string_view words, float size, Weight weight, Colour colour,
+            TextAlign align = TextAlign::Start) const;
+  void heading(std::string_view id, std::string_view words, float size = type::kTitle,
+               TextAlign align = TextAlign::Start);
   void body(std::string_view id, std::string_view words, TextAlign align = TextAlign::Start);
   void sign(const char* letter, float size, Colour colour);
   // An icon that points along the line of reading, turned for right-to-left.
   const char* onward() const { return mirrored() ? icon::kBack : icon::kNext; }
   const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }
 
-  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
-    button(id, label, letter, look, action, grow, look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
+              float grow = 0) {
+    button(id, label, letter, look, action, grow,
+           look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
   }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
   // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
@@ -92,7 +107,9 @@ class Page {
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
   // The same for several, in the order of their places.
-  std::string_view filled(const char* words, std::initializer_list<std::string_view> values) { return filled(words, std::span(values.begin(), values.size())); }
+  std::string_view filled(const char* words, std::initializer_list<std::string_view> values) {
+    return filled(words, std::span(values.begin(), values.size()));
+  }
   std::string_view filled(const char* words, std::span<const std::string_view> values);
 
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
@@ -100,7 +117,8 @@ class Page {
   void end() { tree.close(); }
 
  protected:
-  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow, const ButtonSize& lengths);
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
+              float grow, const ButtonSize& lengths);
 
  private:
   void bar(bool with_back);

@@ -32,23 +32,28 @@ struct UnrefAttributes {
 
 PangoWeight pango_weight(Weight weight) {
   switch (weight) {
-    case Weight::Regular: return PANGO_WEIGHT_NORMAL;
-    case Weight::Medium: return PANGO_WEIGHT_SEMIBOLD;
-    case Weight::Bold: return PANGO_WEIGHT_BOLD;
+    case Weight::Regular:
+      return PANGO_WEIGHT_NORMAL;
+    case Weight::Medium:
+      return PANGO_WEIGHT_SEMIBOLD;
+    case Weight::Bold:
+      return PANGO_WEIGHT_BOLD;
   }
   return PANGO_WEIGHT_NORMAL;
 }
 
 bool is(const TextStyle& style, const char* language) { return std::strcmp(style.language, language) == 0; }
 
-// Lines as the page's script has them, whatever fonts the letters on them come from: fonts bring room of their own, and
-// an Arabic one twice what a line needs.
+// Lines as the page's script has them, whatever fonts the letters on them come from: fonts bring room of
+// their own, and an Arabic one twice what a line needs.
 const type::Lines& lines_of(const TextStyle& style) {
   if (is(style, "ar")) return type::kArabicLines;
   return is(style, "zh-Hans") || is(style, "ja") ? type::kHanLines : type::kLines;
 }
 
-const char* families_of(const TextStyle& style) { return style.icon ? kIconFamily : is(style, "ja") ? kJapaneseFamilies : kFamilies; }
+const char* families_of(const TextStyle& style) {
+  return style.icon ? kIconFamily : is(style, "ja") ? kJapaneseFamilies : kFamilies;
+}
 
 }  // namespace
 
@@ -68,14 +73,16 @@ class PangoParagraph::Impl {
   }
 
   Result<void> check_fonts() {
-    for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans Hebrew", "Noto Sans CJK SC", "Noto Sans CJK JP", kIconFamily}) {
+    for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans Hebrew", "Noto Sans CJK SC",
+                               "Noto Sans CJK JP", kIconFamily}) {
       PangoFontDescription* wanted = pango_font_description_from_string(family);
       Owned<PangoFont> font(pango_font_map_load_font(map_.get(), context_.get(), wanted));
       pango_font_description_free(wanted);
       PangoFontDescription* got = font ? pango_font_describe(font.get()) : nullptr;
       const bool same = got != nullptr && std::strcmp(pango_font_description_get_family(got), family) == 0;
       if (got != nullptr) pango_font_description_free(got);
-      if (!same) return Error{Errc::NotFound, "is not installed: run toolchain/setup for the fonts"}.at(family);
+      if (!same)
+        return Error{Errc::NotFound, "is not installed: run toolchain/setup for the fonts"}.at(family);
     }
     return {};
   }
@@ -93,7 +100,8 @@ class PangoParagraph::Impl {
   GlyphCoverage draw(int left, int top, int w, int h) {
     const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_A8, w);
     ink_.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h), 0);
-    cairo_surface_t* surface = cairo_image_surface_create_for_data(ink_.data(), CAIRO_FORMAT_A8, w, h, stride);
+    cairo_surface_t* surface =
+        cairo_image_surface_create_for_data(ink_.data(), CAIRO_FORMAT_A8, w, h, stride);
     cairo_t* cairo = cairo_create(surface);
     GSList* line = pango_layout_get_lines_readonly(layout_.get());
     for (const SetLine& one : lines_) {
@@ -109,7 +117,7 @@ class PangoParagraph::Impl {
 
   void forget() {
     pango_layout_set_text(layout_.get(), "", 0);
-    std::ranges::fill(joined_, '\0');   // clear() would leave the bytes
+    std::ranges::fill(joined_, '\0');  // clear() would leave the bytes
     std::ranges::fill(ink_, static_cast<unsigned char>(0));
   }
 
@@ -124,7 +132,8 @@ class PangoParagraph::Impl {
     pango_font_description_set_family_static(font, families_of(style));
     pango_font_description_set_weight(font, style.icon ? PANGO_WEIGHT_NORMAL : pango_weight(style.weight));
     pango_font_description_set_absolute_size(font, style.size_px * kScale);
-    pango_context_set_base_dir(context_.get(), style.right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR);
+    pango_context_set_base_dir(context_.get(),
+                               style.right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR);
     pango_context_set_language(context_.get(), pango_language_from_string(style.language));
     pango_layout_context_changed(layout);
     pango_layout_set_auto_dir(layout, FALSE);
@@ -132,7 +141,9 @@ class PangoParagraph::Impl {
     pango_font_description_free(font);
     pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
     const bool at_right = style.right_to_left != (style.align == TextAlign::End);
-    pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER : at_right ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
+    pango_layout_set_alignment(layout, style.align == TextAlign::Centre ? PANGO_ALIGN_CENTER
+                                       : at_right                       ? PANGO_ALIGN_RIGHT
+                                                                        : PANGO_ALIGN_LEFT);
     pango_layout_set_attributes(layout, style.tabular ? tabular_.get() : nullptr);
   }
 
@@ -152,7 +163,8 @@ class PangoParagraph::Impl {
       while (wide - narrow > 4) {
         const int middle = (narrow + wide) / 2;
         pango_layout_set_width(layout, middle * PANGO_SCALE);
-        if (pango_layout_get_line_count(layout) <= lines && !breaks_words() && is_within(middle)) wide = middle;
+        if (pango_layout_get_line_count(layout) <= lines && !breaks_words() && is_within(middle))
+          wide = middle;
         else narrow = middle;
       }
       pango_layout_set_width(layout, wide * PANGO_SCALE);
@@ -164,9 +176,10 @@ class PangoParagraph::Impl {
   }
 
   // Lines end between phrases (Chinese, Japanese) or sentences (two lines) where that costs no line more;
-  // otherwise as the script has it. The ends are chosen here and said by line separators: where spans are told to
-  // allow no breaks, Pango 1.50 may end the program ("process_line: assertion failed").
-  bool ends_between_phrases(std::string_view text, const TextStyle& style, int width, int lines, bool evened) {
+  // otherwise as the script has it. The ends are chosen here and said by line separators: where spans are
+  // told to allow no breaks, Pango 1.50 may end the program ("process_line: assertion failed").
+  bool ends_between_phrases(std::string_view text, const TextStyle& style, int width, int lines,
+                            bool evened) {
     const bool unspaced = is(style, "zh-Hans") || is(style, "ja");
     if (!unspaced && lines != 2) return false;
     std::vector<std::size_t> starts = unspaced ? phrase_starts(text, is(style, "ja")) : sentence_starts(text);
@@ -174,7 +187,8 @@ class PangoParagraph::Impl {
     starts.insert(starts.begin(), 0);
     widths_.clear();
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      put(text.substr(starts[i], i + 1 < starts.size() ? starts[i + 1] - starts[i] : std::string_view::npos), -1);
+      put(text.substr(starts[i], i + 1 < starts.size() ? starts[i + 1] - starts[i] : std::string_view::npos),
+          -1);
       PangoRectangle logical;
       pango_layout_get_extents(layout_.get(), nullptr, &logical);
       widths_.push_back(static_cast<float>(logical.width) / kScale);
@@ -188,37 +202,44 @@ class PangoParagraph::Impl {
       from = starts[phrase];
     }
     put(joined_.append(text.substr(from)), width);
-    if (pango_layout_get_line_count(layout_.get()) <= lines && !breaks_words() && is_within(width)) return true;
+    if (pango_layout_get_line_count(layout_.get()) <= lines && !breaks_words() && is_within(width))
+      return true;
     put(text, width);
     return false;
   }
 
-  // Where the lines of the paragraph lie, and their ink. Lines are as high as their script has them; the first and the
-  // last give more where a letter of another script needs it.
+  // Where the lines of the paragraph lie, and their ink. Lines are as high as their script has them; the
+  // first and the last give more where a letter of another script needs it.
   void set_lines(const TextStyle& style) {
     PangoRectangle whole;
     pango_layout_get_extents(layout_.get(), nullptr, &whole);
     set_ = {static_cast<float>(whole.width) / kScale, 0, 1e6F, 1e6F, -1e6F, -1e6F, 0, 0, 0};
     lines_.clear();
     const type::Lines& lines = lines_of(style);
-    const float apart = std::round(style.size_px * (style.weight == Weight::Bold ? lines.apart_bold : lines.apart));
+    const float apart =
+        std::round(style.size_px * (style.weight == Weight::Bold ? lines.apart_bold : lines.apart));
     PangoLayoutIter* at = pango_layout_get_iter(layout_.get());
     do {
       PangoRectangle ink, logical;
       pango_layout_iter_get_line_extents(at, &ink, &logical);
-      const float own = static_cast<float>(pango_layout_iter_get_baseline(at)) / kScale, top = static_cast<float>(ink.y) / kScale;
-      const float bottom = static_cast<float>(ink.y + ink.height) / kScale, left = static_cast<float>(ink.x - whole.x) / kScale;
+      const float own = static_cast<float>(pango_layout_iter_get_baseline(at)) / kScale,
+                  top = static_cast<float>(ink.y) / kScale;
+      const float bottom = static_cast<float>(ink.y + ink.height) / kScale,
+                  left = static_cast<float>(ink.x - whole.x) / kScale;
       // Whole pixels, so that letters stay sharp; a sign stands as its font has it.
       const float first = style.icon ? own : std::round(std::max(style.size_px * lines.above, own - top));
       const float baseline = lines_.empty() ? first : lines_.back().baseline + apart;
       lines_.push_back({static_cast<float>(logical.x - whole.x) / kScale, baseline});
-      set_.height_px = style.icon ? static_cast<float>(whole.height) / kScale : baseline + std::max(style.size_px * lines.below, bottom - own);
+      set_.height_px = style.icon ? static_cast<float>(whole.height) / kScale
+                                  : baseline + std::max(style.size_px * lines.below, bottom - own);
       if (ink.width <= 0 || ink.height <= 0) continue;
-      set_.left = std::min(set_.left, left), set_.right = std::max(set_.right, left + static_cast<float>(ink.width) / kScale);
-      set_.top = std::min(set_.top, baseline + top - own), set_.bottom = std::max(set_.bottom, baseline + bottom - own);
+      set_.left = std::min(set_.left, left),
+      set_.right = std::max(set_.right, left + static_cast<float>(ink.width) / kScale);
+      set_.top = std::min(set_.top, baseline + top - own),
+      set_.bottom = std::max(set_.bottom, baseline + bottom - own);
     } while (pango_layout_iter_next_line(at) != 0);
     pango_layout_iter_free(at);
-    if (set_.left > set_.right) set_.left = set_.top = set_.right = set_.bottom = 0;   // blanks
+    if (set_.left > set_.right) set_.left = set_.top = set_.right = set_.bottom = 0;  // blanks
   }
 
   bool is_within(int width) {
@@ -227,7 +248,8 @@ class PangoParagraph::Impl {
     return logical.width <= width * PANGO_SCALE;
   }
 
-  // A line that ends inside a word, be it at a soft hyphen: allowed where nothing else fits, never for even lines.
+  // A line that ends inside a word, be it at a soft hyphen: allowed where nothing else fits, never for even
+  // lines.
   bool breaks_words() { return broken_words(true) > 0; }
 
   int broken_words(bool at_hyphens_too) {
@@ -237,7 +259,9 @@ class PangoParagraph::Impl {
     for (GSList* at = pango_layout_get_lines_readonly(layout_.get()); at != nullptr; at = at->next) {
       auto* line = static_cast<PangoLayoutLine*>(at->data);
       const long start = g_utf8_pointer_to_offset(text, text + pango_layout_line_get_start_index(line));
-      if (start > 0 && start < count && (marks[start].is_line_break == 0 || (at_hyphens_too && marks[start].break_inserts_hyphen != 0))) ++broken;
+      if (start > 0 && start < count &&
+          (marks[start].is_line_break == 0 || (at_hyphens_too && marks[start].break_inserts_hyphen != 0)))
+        ++broken;
     }
     return broken;
   }
@@ -256,7 +280,9 @@ class PangoParagraph::Impl {
 PangoParagraph::PangoParagraph() : impl_(std::make_unique<Impl>()) {}
 PangoParagraph::~PangoParagraph() = default;
 Result<void> PangoParagraph::check_fonts() { return impl_->check_fonts(); }
-const SetText& PangoParagraph::set(std::string_view text, const TextStyle& style, int width) { return impl_->set(text, style, width); }
+const SetText& PangoParagraph::set(std::string_view text, const TextStyle& style, int width) {
+  return impl_->set(text, style, width);
+}
 GlyphCoverage PangoParagraph::draw(int left, int top, int w, int h) { return impl_->draw(left, top, w, h); }
 void PangoParagraph::forget() { impl_->forget(); }
 

@@ -21,7 +21,8 @@ std::vector<Letter> letters_of(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[at]);
     const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
     char32_t code = size == 1 ? first : first & (0xFFU >> (size + 1));
-    for (std::size_t i = 1; i < size && at + i < text.size(); ++i) code = code << 6U | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
+    for (std::size_t i = 1; i < size && at + i < text.size(); ++i)
+      code = code << 6U | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
     letters.push_back({at, code});
     at += size;
   }
@@ -39,31 +40,39 @@ Kind kind_of(char32_t code) {
 }
 
 bool is_prefix(const std::vector<Letter>& letters, std::size_t i) {
-  return is_one_of(letters[i].code, U"おご") && i + 1 < letters.size() && kind_of(letters[i + 1].code) == Kind::Kanji;
+  return is_one_of(letters[i].code, U"おご") && i + 1 < letters.size() &&
+         kind_of(letters[i + 1].code) == Kind::Kanji;
 }
 
 // The one letter between two kanji of a verb made of two: 撮り直す, 計測し直す.
 bool joins_a_verb(const std::vector<Letter>& letters, std::size_t i) {
-  return i > 0 && is_one_of(letters[i].code, U"いきしちみりえけげめれ") && kind_of(letters[i - 1].code) == Kind::Kanji;
+  return i > 0 && is_one_of(letters[i].code, U"いきしちみりえけげめれ") &&
+         kind_of(letters[i - 1].code) == Kind::Kanji;
 }
 
-// Words that lean on what follows them: もう一度, 何も保存されません, あと9秒. The length of one that ends before `i`, or 0.
+// Words that lean on what follows them: もう一度, 何も保存されません, あと9秒. The length of one that ends
+// before `i`, or 0.
 std::size_t leaning_word_before(const std::vector<Letter>& letters, std::size_t i) {
   for (const std::u32string_view word : {U"もう", U"何も", U"あと"}) {
     const std::size_t length = word.size();
-    if (i >= length && std::ranges::equal(word, std::span(letters).subspan(i - length, length), {}, {}, &Letter::code)) return length;
+    if (i >= length &&
+        std::ranges::equal(word, std::span(letters).subspan(i - length, length), {}, {}, &Letter::code))
+      return length;
   }
   return 0;
 }
 
 bool begins_a_leaning_word(const std::vector<Letter>& letters, std::size_t i) {
-  return i + 2 < letters.size() && kind_of(letters[i + 2].code) != Kind::Hiragana && leaning_word_before(letters, i + 2) == 2;
+  return i + 2 < letters.size() && kind_of(letters[i + 2].code) != Kind::Hiragana &&
+         leaning_word_before(letters, i + 2) == 2;
 }
 
 bool begins_word(const std::vector<Letter>& letters, std::size_t i) {
   const Kind before = kind_of(letters[i - 1].code), here = kind_of(letters[i].code);
   if (is_prefix(letters, i) || begins_a_leaning_word(letters, i)) return true;
-  if (before != Kind::Hiragana || here == Kind::Hiragana || is_prefix(letters, i - 1) || leaning_word_before(letters, i) > 0) return false;
+  if (before != Kind::Hiragana || here == Kind::Hiragana || is_prefix(letters, i - 1) ||
+      leaning_word_before(letters, i) > 0)
+    return false;
   return here != Kind::Kanji || !joins_a_verb(letters, i - 1);
 }
 
@@ -85,7 +94,8 @@ std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese) {
   for (std::size_t i = 1; i < letters.size(); ++i) {
     const Kind before = kind_of(letters[i - 1].code), here = kind_of(letters[i].code);
     if (here == Kind::Ends || before == Kind::Opens) continue;
-    if (before == Kind::Ends || here == Kind::Opens || (japanese && begins_word(letters, i))) starts.push_back(letters[i].at);
+    if (before == Kind::Ends || here == Kind::Opens || (japanese && begins_word(letters, i)))
+      starts.push_back(letters[i].at);
   }
   return starts;
 }
@@ -94,7 +104,8 @@ std::vector<std::size_t> sentence_starts(std::string_view text) {
   const std::vector<Letter> letters = letters_of(text);
   std::vector<std::size_t> starts;
   for (std::size_t i = 2; i < letters.size(); ++i) {
-    if (letters[i - 1].code == U' ' && is_one_of(letters[i - 2].code, U".!?\u061f")) starts.push_back(letters[i].at);
+    if (letters[i - 1].code == U' ' && is_one_of(letters[i - 2].code, U".!?\u061f"))
+      starts.push_back(letters[i].at);
   }
   return starts;
 }
@@ -107,7 +118,8 @@ std::vector<std::size_t> fill_lines(std::span<const float> widths, float width, 
   while (width - too_narrow > 0.5F) {
     const float middle = (too_narrow + width) / 2;
     std::vector<std::size_t> tried = full_lines(widths, middle);
-    const bool fits = tried.size() == lines && std::ranges::none_of(widths, [middle](float one) { return one > middle; });
+    const bool fits =
+        tried.size() == lines && std::ranges::none_of(widths, [middle](float one) { return one > middle; });
     if (fits) starts = std::move(tried), width = middle;
     else too_narrow = middle;
   }

@@ -12,7 +12,8 @@ std::optional<AtlasPlace> TextAtlas::place(int width_px, int height_px) {
   if (width > side_ || height > side_) return std::nullopt;
   Shelf* best = nullptr;
   for (Shelf& shelf : shelves_) {
-    const bool fits = shelf.height >= height && shelf.height <= height + height / 2 + 4 && shelf.used + width <= side_;
+    const bool fits =
+        shelf.height >= height && shelf.height <= height + height / 2 + 4 && shelf.used + width <= side_;
     if (fits && (best == nullptr || shelf.height < best->height)) best = &shelf;
   }
   if (best == nullptr) {

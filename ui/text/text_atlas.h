@@ -27,7 +27,9 @@ class TextAtlas {
 
   // Room for a label; nothing when there is none: reset() and draw everything again.
   std::optional<AtlasPlace> place(int width_px, int height_px);
-  std::uint8_t* row(int x, int y) { return texels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + x; }
+  std::uint8_t* row(int x, int y) {
+    return texels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + x;
+  }
   void reset();
 
   // Rows that changed since the last call: [first, last). Empty when first >= last.

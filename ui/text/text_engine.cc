@@ -20,9 +20,13 @@ std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  //
 
 std::uint64_t key_of(std::string_view text, const TextStyle& style, int width) {
   std::uint64_t hash = mix(14695981039346656037ULL, text.data(), text.size());
-  const std::uint32_t numbers[] = {static_cast<std::uint32_t>(std::lround(style.size_px * 8)), static_cast<std::uint32_t>(width),
-                                   static_cast<std::uint32_t>(style.weight), static_cast<std::uint32_t>(style.align),
-                                   static_cast<std::uint32_t>(style.icon), static_cast<std::uint32_t>(style.right_to_left), static_cast<std::uint32_t>(style.tabular)};
+  const std::uint32_t numbers[] = {static_cast<std::uint32_t>(std::lround(style.size_px * 8)),
+                                   static_cast<std::uint32_t>(width),
+                                   static_cast<std::uint32_t>(style.weight),
+                                   static_cast<std::uint32_t>(style.align),
+                                   static_cast<std::uint32_t>(style.icon),
+                                   static_cast<std::uint32_t>(style.right_to_left),
+                                   static_cast<std::uint32_t>(style.tabular)};
   hash = mix(hash, numbers, sizeof numbers);
   return mix(hash, style.language, std::strlen(style.language));
 }
@@ -73,19 +77,25 @@ class CachedTextEngine final : public TextEngine {
   void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {
     const SetText& set = paragraph_.set(text, style, std::max(1, static_cast<int>(std::ceil(max_width_px))));
     // All in whole pixels, so that letters stay sharp.
-    const int left = static_cast<int>(std::floor(set.left)) - 1, top = static_cast<int>(std::floor(set.top)) - 1;
-    const int right = static_cast<int>(std::ceil(set.right)) + 1, bottom = static_cast<int>(std::ceil(set.bottom)) + 1;
-    const int w = std::clamp(right - left, 1, atlas_.side_px() - 2), h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
+    const int left = static_cast<int>(std::floor(set.left)) - 1,
+              top = static_cast<int>(std::floor(set.top)) - 1;
+    const int right = static_cast<int>(std::ceil(set.right)) + 1,
+              bottom = static_cast<int>(std::ceil(set.bottom)) + 1;
+    const int w = std::clamp(right - left, 1, atlas_.side_px() - 2),
+              h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
     auto at = atlas_.place(w, h);
     if (!at) {
       atlas_.reset();
       at = atlas_.place(w, h);
     }
     entry.generation = atlas_.generation();
-    entry.label.ink = {static_cast<float>(left), static_cast<float>(top), static_cast<float>(w), static_cast<float>(h)};
-    entry.label.atlas = {static_cast<float>(at->x), static_cast<float>(at->y), static_cast<float>(w), static_cast<float>(h)};
+    entry.label.ink = {static_cast<float>(left), static_cast<float>(top), static_cast<float>(w),
+                       static_cast<float>(h)};
+    entry.label.atlas = {static_cast<float>(at->x), static_cast<float>(at->y), static_cast<float>(w),
+                         static_cast<float>(h)};
     const GlyphCoverage drawn = paragraph_.draw(left, top, w, h);
-    for (int y = 0; y < h; ++y) std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), static_cast<std::size_t>(w));
+    for (int y = 0; y < h; ++y)
+      std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), static_cast<std::size_t>(w));
   }
 
   PangoParagraph paragraph_;

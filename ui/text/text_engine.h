@@ -17,9 +17,11 @@
 
 namespace relievo::ui {
 
-inline constexpr const char* kFamilies = "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK SC";
+inline constexpr const char* kFamilies =
+    "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK SC";
 // Japanese writes some letters it shares with Chinese in forms of its own.
-inline constexpr const char* kJapaneseFamilies = "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK JP";
+inline constexpr const char* kJapaneseFamilies =
+    "Inter, Noto Sans Arabic, Noto Sans Hebrew, Noto Sans, Noto Sans CJK JP";
 inline constexpr const char* kIconFamily = "Material Design Icons";
 
 enum class Weight : std::uint8_t { Regular, Medium, Bold };
@@ -31,7 +33,7 @@ struct TextStyle {
   TextAlign align = TextAlign::Start;
   bool icon = false;
   bool right_to_left = false;
-  bool tabular = false;         // all digits as wide as each other: figures under figures, and those that change
+  bool tabular = false;  // all digits as wide as each other: figures under figures, and those that change
   const char* language = "en";  // BCP 47: chooses the forms of Chinese and Japanese letters
 };
 
@@ -44,9 +46,9 @@ struct TextSize {
 struct TextLabel {
   TextSize size;
   Rect ink;
-  Rect atlas;        // texels
-  int missing = 0;   // letters no font has
-  int torn = 0;      // words that end on one line and go on the next without a hyphen: no room for them
+  Rect atlas;       // texels
+  int missing = 0;  // letters no font has
+  int torn = 0;     // words that end on one line and go on the next without a hyphen: no room for them
 };
 
 class TextEngine {

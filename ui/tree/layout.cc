@@ -11,16 +11,19 @@ namespace {
 
 Rect meet(const Rect& a, const Rect& b) {
   const float x = std::max(a.x, b.x), y = std::max(a.y, b.y);
-  return {x, y, std::max(0.0F, std::min(a.right(), b.right()) - x), std::max(0.0F, std::min(a.bottom(), b.bottom()) - y)};
+  return {x, y, std::max(0.0F, std::min(a.right(), b.right()) - x),
+          std::max(0.0F, std::min(a.bottom(), b.bottom()) - y)};
 }
 
 // Words can be broken into more lines; a sign cannot.
-constexpr float kLeastShare = 0.5F;    // of a row: so much of it belongs to the words, or all of what they need
+constexpr float kLeastShare = 0.5F;  // of a row: so much of it belongs to the words, or all of what they need
 constexpr float kEndless = 1e6F;
-constexpr float kRounding = 1e-3F;     // of a pixel: thirds make a whole
-constexpr float kFoldedGaps = 0.25F;   // what was a gap beside is a smaller one between lines
+constexpr float kRounding = 1e-3F;    // of a pixel: thirds make a whole
+constexpr float kFoldedGaps = 0.25F;  // what was a gap beside is a smaller one between lines
 
-bool is_row(const Node& node) { return node.box.flow == Flow::Row && node.first_child >= 0 && node.box.grow <= 0; }
+bool is_row(const Node& node) {
+  return node.box.flow == Flow::Row && node.first_child >= 0 && node.box.grow <= 0;
+}
 
 float spread_height(const Node& node, float h, float more) { return is_row(node) ? h + more : h; }
 
@@ -32,9 +35,7 @@ Rect fitted(const Rect& r, float aspect) {
   return {r.x + (r.w - w) / 2, r.y + (r.h - h) / 2, w, h};
 }
 
-Rect rounded(const Rect& r) {
-  return {std::round(r.x), std::round(r.y), std::round(r.w), std::round(r.h)};
-}
+Rect rounded(const Rect& r) { return {std::round(r.x), std::round(r.y), std::round(r.w), std::round(r.h)}; }
 
 }  // namespace
 
@@ -64,7 +65,8 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   const bool is_folded = folded(node, width);
   if (node.box.flow == Flow::Row && !is_folded) {
     const Shares given = shares(node, width);
-    for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+    for (std::int32_t at = node.first_child; at >= 0;
+         at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
       const Need child = need(nodes_[static_cast<std::size_t>(at)], given.w[static_cast<std::size_t>(count)]);
       n.w += child.w;
       n.h = std::max(n.h, child.h);
@@ -77,7 +79,8 @@ Layout::Need Layout::content_need(const Node& node, float width) {
     n.w = std::max(n.w, child.w);
     n.h = node.box.flow == Flow::Stack ? std::max(n.h, child.h) : n.h + child.h;
   }
-  if (node.box.flow != Flow::Stack && count > 1) n.h += node.box.gap * (is_folded ? kFoldedGaps : 1) * static_cast<float>(count - 1);
+  if (node.box.flow != Flow::Stack && count > 1)
+    n.h += node.box.gap * (is_folded ? kFoldedGaps : 1) * static_cast<float>(count - 1);
   return n;
 }
 
@@ -86,7 +89,8 @@ bool Layout::folded(const Node& row, float width) {
   if (!row.box.folds || row.box.flow != Flow::Row || row.first_child < 0) return false;
   const Node& words = nodes_[static_cast<std::size_t>(row.first_child)];
   float left = width;
-  for (std::int32_t at = words.next; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) left -= need(nodes_[static_cast<std::size_t>(at)], kEndless).w + row.box.gap;
+  for (std::int32_t at = words.next; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next)
+    left -= need(nodes_[static_cast<std::size_t>(at)], kEndless).w + row.box.gap;
   return left < kLeastShare * width && need(words, kEndless).w > left;
 }
 
@@ -100,7 +104,9 @@ float Layout::spread(const Node& column, const Rect& inner) {
     all += h + column.box.gap;
     if (is_row(child)) ++rows, lowest = std::min(lowest, h);
   }
-  return rows > 0 ? std::floor(std::clamp((inner.h - all) / rows, 0.0F, (column.box.spreads - 1) * lowest) + kRounding) : 0;
+  return rows > 0 ? std::floor(std::clamp((inner.h - all) / rows, 0.0F, (column.box.spreads - 1) * lowest) +
+                               kRounding)
+                  : 0;
 }
 
 // The widths of a row's children. Those that grow share what the others leave.
@@ -108,7 +114,8 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   Shares given;
   std::size_t count = 0;
   float fixed = 0, grow = 0, soft = 0;
-  for (std::int32_t at = row.first_child; at >= 0 && count < kMostInARow; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
+  for (std::int32_t at = row.first_child; at >= 0 && count < kMostInARow;
+       at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     if (child.box.grow > 0) {
       grow += child.box.grow;
@@ -121,16 +128,19 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   const float gaps = count > 1 ? row.box.gap * static_cast<float>(count - 1) : 0;
   const float left = width - fixed - gaps;
   std::size_t i = 0;
-  float before = 0;   // of the shares: what is left is given out to the last pixel, so that rows end under each other
-  for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
+  float before =
+      0;  // of the shares: what is left is given out to the last pixel, so that rows end under each other
+  for (std::int32_t at = row.first_child; at >= 0 && i < count;
+       at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     if (child.box.grow > 0) {
-      const float own = row.box.grid ? row.box.gap : 0, all = std::max(0.0F, row.box.grid ? left + own * static_cast<float>(count) : left);
+      const float own = row.box.grid ? row.box.gap : 0,
+                  all = std::max(0.0F, row.box.grid ? left + own * static_cast<float>(count) : left);
       const float from = std::floor(all * before / grow);
       before += child.box.grow;
       given.w[i] = std::max(0.0F, std::floor(all * before / grow + kRounding) - from - own);
-    }
-    else if (left < 0 && may_shrink(child) && soft > 0) given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
+    } else if (left < 0 && may_shrink(child) && soft > 0)
+      given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
   }
   return given;
 }
@@ -138,9 +148,12 @@ Layout::Shares Layout::shares(const Node& row, float width) {
 float Layout::across_start(const Node& node, float room, float size) const {
   switch (node.box.across) {
     case Across::Stretch:
-    case Across::Start: return 0;
-    case Across::Centre: return (room - size) / 2;
-    case Across::End: return room - size;
+    case Across::Start:
+      return 0;
+    case Across::Centre:
+      return (room - size) / 2;
+    case Across::End:
+      return room - size;
   }
   return 0;
 }
@@ -149,19 +162,24 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
   Node& node = nodes_[index];
   node.rect = rounded(node.aspect > 0 && node.box.flow == Flow::Stack ? fitted(rect, node.aspect) : rect);
   node.clip = clip;
-  const Rect inner{node.rect.x + node.box.pad_x, node.rect.y + node.box.pad_y, std::max(0.0F, node.rect.w - 2 * node.box.pad_x),
+  const Rect inner{node.rect.x + node.box.pad_x, node.rect.y + node.box.pad_y,
+                   std::max(0.0F, node.rect.w - 2 * node.box.pad_x),
                    std::max(0.0F, node.rect.h - 2 * node.box.pad_y)};
   const Rect inside = node.box.scroll ? meet(clip, node.rect) : clip;
   switch (node.box.flow) {
-    case Flow::Column: return place_column(node, inner, inside);
-    case Flow::Row: return folded(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
-    case Flow::Stack: return place_stack(node, inner, inside);
+    case Flow::Column:
+      return place_column(node, inner, inside);
+    case Flow::Row:
+      return folded(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
+    case Flow::Stack:
+      return place_stack(node, inner, inside);
   }
 }
 
 void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
-  float fixed = 0, grow = 0, growing = 0, highest = 0, shown = 0;   // highest: a share of what those need that grow, were all shares as high
-                                                              // shown: the height of a picture, when it alone grows
+  float fixed = 0, grow = 0, growing = 0, highest = 0,
+        shown = 0;  // highest: a share of what those need that grow, were all shares as high
+                    // shown: the height of a picture, when it alone grows
   int count = 0;
   const float spread_by = spread(node, inner);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
@@ -170,7 +188,9 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     fixed += h;
     if (child.box.grow <= 0) continue;
     grow += child.box.grow, growing += h;
-    shown = child.aspect > 0 && child.box.flow == Flow::Stack && grow == child.box.grow ? inner.w / child.aspect : 0;
+    shown = child.aspect > 0 && child.box.flow == Flow::Stack && grow == child.box.grow
+                ? inner.w / child.aspect
+                : 0;
     highest = std::max(highest, h / child.box.grow);
   }
   float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
@@ -179,10 +199,12 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
   if (node.box.hugs && grow <= 0) node.rect.h = std::min(node.rect.h, std::round(node.content_height));
   float y = inner.y, over = node.box.scroll ? 0 : std::max(0.0F, fixed - inner.h);
   float left = std::max(0.0F, inner.h - fixed);
-  if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id) y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
+  if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id)
+    y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
   const bool even = node.box.even && grow > 0 && highest * grow <= growing + left;
   if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
-  if (shown > 0 && node.box.along == Along::Centre && growing + left > shown) {   // what belongs to a picture stands beside it
+  if (shown > 0 && node.box.along == Along::Centre &&
+      growing + left > shown) {  // what belongs to a picture stands beside it
     y += (growing + left - shown) / 2;
     left = std::max(0.0F, shown - growing);
   }
@@ -193,9 +215,15 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     Need n = need(child, inner.w);
     n.h = spread_height(child, n.h, spread_by);
     if (child.box.yields) n.h -= std::exchange(over, 0.0F);
-    const float more = grow > 0 ? left * child.box.grow / grow : 0, h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
-    const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) && child.box.width <= 0 && child.box.max_width <= 0;
-    const float w = stretch ? inner.w : std::min(node.box.across == Across::Stretch && child.box.width <= 0 ? std::min(inner.w, child.box.max_width) : n.w, inner.w);
+    const float more = grow > 0 ? left * child.box.grow / grow : 0,
+                h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
+    const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) &&
+                         child.box.width <= 0 && child.box.max_width <= 0;
+    const float w = stretch ? inner.w
+                            : std::min(node.box.across == Across::Stretch && child.box.width <= 0
+                                           ? std::min(inner.w, child.box.max_width)
+                                           : n.w,
+                                       inner.w);
     float x = across_start(node, inner.w, w);
     if (right_to_left_) x = inner.w - w - x;
     place(static_cast<std::size_t>(at), {inner.x + x, y, w, h}, clip);
@@ -207,7 +235,9 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   const Shares given = shares(node, inner.w);
   float used = 0;
   std::size_t count = 0;
-  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow; at = nodes_[static_cast<std::size_t>(at)].next) used += given.w[count++];
+  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow;
+       at = nodes_[static_cast<std::size_t>(at)].next)
+    used += given.w[count++];
   float gap = node.box.gap;
   if (count > 1) used += gap * static_cast<float>(count - 1);
   const float left = std::max(0.0F, inner.w - used);
@@ -221,8 +251,10 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
     const auto child = static_cast<std::size_t>(at);
     at = nodes_[child].next;
     const float w = given.w[i];
-    const float h = node.box.across == Across::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
-    place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + across_start(node, inner.h, h), w, h}, clip);
+    const float h =
+        node.box.across == Across::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
+    place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + across_start(node, inner.h, h), w, h},
+          clip);
     x += w + gap;
   }
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Layout: gives every node its place. First what a box needs at a width, then where it goes:
-// what is left over goes to those that grow; what is short is taken from rows' longest texts. A row that folds
-// (Box::folds) is a column where its first child, in one line, would have less than kLeastShare beside the others.
-// Pixels. Thread: main. Errors: none.
+// what is left over goes to those that grow; what is short is taken from rows' longest texts. A row that
+// folds (Box::folds) is a column where its first child, in one line, would have less than kLeastShare beside
+// the others. Pixels. Thread: main. Errors: none.
 #pragma once
 
 #include <vector>

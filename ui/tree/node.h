@@ -26,17 +26,18 @@ struct Box {
   Across across = Across::Stretch;
   float gap = 0;
   float pad_x = 0, pad_y = 0;
-  float width = 0, height = 0;          // 0: as its content is
+  float width = 0, height = 0;  // 0: as its content is
   float min_width = 0, min_height = 0, max_width = 0;
-  float grow = 0;                       // share of what is left over
-  bool grid = false;                    // a row of columns alike: a child that grows by n covers n of them and the gaps between
-  bool even = false;                    // a column whose growing children are as high as their shares, not higher by them
-  bool scroll = false;                  // a column that may be higher than its room
-  bool yields = false;                  // in a column: as high as its content is where there is room, else as high as is left
-  float spreads = 1;                    // a column: where there is room its rows get higher, the lowest up to so many times
-  bool hugs = false;                    // a growing column that ends where its content does; what is left of its share stays free
-  bool left_to_right = false;           // a row that is not mirrored: digits, keys
-  bool folds = false;                   // a row whose first child grows: the others stand under it where it would be narrow
+  float grow = 0;     // share of what is left over
+  bool grid = false;  // a row of columns alike: a child that grows by n covers n of them and the gaps between
+  bool even = false;  // a column whose growing children are as high as their shares, not higher by them
+  bool scroll = false;  // a column that may be higher than its room
+  bool yields = false;  // in a column: as high as its content is where there is room, else as high as is left
+  float spreads = 1;    // a column: where there is room its rows get higher, the lowest up to so many times
+  bool hugs =
+      false;  // a growing column that ends where its content does; what is left of its share stays free
+  bool left_to_right = false;  // a row that is not mirrored: digits, keys
+  bool folds = false;  // a row whose first child grows: the others stand under it where it would be narrow
   Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
   float border_px = 0, radius = 0;
   bool shadow = false;
@@ -44,30 +45,30 @@ struct Box {
 
 struct Node {
   std::string_view id;
-  std::string_view name;     // spoken; empty: the text
+  std::string_view name;  // spoken; empty: the text
   std::string_view text;
   Role role = Role::Group;
   Box box;
   TextStyle style;
   Colour colour{};
   Action action{};
-  bool modal = false;        // nothing under it can be touched
+  bool modal = false;  // nothing under it can be touched
   bool drags = false;
-  bool hold = false;         // done by a finger that rests (ui/service.h: kHold), not by a tap
-  bool slow_key = false;     // of such a one: a keypad waits as long, and any further key calls it back
-  Colour filling{};          // of the bar that says how long one still has to hold
-  Mark mark = Mark::Shape;   // Image, Face, Ring: what is drawn in the rect
+  bool hold = false;        // done by a finger that rests (ui/service.h: kHold), not by a tap
+  bool slow_key = false;    // of such a one: a keypad waits as long, and any further key calls it back
+  Colour filling{};         // of the bar that says how long one still has to hold
+  Mark mark = Mark::Shape;  // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
-  float aspect = 0;          // of the picture: width over height; a stack with one is as large as fits
-  bool pinned = false;       // in a stack: its middle lies at these shares of it; without a width it is as wide
+  float aspect = 0;     // of the picture: width over height; a stack with one is as large as fits
+  bool pinned = false;  // in a stack: its middle lies at these shares of it; without a width it is as wide
   float pin_x = 0, pin_y = 0;
   bool tells_place = false;  // its action's detail is where it was touched: x << 12 | y, 4096ths
   bool mirrored = false;     // the picture or the sign, as in a mirror
   bool covers = false;       // the picture fills its box and is cut; else it is seen whole
   float share = 1, line_px = 0;
-  float covered_px = 0;      // of a Face, at its lower end: the model stands in the middle of the rest
+  float covered_px = 0;  // of a Face, at its lower end: the model stands in the middle of the rest
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
-  Rect rect;                 // set by layout()
+  Rect rect;  // set by layout()
   Rect clip;
   float content_height = 0;  // of a scroller: what it would be high to show all, its own padding with it
 };

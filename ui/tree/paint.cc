@@ -55,7 +55,8 @@ void paint_picture(DrawList& list, const Node& node) {
   c.border = node.box.border;
   c.border_px = node.line_px;
   c.radius = node.mark == Mark::Ring ? node.line_px / 2 : node.box.radius;
-  c.share = node.mark == Mark::Face ? 1 - std::min(1.0F, node.covered_px / std::max(1.0F, node.rect.h)) : node.share;
+  c.share = node.mark == Mark::Face ? 1 - std::min(1.0F, node.covered_px / std::max(1.0F, node.rect.h))
+                                    : node.share;
   c.picture = node.picture;
   if (node.mark == Mark::Ring) {
     c.fill = node.colour;
@@ -91,7 +92,8 @@ void paint_text(DrawList& list, const Node& node, TextEngine& text, bool right_t
   const float y = (node.rect.h - 2 * pad_y - label.size.height_px) / 2;
   Command c;
   c.mark = Mark::Glyph;
-  c.rect = {node.rect.x + pad_x + std::round(x) + label.ink.x, node.rect.y + pad_y + std::round(y) + label.ink.y, label.ink.w, label.ink.h};
+  c.rect = {node.rect.x + pad_x + std::round(x) + label.ink.x,
+            node.rect.y + pad_y + std::round(y) + label.ink.y, label.ink.w, label.ink.h};
   c.clip = node.clip;
   c.uv = label.atlas;
   if (node.mirrored) {
@@ -121,10 +123,12 @@ float scrolled_px(const Node& node, const Interaction& hands) {
 }
 
 // More lies below, or above: a bar at the side says where one is.
-void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands, bool right_to_left, float unit) {
+void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands, bool right_to_left,
+                      float unit) {
   if (!overflows(node)) return;
   const float scrolled = scrolled_px(node, hands);
-  const float h = node.rect.h * node.rect.h / node.content_height, y = node.rect.y + node.rect.h * scrolled / node.content_height;
+  const float h = node.rect.h * node.rect.h / node.content_height,
+              y = node.rect.y + node.rect.h * scrolled / node.content_height;
   Command c;
   c.mark = Mark::Shape;
   c.rect = {right_to_left ? node.rect.x - 12 * unit : node.rect.right() + 4 * unit, y, 8 * unit, h};
@@ -142,7 +146,8 @@ Colour ground_of(const std::vector<Node>& nodes, std::size_t index, float y) {
     const Colour a = node.box.fill, b = node.box.fill_end.seen() ? node.box.fill_end : a;
     const float share = std::clamp((y - node.rect.y) / std::max(1.0F, node.rect.h), 0.0F, 1.0F);
     const auto between = [share](std::uint8_t from, std::uint8_t to) {
-      return static_cast<std::uint8_t>(std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
+      return static_cast<std::uint8_t>(
+          std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
     };
     return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b), between(a.a, b.a)};
   }
@@ -151,7 +156,8 @@ Colour ground_of(const std::vector<Node>& nodes, std::size_t index, float y) {
 
 // Where a scroller goes on, its content fades into the ground: no line ends torn, and one sees that there is
 // more. The fade leaves as the end comes near, so that the last line is never veiled.
-void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t index, const Interaction& hands, float unit) {
+void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t index, const Interaction& hands,
+                 float unit) {
   const Node& node = nodes[index];
   if (!overflows(node)) return;
   const float above = scrolled_px(node, hands), below = node.content_height - node.rect.h - above;
@@ -173,7 +179,8 @@ void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t ind
   fade(below, node.rect.bottom() - edge - h, node.rect.bottom(), true);
 }
 
-// How much of the time has passed: a bar along the bottom, in the direction of reading, within the node's round corners.
+// How much of the time has passed: a bar along the bottom, in the direction of reading, within the node's
+// round corners.
 void paint_held(DrawList& list, const Node& node, float share, bool right_to_left, float unit) {
   Command c;
   c.mark = Mark::Shape;
@@ -187,15 +194,24 @@ void paint_held(DrawList& list, const Node& node, float share, bool right_to_lef
 
 std::string_view word(Role role) {
   switch (role) {
-    case Role::Group: return "group";
-    case Role::Heading: return "heading";
-    case Role::Text: return "text";
-    case Role::Icon: return "icon";
-    case Role::Button: return "button";
-    case Role::Key: return "key";
-    case Role::Field: return "field";
-    case Role::Picture: return "picture";
-    case Role::Status: return "status";
+    case Role::Group:
+      return "group";
+    case Role::Heading:
+      return "heading";
+    case Role::Text:
+      return "text";
+    case Role::Icon:
+      return "icon";
+    case Role::Button:
+      return "button";
+    case Role::Key:
+      return "key";
+    case Role::Field:
+      return "field";
+    case Role::Picture:
+      return "picture";
+    case Role::Status:
+      return "status";
   }
   return "";
 }
@@ -220,7 +236,8 @@ void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Col
     if (seen) paint_node(list, node, text, hands, unit);
     if (seen && hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;
     // Behind the last one in a scroller comes what lies over all of them.
-    for (auto at = static_cast<std::int32_t>(i); node.first_child < 0 && at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
+    for (auto at = static_cast<std::int32_t>(i); node.first_child < 0 && at >= 0;
+         at = nodes_[static_cast<std::size_t>(at)].parent) {
       paint_fades(list, nodes_, static_cast<std::size_t>(at), hands, unit);
       if (nodes_[static_cast<std::size_t>(at)].next >= 0) break;
     }
@@ -228,7 +245,8 @@ void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Col
   if (focused != nullptr) paint_focus(list, *focused, focus, unit);
 }
 
-void Tree::paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands, float unit) const {
+void Tree::paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands,
+                      float unit) const {
   const bool pressed = !node.id.empty() && touches(hands, node);
   if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
   else paint_picture(list, node);
@@ -243,11 +261,14 @@ std::string Tree::to_json() const {
   std::string out = "[";
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
-    if (under_modal(i) || (node.text.empty() && node.name.empty() && node.action.kind == ActionKind::None)) continue;
+    if (under_modal(i) || (node.text.empty() && node.name.empty() && node.action.kind == ActionKind::None))
+      continue;
     char place[96];
-    std::snprintf(place, sizeof place, ",\"x\":%.0f,\"y\":%.0f,\"w\":%.0f,\"h\":%.0f}", node.rect.x, node.rect.y, node.rect.w, node.rect.h);
+    std::snprintf(place, sizeof place, ",\"x\":%.0f,\"y\":%.0f,\"w\":%.0f,\"h\":%.0f}", node.rect.x,
+                  node.rect.y, node.rect.w, node.rect.h);
     if (out.size() > 1) out += ",\n ";
-    out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(word(node.role)) + ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) + place;
+    out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(word(node.role)) +
+           ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) + place;
   }
   return out + "]\n";
 }

@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t kNodes = 2048, kDepth = 32, kStringBytes = 128 * 1024;
 
 bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
-bool goes_on(const Node& node) { return node.box.scroll && !node.id.empty() && node.content_height > node.rect.h + 1; }
+bool goes_on(const Node& node) {
+  return node.box.scroll && !node.id.empty() && node.content_height > node.rect.h + 1;
+}
 
 }  // namespace
 
@@ -72,7 +74,8 @@ void Tree::layout(const Rect& screen, TextEngine& text, const Interaction& hands
 
 bool Tree::under_modal(std::size_t index) const {
   if (modal_ < 0) return false;
-  for (auto at = static_cast<std::int32_t>(index); at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
+  for (auto at = static_cast<std::int32_t>(index); at >= 0;
+       at = nodes_[static_cast<std::size_t>(at)].parent) {
     if (at == modal_) return false;
   }
   return true;
@@ -96,7 +99,8 @@ const Node* Tree::at(float x, float y) const {
 const Node* Tree::scroller_at(float x, float y) const {
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
-    if (node.box.scroll && node.content_height > node.rect.h && node.rect.holds(x, y) && !under_modal(i)) return &node;
+    if (node.box.scroll && node.content_height > node.rect.h && node.rect.holds(x, y) && !under_modal(i))
+      return &node;
   }
   return nullptr;
 }
@@ -117,7 +121,9 @@ const Node* Tree::after(std::string_view id, int direction) const {
 bool Tree::takes_focus(std::size_t index) const {
   const Node& node = nodes_[index];
   if (touchable(node)) return node.action.kind != ActionKind::TurnFace;
-  return goes_on(node) && std::ranges::none_of(nodes_, [&](const Node& other) { return touchable(other) && scroller_around(other) == &node; });
+  return goes_on(node) && std::ranges::none_of(nodes_, [&](const Node& other) {
+           return touchable(other) && scroller_around(other) == &node;
+         });
 }
 
 const Node* Tree::scroller_around(const Node& node) const {

@@ -21,11 +21,11 @@ namespace relievo::ui {
 
 // What is remembered of the person's hands.
 struct Interaction {
-  std::string focus;              // id; empty: none
-  bool show_focus = false;        // the keypad was used last
+  std::string focus;        // id; empty: none
+  bool show_focus = false;  // the keypad was used last
   std::string pressed;
-  float held = 0;                 // of the time for which what is pressed has to be held
-  std::string scrolled;           // the scroller whose place is `scroll_px`
+  float held = 0;        // of the time for which what is pressed has to be held
+  std::string scrolled;  // the scroller whose place is `scroll_px`
   float scroll_px = 0;
 };
 
@@ -47,8 +47,9 @@ class Tree {
   // The topmost node there that can be touched; the scroller there.
   const Node* at(float x, float y) const;
   const Node* scroller_at(float x, float y) const;
-  // The next in reading order (that of the nodes) that can have the focus, round and round: what can be touched, and a scroller that goes on
-  // and has nothing to touch in it, so that a keypad reads on there, too.
+  // The next in reading order (that of the nodes) that can have the focus, round and round: what can be
+  // touched, and a scroller that goes on and has nothing to touch in it, so that a keypad reads on there,
+  // too.
   const Node* after(std::string_view id, int direction) const;
   // The scroller that goes on and holds the node; nullptr: none.
   const Node* scroller_around(const Node& node) const;
@@ -59,7 +60,8 @@ class Tree {
  private:
   bool under_modal(std::size_t index) const;
   bool takes_focus(std::size_t index) const;
-  void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands, float unit) const;
+  void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands,
+                  float unit) const;
   static bool touches(const Interaction& hands, const Node& node);
 
   std::vector<Node> nodes_;

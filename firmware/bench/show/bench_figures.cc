@@ -33,7 +33,8 @@ void BenchFigures::add(const StageRecord& record) {
   if (stages_ == result_.seconds.size()) return;
   result_.seconds[stages_] = std::chrono::duration<float>(record.took).count();
   result_.made[stages_++] = record.out;
-  result_.arena_peak_mib = std::max(result_.arena_peak_mib, static_cast<float>(record.arena_peak_bytes) / static_cast<float>(budget::kMiB));
+  result_.arena_peak_mib = std::max(
+      result_.arena_peak_mib, static_cast<float>(record.arena_peak_bytes) / static_cast<float>(budget::kMiB));
 }
 
 void BenchFigures::fail(State stage, const Error& error) {
@@ -44,7 +45,8 @@ void BenchFigures::fail(State stage, const Error& error) {
 Result<void> BenchFigures::measure(const Products& products, pipeline::StageContext& context) {
   if (!products.pair || !products.matches) return {};
   const pipeline::Keypoints nothing(&context.scratch);
-  const compare::MatchFigures figures = compare::figures_of({"", set_}, nothing, *products.matches, std::nullopt, 1);
+  const compare::MatchFigures figures =
+      compare::figures_of({"", set_}, nothing, *products.matches, std::nullopt, 1);
   result_.matches = figures.matches;
   result_.accepted = figures.accepted;
   result_.rule_count = std::min(figures.rules.size(), ui::kBenchRules);
@@ -54,13 +56,15 @@ Result<void> BenchFigures::measure(const Products& products, pipeline::StageCont
     result_.rules[i].rejected = figures.rules[i].rejected;
     result_.rules[i].rgb = compare::rule_colour(i);
   }
-  if (products.matches->epipolar_shift.measured()) result_.epipolar_px = static_cast<float>(products.matches->epipolar_shift.residual_px);
+  if (products.matches->epipolar_shift.measured())
+    result_.epipolar_px = static_cast<float>(products.matches->epipolar_shift.residual_px);
   if (!products.model) return {};
   result_.median_sigma_mm = static_cast<float>(products.model->quality.median_sigma_mm);
   result_.coverage = static_cast<float>(products.model->quality.coverage);
   return pipeline::run_stage(context, [&](pipeline::StageContext& c) -> Result<void> {
     Arena::Mark mark(c.output);
-    const auto photo = compare::photo_figures(*products.pair, compare::model_view(*products.pair, products.model->mesh), c);
+    const auto photo =
+        compare::photo_figures(*products.pair, compare::model_view(*products.pair, products.model->mesh), c);
     if (photo.asked > 0) result_.photo_correlation = static_cast<float>(photo.median);
     return {};
   });

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "firmware/machine/transition.h"
 #include "firmware/session.h"
 #include "firmware/work/stage_record.h"
-#include "firmware/machine/transition.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/stage.h"
 #include "ui/bench/bench_result.h"

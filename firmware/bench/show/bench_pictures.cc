@@ -30,7 +30,8 @@ struct Size {
   int width_px = 0, height_px = 0;
 };
 Size fitted(int width_px, int height_px) {
-  const double scale = std::min(1.0, static_cast<double>(BenchPictures::kSide) / std::max(width_px, height_px));
+  const double scale =
+      std::min(1.0, static_cast<double>(BenchPictures::kSide) / std::max(width_px, height_px));
   return {std::max(1, static_cast<int>(width_px * scale)), std::max(1, static_cast<int>(height_px * scale))};
 }
 
@@ -48,7 +49,8 @@ void shrink(int width_px, int height_px, Size to, std::uint8_t* rgb, At&& at) {
         }
       }
       const float share = 1.0F / static_cast<float>((u1 - u0) * (v1 - v0));
-      for (int c = 0; c < 3; ++c) rgb[c] = static_cast<std::uint8_t>(std::clamp(sum[c] * share, 0.0F, 255.0F));
+      for (int c = 0; c < 3; ++c)
+        rgb[c] = static_cast<std::uint8_t>(std::clamp(sum[c] * share, 0.0F, 255.0F));
     }
   }
 }
@@ -89,7 +91,8 @@ void BenchPictures::draw_pair(BenchStage stage, const pipeline::RectifiedPair& p
     one.height_px = size.height_px;
     const bool rgb = colour && view.rgb.size() == 3 * view.grey.size();
     shrink(pair.width_px, pair.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+      const std::size_t i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
       return rgb ? static_cast<float>(view.rgb[3 * i + static_cast<std::size_t>(c)]) : view.grey[i];
     });
   }
@@ -104,7 +107,9 @@ void BenchPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeli
     for (int x = 0; x < kSide; ++x) {
       const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
       if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const std::uint8_t rule = rejected[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(u)];
+      const std::uint8_t rule =
+          rejected[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) +
+                   static_cast<std::size_t>(u)];
       if (rule == 0) continue;
       const compare::Rgb c = compare::rule_colour(rule - 1U);
       canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
@@ -123,7 +128,8 @@ void BenchPictures::draw_disparity(const pipeline::RectifiedPair& pair, const pi
     for (int x = 0; x < kSide; ++x) {
       const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
       if (!map.holds(u, v) || !map.known(u, v)) continue;
-      const compare::Rgb c = compare::depth_colour((static_cast<double>(map.at(u, v)) - reach.least_px) / (reach.most_px - reach.least_px));
+      const compare::Rgb c = compare::depth_colour((static_cast<double>(map.at(u, v)) - reach.least_px) /
+                                                   (reach.most_px - reach.least_px));
       canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
     }
   }
@@ -135,7 +141,9 @@ void BenchPictures::draw_shapes(const Products& products) {
     StageCanvas canvas(begin(BenchStage::Cloud, 0).rgb.get(), kSide);
     draw_cloud(pair, *products.cloud, canvas);
   }
-  const pipeline::FaceMesh* mesh = products.model ? &products.model->mesh : products.mesh ? &*products.mesh : nullptr;
+  const pipeline::FaceMesh* mesh = products.model  ? &products.model->mesh
+                                   : products.mesh ? &*products.mesh
+                                                   : nullptr;
   if (mesh != nullptr) {
     StageCanvas canvas(begin(BenchStage::Mesh, 0).rgb.get(), kSide);
     draw_surface(pair, *mesh, nullptr, canvas);
@@ -165,7 +173,9 @@ void BenchPictures::draw(const Products& products) {
 ui::BenchPicture BenchPictures::picture(BenchStage stage, std::size_t side) const {
   const One& one = all_[static_cast<std::size_t>(stage)][side];
   if (one.version == 0) return {};
-  return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px, PixelFormat::Rgb8}, one.version};
+  return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px,
+           PixelFormat::Rgb8},
+          one.version};
 }
 
 void BenchPictures::copy_from(const BenchPictures& other) {
@@ -178,7 +188,9 @@ void BenchPictures::copy_from(const BenchPictures& other) {
       to.width_px = from.width_px;
       to.height_px = from.height_px;
       to.version = next_version();
-      std::memcpy(to.rgb.get(), from.rgb.get(), std::size_t{3} * static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.height_px));
+      std::memcpy(to.rgb.get(), from.rgb.get(),
+                  std::size_t{3} * static_cast<std::size_t>(from.width_px) *
+                      static_cast<std::size_t>(from.height_px));
     }
   }
 }

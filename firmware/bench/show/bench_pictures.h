@@ -36,7 +36,7 @@ class BenchPictures {
   struct One {
     std::unique_ptr<std::uint8_t[]> rgb;  // not initialised: untouched
     int width_px = 0, height_px = 0;
-    std::uint32_t version = 0;            // 0: none
+    std::uint32_t version = 0;  // 0: none
   };
   One& begin(ui::BenchStage stage, std::size_t side);
   void draw_pair(ui::BenchStage stage, const pipeline::RectifiedPair& pair, bool colour);

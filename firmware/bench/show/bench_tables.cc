@@ -14,18 +14,23 @@ using ui::BenchTable;
 using Heads = std::span<const std::string_view>;
 
 // Symbols and units: the same in every language.
-constexpr std::array<std::string_view, 8> kMatches{"n", "x₁ px", "y₁ px", "x₂ px", "d px", "σ px", "1 − ρ", "×"};
+constexpr std::array<std::string_view, 8> kMatches{"n",    "x₁ px", "y₁ px", "x₂ px",
+                                                   "d px", "σ px",  "1 − ρ", "×"};
 constexpr std::array<std::string_view, 7> kPoints{"n", "X mm", "Y mm", "Z mm", "σ mm", "x₁ px", "y₁ px"};
 constexpr std::array<std::string_view, 8> kModel{"n", "X mm", "Y mm", "Z mm", "x", "y", "z", "σ mm"};
 constexpr std::array<std::string_view, 4> kCalibration{"", "1", "2", "1 → 2"};
 
 Heads heads_of(BenchTable table) {
   switch (table) {
-    case BenchTable::Matches: return kMatches;
-    case BenchTable::Points: return kPoints;
-    case BenchTable::Model: return kModel;
+    case BenchTable::Matches:
+      return kMatches;
+    case BenchTable::Points:
+      return kPoints;
+    case BenchTable::Model:
+      return kModel;
     case BenchTable::Calibration:
-    case BenchTable::Count: break;
+    case BenchTable::Count:
+      break;
   }
   return kCalibration;
 }
@@ -50,7 +55,8 @@ void BenchTables::show(BenchTable table, const Source& from) {
 void BenchTables::turn(std::int64_t pages, const Source& from) {
   const std::size_t rows = rows_of(table_, from);
   const std::int64_t last = rows == 0 ? 0 : static_cast<std::int64_t>((rows - 1) / kTableRows);
-  page_ = static_cast<std::size_t>(std::clamp(static_cast<std::int64_t>(page_) + pages, std::int64_t{0}, last));
+  page_ =
+      static_cast<std::size_t>(std::clamp(static_cast<std::int64_t>(page_) + pages, std::int64_t{0}, last));
   fill(from);
 }
 
@@ -97,7 +103,9 @@ void BenchTables::fill_matches(const Source& from, std::size_t row) {
   cell("%.3f", m.sigma_px);
   cell("%.3f", m.cost);
   const auto rule = static_cast<std::size_t>(std::countr_zero(m.rejected_by));
-  word(m.rejected_by == 0 ? "" : rule < from.figures.rule_count() ? std::string_view(from.figures.rule(rule)) : "?");
+  word(m.rejected_by == 0                 ? ""
+       : rule < from.figures.rule_count() ? std::string_view(from.figures.rule(rule))
+                                          : "?");
 }
 
 void BenchTables::fill_points(const pipeline::PointCloud& cloud, std::size_t row) {
@@ -121,17 +129,21 @@ void BenchTables::fill_model(const pipeline::FaceModel& model, std::size_t row) 
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    box_ = {{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2}, std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-9}) / 2, &model};
+    box_ = {{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2},
+            std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-9}) / 2,
+            &model};
   }
   const pipeline::Vec3d p = in_head(row);
   for (const double v : {p.x, p.y, p.z}) cell("%.3f", v);
-  for (const double v : {p.x - box_.middle.x, p.y - box_.middle.y, p.z - box_.middle.z}) cell("%.4f", v / box_.half);
+  for (const double v : {p.x - box_.middle.x, p.y - box_.middle.y, p.z - box_.middle.z})
+    cell("%.4f", v / box_.half);
   if (model.mesh.measured[row] != 0) cell("%.3f", model.mesh.sigma_mm[row]);
   else word("–");
 }
 
 void BenchTables::fill_calibration(const pipeline::StereoCalibration& c) {
-  const auto line = [this](std::string_view name, const char* format, double left, double right, std::string_view third) {
+  const auto line = [this](std::string_view name, const char* format, double left, double right,
+                           std::string_view third) {
     word(name);
     cell(format, left);
     cell(format, right);
@@ -140,7 +152,8 @@ void BenchTables::fill_calibration(const pipeline::StereoCalibration& c) {
   char text[kTableRows][96] = {};
   const auto& r = c.right_from_left.rotation.m;
   const auto& t = c.right_from_left.translation_mm;
-  for (std::size_t i = 0; i < 3; ++i) std::snprintf(text[i], sizeof text[i], "R  %+.5f  %+.5f  %+.5f", r[3 * i], r[3 * i + 1], r[3 * i + 2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    std::snprintf(text[i], sizeof text[i], "R  %+.5f  %+.5f  %+.5f", r[3 * i], r[3 * i + 1], r[3 * i + 2]);
   std::snprintf(text[3], sizeof text[3], "t  %+.3f  %+.3f  %+.3f mm", t.x, t.y, t.z);
   std::snprintf(text[4], sizeof text[4], "rms  %.3f px", c.rms_px);
   std::snprintf(text[5], sizeof text[5], "№  %u", c.revision);
@@ -149,11 +162,14 @@ void BenchTables::fill_calibration(const pipeline::StereoCalibration& c) {
   line("cx px", "%.3f", c.left.centre_px.x, c.right.centre_px.x, text[2]);
   line("cy px", "%.3f", c.left.centre_px.y, c.right.centre_px.y, text[3]);
   const char* const names[] = {"k₁", "k₂", "p₁", "p₂", "k₃"};
-  for (std::size_t i = 0; i < 5; ++i) line(names[i], "%+.6f", c.left.distortion[i], c.right.distortion[i], text[4 + i]);
+  for (std::size_t i = 0; i < 5; ++i)
+    line(names[i], "%+.6f", c.left.distortion[i], c.right.distortion[i], text[4 + i]);
   char left[24], right[24];
   std::snprintf(left, sizeof left, "%d × %d", c.left.width_px, c.left.height_px);
   std::snprintf(right, sizeof right, "%d × %d", c.right.width_px, c.right.height_px);
-  for (const std::string_view w : {std::string_view("px"), std::string_view(left), std::string_view(right), std::string_view()}) word(w);
+  for (const std::string_view w :
+       {std::string_view("px"), std::string_view(left), std::string_view(right), std::string_view()})
+    word(w);
 }
 
 ui::BenchRows BenchTables::view() const {

@@ -49,7 +49,7 @@ class BenchTables {
   std::vector<std::string_view> cells_;
   struct Box {
     pipeline::Vec3d middle;
-    double half = 0;             // 0: not measured yet
+    double half = 0;  // 0: not measured yet
     const void* of = nullptr;
   } box_;
 };

@@ -10,9 +10,9 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kHalfWindowPx = 7;      // of the likeness
-constexpr float kFingerShare = 0.02F; // of the picture's width: what a finger may miss a match by
-constexpr float kSnapShare = 0.02F;   // and a partner
+constexpr int kHalfWindowPx = 7;       // of the likeness
+constexpr float kFingerShare = 0.02F;  // of the picture's width: what a finger may miss a match by
+constexpr float kSnapShare = 0.02F;    // and a partner
 
 void place(const pipeline::RectifiedPair& pair, ui::BenchPoint& point) {
   point.right_px = {point.left_px.x - point.disparity_px, point.left_px.y};
@@ -25,8 +25,10 @@ void place(const pipeline::RectifiedPair& pair, ui::BenchPoint& point) {
 void reconstruct(const pipeline::RectifiedPair& pair, ui::BenchPoint& point) {
   const double z = pair.depth_mm(point.disparity_px);
   if (!std::isfinite(z) || z <= 0) return;
-  const double across = (point.left_px.x - pair.left_centre_px.x) / pair.focal_px, down = (point.left_px.y - pair.left_centre_px.y) / pair.focal_px;
-  const pipeline::Vec3d p = apply(transposed(pair.rectified_from_left), pipeline::Vec3d{across * z, down * z, z});
+  const double across = (point.left_px.x - pair.left_centre_px.x) / pair.focal_px,
+               down = (point.left_px.y - pair.left_centre_px.y) / pair.focal_px;
+  const pipeline::Vec3d p =
+      apply(transposed(pair.rectified_from_left), pipeline::Vec3d{across * z, down * z, z});
   point.at_mm = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   const double slant = std::sqrt(1 + across * across + down * down);
   point.sigma_mm = static_cast<float>(z * z / (pair.focal_px * pair.baseline_mm) * point.sigma_px * slant);
@@ -39,10 +41,13 @@ struct Patch {
   double mean = 0, energy = 0;
 };
 
-bool cut(const pipeline::RectifiedPair& pair, const pipeline::RectifiedView& view, double x, int y, Patch& patch) {
+bool cut(const pipeline::RectifiedPair& pair, const pipeline::RectifiedView& view, double x, int y,
+         Patch& patch) {
   const double first = std::floor(x);
   const int u = static_cast<int>(first);
-  if (u < kHalfWindowPx || y < kHalfWindowPx || u + kHalfWindowPx + 1 >= pair.width_px || y + kHalfWindowPx >= pair.height_px) return false;
+  if (u < kHalfWindowPx || y < kHalfWindowPx || u + kHalfWindowPx + 1 >= pair.width_px ||
+      y + kHalfWindowPx >= pair.height_px)
+    return false;
   std::size_t i = 0;
   patch.mean = patch.energy = 0;
   for (int v = -kHalfWindowPx; v <= kHalfWindowPx; ++v) {
@@ -67,7 +72,8 @@ double correlation(const Patch& a, const Patch& b) {
   return sum / std::sqrt(a.energy * b.energy);
 }
 
-// Of a shift along the row between two patches that differ by noise alone: noise / root of the summed squared slopes.
+// Of a shift along the row between two patches that differ by noise alone: noise / root of the summed squared
+// slopes.
 double sigma_of(const Patch& patch, double rho) {
   double slopes = 0;
   for (int v = 0; v < Patch::kSide; ++v) {
@@ -77,13 +83,15 @@ double sigma_of(const Patch& patch, double rho) {
       slopes += slope * slope;
     }
   }
-  const double noise = (1 - rho * rho) * patch.energy / static_cast<double>(patch.grey.size());  // of the difference
+  const double noise =
+      (1 - rho * rho) * patch.energy / static_cast<double>(patch.grey.size());  // of the difference
   return slopes > 0 ? std::sqrt(std::max(noise, 0.25) / slopes) : 1;
 }
 
 }  // namespace
 
-ui::BenchPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches, const BenchFigures& figures, float x, float y) {
+ui::BenchPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches,
+                             const BenchFigures& figures, float x, float y) {
   ui::BenchPoint point = hand_point(pair, x, y);
   point.by_hand = point.waits_for_right = false;
   const float reach = kFingerShare * static_cast<float>(pair.width_px);
@@ -102,7 +110,8 @@ ui::BenchPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline
   point.sigma_px = nearest->sigma_px;
   point.cost = nearest->cost;
   const auto rule = static_cast<std::size_t>(std::countr_zero(nearest->rejected_by));
-  if (nearest->rejected_by != 0) point.rejected_by = rule < figures.rule_count() ? std::string_view(figures.rule(rule)) : "?";
+  if (nearest->rejected_by != 0)
+    point.rejected_by = rule < figures.rule_count() ? std::string_view(figures.rule(rule)) : "?";
   place(pair, point);
   reconstruct(pair, point);
   return point;
@@ -111,7 +120,8 @@ ui::BenchPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline
 ui::BenchPoint hand_point(const pipeline::RectifiedPair& pair, float x, float y) {
   ui::BenchPoint point;
   point.touched = point.by_hand = point.waits_for_right = true;
-  point.left_px = {std::clamp(x, 0.0F, 1.0F) * static_cast<float>(pair.width_px), std::clamp(y, 0.0F, 1.0F) * static_cast<float>(pair.height_px)};
+  point.left_px = {std::clamp(x, 0.0F, 1.0F) * static_cast<float>(pair.width_px),
+                   std::clamp(y, 0.0F, 1.0F) * static_cast<float>(pair.height_px)};
   point.left_x = x;
   point.y = y;
   return point;
@@ -131,7 +141,9 @@ void match_by_hand(const pipeline::RectifiedPair& pair, float right_x, ui::Bench
     if (rho > best) best = rho, at = step;
   }
   if (best < -1) return;
-  const auto rho_at = [&](int step) { return cut(pair, pair.right, middle + step, row, right) ? correlation(left, right) : best; };
+  const auto rho_at = [&](int step) {
+    return cut(pair, pair.right, middle + step, row, right) ? correlation(left, right) : best;
+  };
   const double before = rho_at(at - 1), after = rho_at(at + 1), bend = before - 2 * best + after;
   const double part = bend < 0 ? std::clamp((before - after) / (2 * bend), -0.5, 0.5) : 0;
   point.matched = true;

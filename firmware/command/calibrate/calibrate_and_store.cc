@@ -54,7 +54,8 @@ Result<std::optional<pipeline::StereoCalibration>> in_use(const Path& folder, Se
   if (!store && store.error().code == Errc::NotFound) return std::optional<pipeline::StereoCalibration>();
   if (!store) return store.error();
   auto active = (*store)->active_calibration();
-  if (!active && active.error().code == Errc::NotCalibrated) return std::optional<pipeline::StereoCalibration>();
+  if (!active && active.error().code == Errc::NotCalibrated)
+    return std::optional<pipeline::StereoCalibration>();
   if (!active) return active.error();
   return std::optional(*active);
 }
@@ -82,16 +83,19 @@ Result<void> calibrate_and_store(const Task& task, Services& services, const Cal
     if (task.store.empty()) return {};
     RELIEVO_TRY_ASSIGN(const auto store, services.open_store(task.store, true));
     const std::string source = "calibrated from " + Path(task.from).filename().string();
-    RELIEVO_TRY_ASSIGN(const auto revision, store->save_calibration(result.calibration, source, figures_of(result.quality)));
+    RELIEVO_TRY_ASSIGN(const auto revision,
+                       store->save_calibration(result.calibration, source, figures_of(result.quality)));
     services.console.say("stored: calibration " + std::to_string(revision) + ", in use from now on");
     return {};
   } catch (const Stopped&) {
     return Error{Errc::Cancelled, "cancelled: nothing was written"}.at(task.output.string());
   } catch (const std::bad_alloc&) {
-    return Error{Errc::OutOfMemory, "there is not enough memory for these pictures: use fewer or smaller ones"}.at(
-        task.from);
+    return Error{Errc::OutOfMemory,
+                 "there is not enough memory for these pictures: use fewer or smaller ones"}
+        .at(task.from);
   } catch (const std::exception&) {
-    return Error{Errc::LibraryFailed, "a library gave up on these pictures: look for a damaged one"}.at(task.from);
+    return Error{Errc::LibraryFailed, "a library gave up on these pictures: look for a damaged one"}.at(
+        task.from);
   }
 }
 
@@ -107,8 +111,9 @@ Result<std::unique_ptr<LivePairs>> open_pairs(const CalibrateLiveArgs& args, Ser
 }  // namespace
 
 Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services) {
-  return calibrate_and_store({args.output, args.store, args.pictures.string()}, services,
-                             [&](std::ostream& out, const RigToday& today) { return run_calibrate(args, out, today); });
+  return calibrate_and_store(
+      {args.output, args.store, args.pictures.string()}, services,
+      [&](std::ostream& out, const RigToday& today) { return run_calibrate(args, out, today); });
 }
 
 Result<void> run_calibrate_live_and_store(const CalibrateLiveArgs& args, Services& services) {

@@ -125,11 +125,12 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
                 q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
                 q.held_out_epipolar_px, q.baseline_mm);
   out << line << '\n';
-  std::snprintf(line, sizeof line,
-                "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %.3f mm from where their squares put them; "
-                "lengths within %.3f %% (95 %%)",
-                pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm, q.measured_depth_mm,
-                pipeline::kTwoSided95 * q.uncertainty.scale_percent);
+  std::snprintf(
+      line, sizeof line,
+      "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %.3f mm from where their squares put them; "
+      "lengths within %.3f %% (95 %%)",
+      pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm, q.measured_depth_mm,
+      pipeline::kTwoSided95 * q.uncertainty.scale_percent);
   out << line << '\n';
   if (q.expected_as_in_use)
     out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
@@ -179,11 +180,14 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
 }
 
 pipeline::BoardPattern pattern_of(const BoardArgs& board) {
-  return {board.corners_across, board.corners_down, board.square_mm,
-          board.charuco ? pipeline::BoardKind::Charuco : pipeline::BoardKind::Chessboard, board.marker_mm, board.marker_bits};
+  return {
+      board.corners_across, board.corners_down,
+      board.square_mm,      board.charuco ? pipeline::BoardKind::Charuco : pipeline::BoardKind::Chessboard,
+      board.marker_mm,      board.marker_bits};
 }
 
-Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out, const RigToday& today) {
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
+                                                 const RigToday& today) {
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY(pattern.check());
   RELIEVO_TRY(check_calibration_output(args.output));

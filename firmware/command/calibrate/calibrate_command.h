@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml [--report DIR]
+// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml [--report
+// DIR]
 //           [--baseline-mm N]
 //
 // Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
@@ -43,10 +44,12 @@ void tell_quality(const pipeline::CalibrationQuality& quality, std::ostream& out
 
 // What the caller knows of the rig and the day.
 struct RigToday {
-  std::string made_at;                                // for the report
-  std::optional<pipeline::StereoCalibration> in_use{};  // whose baseline is expected where --baseline-mm is not given
+  std::string made_at;  // for the report
+  std::optional<pipeline::StereoCalibration>
+      in_use{};  // whose baseline is expected where --baseline-mm is not given
 };
 
-Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out, const RigToday& today = {});
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
+                                                 const RigToday& today = {});
 
 }  // namespace relievo::firmware

@@ -47,10 +47,11 @@ void tell_pair(const LiveState& s, std::ostream& out) {
 void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowest, std::ostream& out) {
   const double seconds = std::chrono::duration<double>(busy).count();
   char line[280];
-  std::snprintf(line, sizeof line,
-                "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
-                s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm,
-                s.goal_mm, s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
+  std::snprintf(
+      line, sizeof line,
+      "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
+      s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm, s.goal_mm,
+      s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
   out << line << std::endl;
 }
 

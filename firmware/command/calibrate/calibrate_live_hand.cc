@@ -59,12 +59,18 @@ void AdvisedHand::obey(pipeline::LiveAdvice told, double mm, double deg) {
     double HeldPose::*axis;
     double by;
   } moves[] = {
-      {Left, &HeldPose::right_mm, -mm},      {Right, &HeldPose::right_mm, mm},
-      {Up, &HeldPose::down_mm, -mm},         {Down, &HeldPose::down_mm, mm},
-      {Closer, &HeldPose::distance_mm, -mm}, {Farther, &HeldPose::distance_mm, mm},
-      {TiltLeft, &HeldPose::yaw_deg, deg},   {TiltRight, &HeldPose::yaw_deg, -deg},
-      {TiltForward, &HeldPose::pitch_deg, deg}, {TiltBack, &HeldPose::pitch_deg, -deg},
-      {TurnClockwise, &HeldPose::roll_deg, deg}, {TurnCounterclockwise, &HeldPose::roll_deg, -deg},
+      {Left, &HeldPose::right_mm, -mm},
+      {Right, &HeldPose::right_mm, mm},
+      {Up, &HeldPose::down_mm, -mm},
+      {Down, &HeldPose::down_mm, mm},
+      {Closer, &HeldPose::distance_mm, -mm},
+      {Farther, &HeldPose::distance_mm, mm},
+      {TiltLeft, &HeldPose::yaw_deg, deg},
+      {TiltRight, &HeldPose::yaw_deg, -deg},
+      {TiltForward, &HeldPose::pitch_deg, deg},
+      {TiltBack, &HeldPose::pitch_deg, -deg},
+      {TurnClockwise, &HeldPose::roll_deg, deg},
+      {TurnCounterclockwise, &HeldPose::roll_deg, -deg},
   };
   // What is not among them needs no move: the hand holds still.
   for (const auto& move : moves)

@@ -26,7 +26,8 @@ std::string file_name(std::string name, std::set<std::string>& taken) {
 }
 
 Result<std::vector<std::byte>> thumbnail(const hal::Picture& picture) {
-  return hal::encode_jpeg(pipeline::thumbnail_picture(picture.view(), kThumbnailPx).view(), kThumbnailQuality);
+  return hal::encode_jpeg(pipeline::thumbnail_picture(picture.view(), kThumbnailPx).view(),
+                          kThumbnailQuality);
 }
 
 // Files are made in the report's working folder; an error names the one they are meant for.
@@ -48,13 +49,15 @@ class Report {
   const Path& folder_;
 };
 
-Result<void> write_pictures(const Report& report, const std::string& name, const hal::Picture& left, const hal::Picture& right,
-                            const pipeline::BoardView& view, const pipeline::StereoCalibration& calibration,
-                            pipeline::ViewPictures& files) {
+Result<void> write_pictures(const Report& report, const std::string& name, const hal::Picture& left,
+                            const hal::Picture& right, const pipeline::BoardView& view,
+                            const pipeline::StereoCalibration& calibration, pipeline::ViewPictures& files) {
   files.corners_file = "corners_" + name + ".png";
   files.rectified_file = "rectified_" + name + ".png";
-  RELIEVO_TRY(report.picture(files.corners_file, pipeline::corner_picture(left.view(), view.left, right.view(), view.right)));
-  return report.picture(files.rectified_file, pipeline::rectified_picture(left.view(), right.view(), calibration));
+  RELIEVO_TRY(report.picture(files.corners_file,
+                             pipeline::corner_picture(left.view(), view.left, right.view(), view.right)));
+  return report.picture(files.rectified_file,
+                        pipeline::rectified_picture(left.view(), right.view(), calibration));
 }
 
 // "boards" of "/data/boards/" and of "boards/.".
@@ -67,8 +70,9 @@ std::string last_name(const Path& folder) {
 }  // namespace
 
 Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
-                                      const pipeline::CalibratorInput& input, const pipeline::CalibratorOutput& result,
-                                      const std::string& made_at, std::ostream& out) {
+                                      const pipeline::CalibratorInput& input,
+                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
+                                      std::ostream& out) {
   RELIEVO_TRY_ASSIGN(OutputFolder work, OutputFolder::begin(folder));
   const Report report(work, folder);
   pipeline::CalibrationReport page{input, result, "Relievo " + std::string(kVersion), made_at, {}, {}};
@@ -87,7 +91,8 @@ Result<void> write_calibration_report(const Path& folder, const std::vector<Pict
       out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
       continue;
     }
-    RELIEVO_TRY(write_pictures(report, file_name(pairs[i].name, taken), left, right, input.views[i], result.calibration, pictures));
+    RELIEVO_TRY(write_pictures(report, file_name(pairs[i].name, taken), left, right, input.views[i],
+                               result.calibration, pictures));
     out << "report: view " << pairs[i].name << std::endl;
   }
   RELIEVO_TRY(report.text("report.json", pipeline::calibration_report_json(page)));

@@ -17,7 +17,8 @@ namespace relievo::firmware {
 // Whole or not at all. One line a pair goes to `out`.
 // Errors: the pictures' (they are read once more), the disk's; each names its place.
 Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
-                                      const pipeline::CalibratorInput& input, const pipeline::CalibratorOutput& result,
-                                      const std::string& made_at, std::ostream& out);
+                                      const pipeline::CalibratorInput& input,
+                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
+                                      std::ostream& out);
 
 }  // namespace relievo::firmware

@@ -32,8 +32,9 @@ Result<void> activate(const CalibrationArgs& args, Services& services) {
 
 Result<void> import_one(const CalibrationArgs& args, Services& services) {
   // The file first: a wrong one leaves the store unopened.
-  RELIEVO_TRY_ASSIGN(const auto calibration,
-                     pipeline::read_calibration(args.file, {args.width_px, args.height_px, args.unit_mm}, args.other));
+  RELIEVO_TRY_ASSIGN(
+      const auto calibration,
+      pipeline::read_calibration(args.file, {args.width_px, args.height_px, args.unit_mm}, args.other));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
   const std::string note = args.note.empty() ? "imported from " + args.file.filename().string() : args.note;
   RELIEVO_TRY_ASSIGN(const auto revision, store->save_calibration(calibration, note));
@@ -64,11 +65,16 @@ Result<void> export_one(const CalibrationArgs& args, Services& services) {
 
 Result<void> run_calibration(const CalibrationArgs& args, Services& services) {
   switch (args.verb) {
-    case CalibrationArgs::Verb::List: return list(args, services);
-    case CalibrationArgs::Verb::Activate: return activate(args, services);
-    case CalibrationArgs::Verb::Import: return import_one(args, services);
-    case CalibrationArgs::Verb::Export: return export_one(args, services);
-    case CalibrationArgs::Verb::Show: break;
+    case CalibrationArgs::Verb::List:
+      return list(args, services);
+    case CalibrationArgs::Verb::Activate:
+      return activate(args, services);
+    case CalibrationArgs::Verb::Import:
+      return import_one(args, services);
+    case CalibrationArgs::Verb::Export:
+      return export_one(args, services);
+    case CalibrationArgs::Verb::Show:
+      break;
   }
   RELIEVO_TRY_ASSIGN(const auto calibration, chosen(args, services));
   services.console.say(pipeline::calibration_text(calibration));

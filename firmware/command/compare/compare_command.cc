@@ -30,14 +30,20 @@ std::string line_of(const Comparison& c, const Run& run) {
   if (!run.failure.empty() && !run.score) return name + "failed: " + run.failure;
   char figures[200];
   if (run.model) {
-    std::snprintf(figures, sizeof figures, "interior median %.4f mm, accuracy p95 %.4f mm, complete at 0.5 mm %.4f, outliers %.5f, match %.0f ms",
-                  run.model->interior_median_mm, run.model->accuracy_p95_mm, run.model->complete_half_mm, run.model->outliers_3mm, run.match_ms);
+    std::snprintf(
+        figures, sizeof figures,
+        "interior median %.4f mm, accuracy p95 %.4f mm, complete at 0.5 mm %.4f, outliers %.5f, match %.0f ms",
+        run.model->interior_median_mm, run.model->accuracy_p95_mm, run.model->complete_half_mm,
+        run.model->outliers_3mm, run.match_ms);
   } else if (run.score) {
-    std::snprintf(figures, sizeof figures, "bad %.2f %% (of given %.2f %%, of seen by both %.2f %%), density %.2f %%, rms %.2f px, match %.0f ms",
-                  100 * run.score->bad_limit, 100 * run.score->bad_given, 100 * run.score->bad_seen, 100 * run.score->density,
-                  run.score->rms_px, run.match_ms);
+    std::snprintf(
+        figures, sizeof figures,
+        "bad %.2f %% (of given %.2f %%, of seen by both %.2f %%), density %.2f %%, rms %.2f px, match %.0f ms",
+        100 * run.score->bad_limit, 100 * run.score->bad_given, 100 * run.score->bad_seen,
+        100 * run.score->density, run.score->rms_px, run.match_ms);
   } else {
-    std::snprintf(figures, sizeof figures, "%zu of %zu matched, match %.0f ms", run.matches.accepted, run.matches.keypoints, run.match_ms);
+    std::snprintf(figures, sizeof figures, "%zu of %zu matched, match %.0f ms", run.matches.accepted,
+                  run.matches.keypoints, run.match_ms);
   }
   char meshed[40] = "";
   if (run.surface) std::snprintf(meshed, sizeof meshed, ", mesh %.0f ms", run.surface->mesh_ms);
@@ -46,8 +52,11 @@ std::string line_of(const Comparison& c, const Run& run) {
 
 // "2-1_d2_refined.pfm": numbers of pair and set, and their names as far as files may be called so.
 std::string map_name(const Comparison& c, const Run& run) {
-  std::string name = std::to_string(run.pair + 1) + "-" + std::to_string(run.set + 1) + "_" + c.pairs[run.pair].name + "_" + c.sets[run.set].name;
-  std::replace_if(name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) == 0 && ch != '-' && ch != '_'; }, '_');
+  std::string name = std::to_string(run.pair + 1) + "-" + std::to_string(run.set + 1) + "_" +
+                     c.pairs[run.pair].name + "_" + c.sets[run.set].name;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char ch) { return std::isalnum(ch) == 0 && ch != '-' && ch != '_'; }, '_');
   return name.substr(0, 100) + ".pfm";
 }
 
@@ -74,16 +83,22 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
       const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera);
       return files ? Result<void>{} : files.error().at(args.output.string());
     };
-  services.console.say(std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") + std::to_string(pairs.size()) +
-                       (pairs.size() == 1 ? " pair" : " pairs") + (args.truths.empty() ? "; no truth is known: nothing below says how wrong a set is" : ""));
-  compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px, keep_model);
+  services.console.say(
+      std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") +
+      std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
+      (args.truths.empty() ? "; no truth is known: nothing below says how wrong a set is" : ""));
+  compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px,
+                          keep_model);
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
 
   const Comparison& comparison = job.comparison();
-  const std::string made_at = text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
-  RELIEVO_TRY_ASSIGN(const std::string page, compare::comparison_html(comparison, "Relievo " + std::string(kVersion), made_at));
+  const std::string made_at =
+      text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
+  RELIEVO_TRY_ASSIGN(const std::string page,
+                     compare::comparison_html(comparison, "Relievo " + std::string(kVersion), made_at));
   RELIEVO_TRY(write_text(folder.path() / "index.html", page, args.output));
-  RELIEVO_TRY(write_text(folder.path() / "compare.json", compare::comparison_json(comparison, made_at), args.output));
+  RELIEVO_TRY(
+      write_text(folder.path() / "compare.json", compare::comparison_json(comparison, made_at), args.output));
   if (args.keep_maps) RELIEVO_TRY(write_maps(comparison, folder, args.output));
   RELIEVO_TRY(folder.commit());
   for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));

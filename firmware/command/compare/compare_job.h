@@ -14,7 +14,8 @@ namespace relievo::firmware::compare {
 class CompareJob final : public Job {
  public:
   using KeepModel = std::function<Result<void>(const pipeline::FaceModel&)>;
-  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, bool whole_view, double limit_px, KeepModel keep_model);
+  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, bool whole_view, double limit_px,
+             KeepModel keep_model);
 
   Result<void> run(JobControl& control) override;
   std::string_view now() const { return labels_[at_.load(std::memory_order_relaxed)]; }  // "pair, set"

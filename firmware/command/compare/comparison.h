@@ -24,7 +24,7 @@ struct NamedSet {
 };
 
 struct StageCost {
-  std::string name;             // rectify, preprocess, select, match, judge, reconstruct, mesh, texture
+  std::string name;  // rectify, preprocess, select, match, judge, reconstruct, mesh, texture
   double ms = 0;
   std::size_t arena_peak_bytes = 0;
 };
@@ -33,8 +33,8 @@ struct StageCost {
 struct RuleFigures {
   std::string name;
   std::size_t rejected = 0;
-  std::size_t judged = 0;       // of the rejected, with known truth
-  std::size_t bad = 0;          // of these, truly off by more than the limit
+  std::size_t judged = 0;  // of the rejected, with known truth
+  std::size_t bad = 0;     // of these, truly off by more than the limit
 };
 
 struct MatchFigures {
@@ -46,12 +46,13 @@ struct MatchFigures {
 
 // How good the places are that a selector chose (Schmid, Mohr, Bauckhage 2000).
 struct SelectorFigures {
-  std::size_t left = 0, right = 0;   // places it chooses in either view
-  std::optional<double> repeatability;  // of the left's that both views see: share with a partner within 1.5 px
-  std::size_t asked = 0;             // how many that share is of
-  double match_rate = 0;             // share whose match was accepted
-  double spread = 0;                 // share of 16 x 16 cells of the region that hold one
-  std::vector<pipeline::Vec2f> places_px;      // of the left view
+  std::size_t left = 0, right = 0;  // places it chooses in either view
+  std::optional<double>
+      repeatability;      // of the left's that both views see: share with a partner within 1.5 px
+  std::size_t asked = 0;  // how many that share is of
+  double match_rate = 0;  // share whose match was accepted
+  double spread = 0;      // share of 16 x 16 cells of the region that hold one
+  std::vector<pipeline::Vec2f> places_px;  // of the left view
 };
 
 // What a mesher made, as it looks: from in front and from the side, PNG.
@@ -62,15 +63,15 @@ struct SurfaceLook {
 };
 
 struct Run {
-  std::size_t set = 0, pair = 0;     // indices
-  std::string failure;               // empty: it worked; else at what and why
+  std::size_t set = 0, pair = 0;  // indices
+  std::string failure;            // empty: it worked; else at what and why
   std::vector<StageCost> stages;
   double match_ms = 0;               // preprocess to judge
   std::size_t arena_peak_bytes = 0;  // both arenas together
   std::size_t heap_peak_bytes = 0;   // what the process held besides, above what it held before; 0 unknown
   MatchFigures matches;
-  DisparityMap map;                  // accepted
-  std::vector<std::uint8_t> rejected_by;  // a pixel each: 0, or 1 + the first rule that took its match
+  DisparityMap map;                         // accepted
+  std::vector<std::uint8_t> rejected_by;    // a pixel each: 0, or 1 + the first rule that took its match
   std::optional<SelectorFigures> selector;  // of scattered places
   std::optional<DisparityScore> score;
   // What needs no truth.
@@ -78,7 +79,7 @@ struct Run {
   std::optional<PhotoFigures> photo;           // of models
   std::optional<double> epipolar_px;           // rms disagreement of the rows, where the matcher measures it
   std::optional<measure::Measurement> model;
-  std::optional<SurfaceLook> surface;          // of models
+  std::optional<SurfaceLook> surface;  // of models
 };
 
 struct PairFacts {
@@ -86,15 +87,15 @@ struct PairFacts {
   int width_px = 0, height_px = 0;   // of the rectified views
   double least_px = 0, most_px = 0;  // disparities that are looked for
   bool rectified = false;
-  std::vector<std::uint8_t> grey;    // the left rectified view
+  std::vector<std::uint8_t> grey;  // the left rectified view
   std::optional<DisparityTruth> truth;
 };
 
 struct Comparison {
   std::vector<NamedSet> sets;
   std::vector<PairFacts> pairs;
-  std::vector<Run> runs;             // pair by pair, set by set
-  double limit_px = 1;               // off by more is bad
+  std::vector<Run> runs;  // pair by pair, set by set
+  double limit_px = 1;    // off by more is bad
 };
 
 }  // namespace relievo::firmware::compare

@@ -18,7 +18,9 @@ Result<SetWords> words_of(const std::string& text) {
   SetWords words;
   words.name = text.substr(0, std::min(colon, text.size()));
   if (colon == std::string::npos || words.name.find_first_not_of(' ') == std::string::npos)
-    return Error{Errc::InvalidInput, "is no set: write \"NAME: KEY=VALUE KEY=VALUE\", as in \"SSD: matcher=ssd\""}.at(text);
+    return Error{Errc::InvalidInput,
+                 "is no set: write \"NAME: KEY=VALUE KEY=VALUE\", as in \"SSD: matcher=ssd\""}
+        .at(text);
   std::string_view rest = std::string_view(text).substr(colon + 1);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
@@ -82,7 +84,9 @@ Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
     RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(base));
     all.push_back({only.get("matcher"), {}});
   }
-  if (all.size() > kMostSets) return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(std::to_string(all.size()));
+  if (all.size() > kMostSets)
+    return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(
+        std::to_string(all.size()));
   std::vector<NamedSet> sets;
   for (const SetWords& words : all) {
     const auto same = [&words](const NamedSet& set) { return set.name == words.name; };

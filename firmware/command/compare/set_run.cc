@@ -20,8 +20,11 @@ namespace {
 class Bench {
  public:
   Bench(ThreadPool& pool, JobControl& control, Run& run)
-      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), output_(memory_.output()), pool_(pool),
-        control_(control), run_(run) {}
+      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+        output_(memory_.output()),
+        pool_(pool),
+        control_(control),
+        run_(run) {}
 
   template <typename Step>
   auto step(const char* name, Step&& work) {
@@ -62,16 +65,19 @@ struct Made {
   std::optional<pipeline::FaceModel> model;
 };
 
-Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench, Made& made) {
-  RELIEVO_TRY_ASSIGN(made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
-    if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
-    RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair, pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
-    if (order.whole_view) return pair;
-    RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
-    RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
-    RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
-    return pair;
-  }));
+Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench,
+                     Made& made) {
+  RELIEVO_TRY_ASSIGN(
+      made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
+        if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
+        RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair,
+                           pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
+        if (order.whole_view) return pair;
+        RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
+        RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
+        RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
+        return pair;
+      }));
   return {};
 }
 
@@ -82,11 +88,16 @@ Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
   RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
   if (preprocessor != nullptr) {
-    RELIEVO_TRY(bench.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+    RELIEVO_TRY(bench.step("preprocess",
+                           [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
   }
   const pipeline::RectifiedPair& pair = *made.pair;
-  RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) { return selector->select(pair, c); }));
-  RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) { return matcher->match(pair, *made.keypoints, c); }));
+  RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) {
+    return selector->select(pair, c);
+  }));
+  RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) {
+    return matcher->match(pair, *made.keypoints, c);
+  }));
   return bench.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
     std::uint16_t bit = 1;
     for (const auto& constraint : constraints) {
@@ -97,12 +108,18 @@ Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
   });
 }
 
-Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made, Run& run) {
-  auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) { return pipeline.reconstruct(*made.pair, *made.matches, c); });
+Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made,
+                         Run& run) {
+  auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) {
+    return pipeline.reconstruct(*made.pair, *made.matches, c);
+  });
   if (!cloud) return cloud.error();
-  auto mesh = bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
+  auto mesh =
+      bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
   if (!mesh) return mesh.error();
-  auto model = bench.step("texture", [&](pipeline::StageContext& c) { return pipeline.texture(*std::move(mesh), *made.pair, c); });
+  auto model = bench.step("texture", [&](pipeline::StageContext& c) {
+    return pipeline.texture(*std::move(mesh), *made.pair, c);
+  });
   if (!model) return model.error();
   if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
   made.model.emplace(*std::move(model));
@@ -127,7 +144,8 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   std::optional<pipeline::Pipeline> pipeline;  // without a rig there is nothing to build
   if (order.pair.calibration) {
     const auto region = order.whole_view ? pipeline::Region::All : pipeline::Region::Face;
-    RELIEVO_TRY_ASSIGN(pipeline, pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
+    RELIEVO_TRY_ASSIGN(pipeline,
+                       pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
   }
   RELIEVO_TRY(rectify(order, pipeline, bench, made));
   note_facts(order, *made.pair, facts);
@@ -142,8 +160,8 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
 }
 
 // Of places that are no lattice, which is no choice.
-Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipeline::RectifiedPair& pair, const PairFacts& facts,
-                              const Made& made, Run& run) {
+Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipeline::RectifiedPair& pair,
+                              const PairFacts& facts, const Made& made, Run& run) {
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
   const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
   return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
@@ -154,7 +172,8 @@ Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipelin
 }
 
 // What says how good the matches are without knowing what is true.
-Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made, Run& run) {
+Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made,
+                             Run& run) {
   if (!made.matches) return {};
   if (made.matches->epipolar_shift.measured()) run.epipolar_px = made.matches->epipolar_shift.residual_px;
   const pipeline::RectifiedPair& pair = *made.pair;
@@ -178,12 +197,14 @@ Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFact
 
 std::string words_of(const Run& run, const Error& error) {
   const std::string where(error.where());
-  return (run.stages.empty() ? "" : run.stages.back().name + ": ") + (where.empty() ? "" : where + ": ") + std::string(error.what.view());
+  return (run.stages.empty() ? "" : run.stages.back().name + ": ") + (where.empty() ? "" : where + ": ") +
+         std::string(error.what.view());
 }
 
 }  // namespace
 
-Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts, Run& run) {
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
+                     Run& run) {
   const PeakMemory peak;
   Bench bench(pool, control, run);
   Made made;
@@ -193,8 +214,11 @@ Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& contro
   run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
   if (!done) run.failure = words_of(run, done.error());
   if (done || done.error().code != Errc::Cancelled)
-    if (const auto looked = look_at_matches(order, bench, facts, made, run); !looked && looked.error().code == Errc::Cancelled) done = looked;
-  if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    if (const auto looked = look_at_matches(order, bench, facts, made, run);
+        !looked && looked.error().code == Errc::Cancelled)
+      done = looked;
+  if (!done && done.error().code == Errc::Cancelled)
+    return Error{Errc::Cancelled, "cancelled: nothing was written"};
   return {};
 }
 

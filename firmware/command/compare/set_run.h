@@ -24,6 +24,7 @@ struct RunOrder {
 
 // What the algorithms say against it becomes `run.failure`; `facts` is filled in by the first set that
 // rectifies. Errors: Cancelled; those of `keep_model`.
-Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts, Run& run);
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
+                     Run& run);
 
 }  // namespace relievo::firmware::compare

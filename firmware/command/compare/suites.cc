@@ -25,10 +25,12 @@ bool has(std::string_view kind, std::string_view name) {
 }
 
 // The six of the dissertation, in its order, as far as they are here.
-constexpr std::array<std::string_view, 6> kRules{"similarity", "uniqueness", "continuity", "ordering", "left-right", "statistical"};
+constexpr std::array<std::string_view, 6> kRules{"similarity", "uniqueness", "continuity",
+                                                 "ordering",   "left-right", "statistical"};
 
-// ZMNCC keeps nothing whose cost is above 0.6 (its min_score), and the rule's own limit stands above that: it is for
-// plain skin, which correlates little under noise and is matched right by `refined`. Of what lies between, 76 % is wrong on aloe.
+// ZMNCC keeps nothing whose cost is above 0.6 (its min_score), and the rule's own limit stands above that: it
+// is for plain skin, which correlates little under noise and is matched right by `refined`. Of what lies
+// between, 76 % is wrong on aloe.
 constexpr std::string_view kSimilarityLimit = "similarity.max_cost=0.4";
 
 std::string all_rules() {
@@ -81,7 +83,10 @@ Words preprocessors() {
 Words dissertation() {
   Words words;
   const auto add = [&words](std::string name, std::string_view matcher, const std::string& rules) {
-    if (has("matcher", matcher)) words.push_back({std::move(name), {"preprocessor=none", "matcher=" + std::string(matcher), "constraints=" + rules, std::string(kSimilarityLimit)}});
+    if (has("matcher", matcher))
+      words.push_back({std::move(name),
+                       {"preprocessor=none", "matcher=" + std::string(matcher), "constraints=" + rules,
+                        std::string(kSimilarityLimit)}});
   };
   add("SSD", "ssd", "none");
   add("ZMNCC", "zmncc", "none");
@@ -97,7 +102,8 @@ Words dissertation() {
 
 // Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
 Words dissertation_face() {
-  std::vector<std::string> chain{"triangulator=linear-least-squares", "mesher=delaunay", "texturer=single-view"};
+  std::vector<std::string> chain{"triangulator=linear-least-squares", "mesher=delaunay",
+                                 "texturer=single-view"};
   if (has("preprocessor", "histogram-match")) chain.emplace_back("preprocessor=histogram-match");
   if (has("matcher", "zmncc")) chain.emplace_back("matcher=zmncc");
   chain.push_back("constraints=" + all_rules());
@@ -117,7 +123,8 @@ Words peers() {
   Words words{{"Relievo", {}}};
   if (has("matcher", "sgm")) words.push_back({"sgm", {"matcher=sgm"}});
   if (!has("matcher", "opencv-sgbm")) return words;
-  const std::vector<std::string> peer{"matcher=opencv-sgbm", "constraints=none", "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
+  const std::vector<std::string> peer{"matcher=opencv-sgbm",     "constraints=none",
+                                      "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
                                       "opencv-sgbm.max_lr_px=1", "opencv-sgbm.speckle_px=200"};
   words.push_back({"OpenCV SGBM 3-way", peer});
   words.back().settings.emplace_back("opencv-sgbm.mode=1");
@@ -138,9 +145,14 @@ struct Suite {
   Words (*make)();
 };
 constexpr std::array kSuites{
-    Suite{"dissertation", dissertation}, Suite{"dissertation-face", dissertation_face}, Suite{"peers", peers},
-    Suite{"matchers", matchers},         Suite{"constraints", constraints},             Suite{"selectors", selectors},
-    Suite{"preprocessors", preprocessors}, Suite{"meshers", meshers},
+    Suite{"dissertation", dissertation},
+    Suite{"dissertation-face", dissertation_face},
+    Suite{"peers", peers},
+    Suite{"matchers", matchers},
+    Suite{"constraints", constraints},
+    Suite{"selectors", selectors},
+    Suite{"preprocessors", preprocessors},
+    Suite{"meshers", meshers},
 };
 
 }  // namespace
@@ -157,7 +169,8 @@ Result<std::vector<SetWords>> suite_sets(std::string_view name) {
     if (suite.name == name) return suite.make();
   std::string all;
   for (const Suite& suite : kSuites) all += (all.empty() ? "" : ", ") + std::string(suite.name);
-  return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" + all + ")");
+  return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" +
+                                                                                    all + ")");
 }
 
 }  // namespace relievo::firmware::compare

@@ -32,7 +32,8 @@ Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipe
   return set;
 }
 
-Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args, const pipeline::StereoCalibration& calibration) {
+Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args,
+                                         const pipeline::StereoCalibration& calibration) {
   RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, choose_algorithms(args));
   return pipeline::Pipeline::make(set, calibration, {},
                                   args.whole_view ? pipeline::Region::All : pipeline::Region::Face);

@@ -11,7 +11,9 @@
 
 namespace relievo::firmware {
 
-Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipeline::AlgorithmSet start = {});
-Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args, const pipeline::StereoCalibration& calibration);
+Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args,
+                                                 pipeline::AlgorithmSet start = {});
+Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args,
+                                         const pipeline::StereoCalibration& calibration);
 
 }  // namespace relievo::firmware

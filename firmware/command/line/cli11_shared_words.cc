@@ -6,6 +6,8 @@
 
 namespace relievo::firmware {
 
-void add_store(CLI::App& command, Path& store) { command.add_option("--store", store, "folder of the store")->type_name("DIR"); }
+void add_store(CLI::App& command, Path& store) {
+  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+}
 
 }  // namespace relievo::firmware

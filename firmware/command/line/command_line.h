@@ -19,11 +19,11 @@ using Path = std::filesystem::path;
 
 // The printed board.
 struct BoardArgs {
-  int corners_across = 0;         // inner corners
+  int corners_across = 0;  // inner corners
   int corners_down = 0;
   double square_mm = 0;
-  bool charuco = false;           // else a chessboard
-  double marker_mm = 0;           // ChArUco; 0: the usual share of a square
+  bool charuco = false;  // else a chessboard
+  double marker_mm = 0;  // ChArUco; 0: the usual share of a square
   int marker_bits = 4;
 };
 
@@ -31,8 +31,8 @@ struct CalibrateArgs {
   Path pictures;
   BoardArgs board;
   Path output;
-  Path report;  // empty: none
-  Path store;   // empty: not stored
+  Path report;                          // empty: none
+  Path store;                           // empty: not stored
   std::optional<double> baseline_mm{};  // known distance of the cameras; 0: let it come out as it will
 };
 
@@ -55,57 +55,57 @@ struct PrintPatternArgs {
 
 struct CalibrationArgs {
   enum class Verb { List, Show, Import, Export, Activate } verb = Verb::List;
-  Path file;                          // import: what is read; export: what is written
-  Path other;                         // import: the other half of a pair; empty: beside the first
-  int width_px = 0, height_px = 0;    // import: of the pictures, where the files do not say
-  double unit_mm = 0;                 // import: of the translation; 0: the form's own
-  std::string note;                   // import; empty: from which file
-  Path source;                        // export: a file instead of the store
-  bool ros = false;                   // export: a folder with left.yaml and right.yaml
-  int revision = 0;                   // 0: the one in use
+  Path file;                        // import: what is read; export: what is written
+  Path other;                       // import: the other half of a pair; empty: beside the first
+  int width_px = 0, height_px = 0;  // import: of the pictures, where the files do not say
+  double unit_mm = 0;               // import: of the translation; 0: the form's own
+  std::string note;                 // import; empty: from which file
+  Path source;                      // export: a file instead of the store
+  bool ros = false;                 // export: a folder with left.yaml and right.yaml
+  int revision = 0;                 // 0: the one in use
   Path store;
 };
 
 // How to reconstruct; shared by every command that does.
 struct AlgorithmArgs {
-  Path file;                      // TOML; empty: the default set
+  Path file;                          // TOML; empty: the default set
   std::vector<std::string> settings;  // "matcher=zmncc", "zmncc.window_px=15"
-  bool whole_view = false;        // --region all
+  bool whole_view = false;            // --region all
 };
 
 struct ReconstructArgs {
   Path left, right;
   Path calibration;
-  Path load;                      // a saved reconstruction, instead of the three
-  std::string from;               // of a saved one: match, reconstruct, mesh, texture; empty: as the settings ask
-  Path save;                      // empty: not saved
+  Path load;         // a saved reconstruction, instead of the three
+  std::string from;  // of a saved one: match, reconstruct, mesh, texture; empty: as the settings ask
+  Path save;         // empty: not saved
   Path output;
-  bool camera_frame = false;      // --frame camera
-  bool despite_drift = false;     // go on though the cameras have moved
-  int lod = 0;                    // triangles of a lighter model beside it; 0 for none
+  bool camera_frame = false;   // --frame camera
+  bool despite_drift = false;  // go on though the cameras have moved
+  int lod = 0;                 // triangles of a lighter model beside it; 0 for none
   AlgorithmArgs algorithms;
 };
 
 struct CompareArgs {
-  std::vector<Path> pictures;     // left, right, left, right, ...
-  std::vector<Path> calibrations; // one for all pairs, or one each
-  bool rectified = false;         // the pictures are, and no rig is known
+  std::vector<Path> pictures;                           // left, right, left, right, ...
+  std::vector<Path> calibrations;                       // one for all pairs, or one each
+  bool rectified = false;                               // the pictures are, and no rig is known
   int least_disparity_px = 0, most_disparity_px = 256;  // of rectified pairs
-  std::vector<Path> truths;       // none, one for all pairs, or one each
-  double truth_scale = 1;         // grey values per pixel of disparity
-  double limit_px = 1;            // a disparity off by more is bad
-  std::vector<Path> set_files;    // TOML, a table a set
-  std::vector<std::string> set_words;  // "name: matcher=zmncc zmncc.window_px=21"
+  std::vector<Path> truths;                             // none, one for all pairs, or one each
+  double truth_scale = 1;                               // grey values per pixel of disparity
+  double limit_px = 1;                                  // a disparity off by more is bad
+  std::vector<Path> set_files;                          // TOML, a table a set
+  std::vector<std::string> set_words;                   // "name: matcher=zmncc zmncc.window_px=21"
   std::vector<std::string> suites;
-  bool keep_maps = false;         // every set's disparities as a file too
+  bool keep_maps = false;  // every set's disparities as a file too
   Path output;
-  AlgorithmArgs algorithms;       // what all sets start from
+  AlgorithmArgs algorithms;  // what all sets start from
 };
 
 struct EnrolArgs {
   std::string board;
   std::string subject;
-  Path calibration;               // empty: the one in the store
+  Path calibration;  // empty: the one in the store
   Path store;
   AlgorithmArgs algorithms;
 };
@@ -113,21 +113,21 @@ struct EnrolArgs {
 struct SubjectsArgs {
   enum class Verb { List, Show, Export, Erase } verb = Verb::List;
   std::string subject;
-  Path output;                    // export
-  int lod = 0;                    // export: triangles of a lighter model beside it; 0 for none
+  Path output;  // export
+  int lod = 0;  // export: triangles of a lighter model beside it; 0 for none
   Path store;
 };
 
 // What whoever administers the device does for its staff, the kiosk stopped.
 struct StaffArgs {
   enum class Verb { ForgetPin, PlainTouch } verb = Verb::ForgetPin;
-  bool technician = false;        // forget-pin: else the operator
+  bool technician = false;  // forget-pin: else the operator
   Path store;
 };
 
 // A picture that is held before the cameras.
 struct HeldPictureArgs {
-  Path picture;                   // empty: none is
+  Path picture;  // empty: none is
   double width_mm = 270;
   double radius_mm = 0, axis_deg = 0, apex_mm = 0, wave_mm = 0;  // how it is bent; hal/sim/sheet
   bool screen = false;
@@ -135,19 +135,19 @@ struct HeldPictureArgs {
 };
 
 struct SimulateArgs {
-  bool board = false;             // the chessboard; else a face, or what is held
+  bool board = false;  // the chessboard; else a face, or what is held
   HeldPictureArgs held;
   Path output;
   unsigned seed = 1;
   BoardArgs printed;
   double lamp = 0, shadow = 0, cover = 0, highlight = 0;
   double blur_px = 0.55;
-  double noise = 1;               // times the usual
-  int pairs = 14;                 // of the board
-  double scale = 1;               // of the picture's width and height
-  bool portrait = false;          // cameras turned upright
-  bool truth = false;             // write down what is true, beside the pictures
-  bool one_pose = false;          // of the board: the pose below instead of many chosen by the seed
+  double noise = 1;       // times the usual
+  int pairs = 14;         // of the board
+  double scale = 1;       // of the picture's width and height
+  bool portrait = false;  // cameras turned upright
+  bool truth = false;     // write down what is true, beside the pictures
+  bool one_pose = false;  // of the board: the pose below instead of many chosen by the seed
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
   double distance_mm = 560;
   double right_mm = 0, down_mm = 0;
@@ -155,37 +155,39 @@ struct SimulateArgs {
 
 struct SelfTestArgs {
   Path store;
-  bool optical = false;           // measure targets instead
-  Path output;                    // of the optical one: report and pictures; empty: none
-  unsigned seed = 1;              // the simulated rig and its noise
-  double scale = 1;               // of its pictures
+  bool optical = false;  // measure targets instead
+  Path output;           // of the optical one: report and pictures; empty: none
+  unsigned seed = 1;     // the simulated rig and its noise
+  double scale = 1;      // of its pictures
 };
 // Without a command: the kiosk.
 struct KioskArgs {
   std::string board = "sim";
-  Path calibration;               // empty: the one in the store; of the simulated rig, its own
+  Path calibration;  // empty: the one in the store; of the simulated rig, its own
   Path store;
   int width_px = 0, height_px = 0;  // of the window; 0: the whole screen
-  Path screenshots;               // take pictures of all screens into this folder, and end
-  Path script;                    // synthetic fingers play it, and the program ends; its pictures go to `screenshots`
-  std::string only;               // of those, only the sheets whose name has this in it
-  bool tells_known = true;        // is a visitor told that their name is in the records already?
-  bool write_showpiece = false;   // make the head of the page that invites, instead
+  Path screenshots;                 // take pictures of all screens into this folder, and end
+  Path script;       // synthetic fingers play it, and the program ends; its pictures go to `screenshots`
+  std::string only;  // of those, only the sheets whose name has this in it
+  bool tells_known = true;       // is a visitor told that their name is in the records already?
+  bool write_showpiece = false;  // make the head of the page that invites, instead
   AlgorithmArgs algorithms;
 };
 struct AlgorithmsArgs {
-  std::string name;               // of a kind or an algorithm; empty: all of them
+  std::string name;  // of a kind or an algorithm; empty: all of them
 };
 struct MemoryArgs {};
 struct VersionArgs {};
-struct NothingArgs {};            // help was asked for and printed, or the words were wrong
+struct NothingArgs {};  // help was asked for and printed, or the words were wrong
 
-using CommandArgs = std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs, ReconstructArgs, CompareArgs, EnrolArgs,
-                                 SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs, AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
+using CommandArgs =
+    std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs,
+                 ReconstructArgs, CompareArgs, EnrolArgs, SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs,
+                 AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;
-  int exit_code = 0;              // with NothingArgs: 0 help was printed, 2 the words were wrong
+  int exit_code = 0;  // with NothingArgs: 0 help was printed, 2 the words were wrong
 };
 
 CommandLine parse_command_line(int argc, const char* const* argv);

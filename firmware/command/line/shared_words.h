@@ -13,7 +13,8 @@ class App;
 namespace relievo::firmware {
 
 // What --board may be.
-inline constexpr const char* kBoards = "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
+inline constexpr const char* kBoards =
+    "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
 
 void add_store(CLI::App& command, Path& store);
 

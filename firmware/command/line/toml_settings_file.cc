@@ -29,7 +29,8 @@ std::string word_of(const toml::node& value) {
 Error at_line(std::string_view file_name, const toml::node& node) {
   std::ostringstream place;
   place << file_name << ":" << node.source().begin.line;
-  return Error{Errc::InvalidInput, "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own"}
+  return Error{Errc::InvalidInput,
+               "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own"}
       .at(place.str());
 }
 
@@ -40,7 +41,8 @@ Error no_toml(std::string_view file_name, const toml::parse_error& error) {
 }
 
 // `words`: a kind may be set by a word of its own too, matcher = "refined".
-Result<std::vector<std::string>> settings_of(const toml::table& root, std::string_view file_name, bool words) {
+Result<std::vector<std::string>> settings_of(const toml::table& root, std::string_view file_name,
+                                             bool words) {
   std::vector<std::string> settings;
   for (const auto& [table_name, node] : root) {
     const toml::table* table = node.as_table();
@@ -83,7 +85,8 @@ Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string
       RELIEVO_TRY_ASSIGN(auto settings, settings_of(*node.as_table(), file_name, true));
       sets.push_back({node.source().begin.line, {std::string(name.str()), std::move(settings)}});
     }
-    std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(sets.begin(), sets.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<NamedSettings> in_order;
     in_order.reserve(sets.size());
     for (auto& set : sets) in_order.push_back(std::move(set.second));

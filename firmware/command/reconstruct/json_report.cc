@@ -14,15 +14,19 @@ double milliseconds_of(std::chrono::nanoseconds time) { return static_cast<doubl
 
 nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>& drift) {
   if (!drift) return nullptr;
-  return {{"verdict", word(drift->verdict)}, {"residual_px", drift->residual_px}, {"sigma_px", drift->sigma_px},
-          {"offset_px", drift->offset_px},   {"slope_x", drift->slope_x},         {"slope_y", drift->slope_y},
+  return {{"verdict", word(drift->verdict)},  {"residual_px", drift->residual_px},
+          {"sigma_px", drift->sigma_px},      {"offset_px", drift->offset_px},
+          {"slope_x", drift->slope_x},        {"slope_y", drift->slope_y},
           {"expected_px", drift->expected_px}};
 }
 
 nlohmann::ordered_json relief_json(const pipeline::ReliefFigures& r) {
-  return {{"covered", r.covered},           {"sigma_mm", r.sigma_mm},
-          {"off_plane_mm", r.off_plane_mm}, {"off_sheet_mm", r.off_sheet_mm},
-          {"sheet_range_mm", r.sheet_range_mm}, {"curvature_sr", r.curvature_sr}};
+  return {{"covered", r.covered},
+          {"sigma_mm", r.sigma_mm},
+          {"off_plane_mm", r.off_plane_mm},
+          {"off_sheet_mm", r.off_sheet_mm},
+          {"sheet_range_mm", r.sheet_range_mm},
+          {"curvature_sr", r.curvature_sr}};
 }
 
 // In the head frame, whatever frame the files are in.
@@ -45,7 +49,10 @@ std::string report_json(const Report& report) {
   using Json = nlohmann::ordered_json;
   Json stages = Json::array();
   for (const StageRecord& stage : report.stages) {
-    stages.push_back({{"name", stage.name}, {"ms", milliseconds_of(stage.took)}, {"in", stage.in}, {"out", stage.out},
+    stages.push_back({{"name", stage.name},
+                      {"ms", milliseconds_of(stage.took)},
+                      {"in", stage.in},
+                      {"out", stage.out},
                       {"arena_peak_bytes", stage.arena_peak_bytes}});
   }
   Json algorithms = Json::object();
@@ -55,27 +62,29 @@ std::string report_json(const Report& report) {
     if (equals != std::string::npos) algorithms[line.substr(0, equals)] = line.substr(equals + 3);
   }
   const pipeline::ModelQuality& q = report.quality;
-  const Json json{{"version", kVersion},
-                  {"calibration", report.calibration},
-                  {"algorithms", algorithms},
-                  {"stages", stages},
-                  {"total_ms", milliseconds_of(report.total)},
-                  {"peak_rss_bytes", report.peak_rss_bytes},
-                  {"quality",
-                   {{"median_sigma_mm", q.median_sigma_mm},
-                    {"measured_area_mm2", q.measured_area_mm2},
-                    {"coverage", q.coverage},
-                    {"width_mm", q.width_mm},
-                    {"height_mm", q.height_mm},
-                    {"nose_relief_mm", q.nose_relief_mm},
-                    {"epipolar_residual_px", q.epipolar_residual_px},
-                    {"texture_sharpness", q.texture_sharpness},
-                    {"symmetry_residual_mm", q.symmetry_residual_mm},
-                    {"relief", relief_json(q.relief)}}},
-                  {"landmarks", landmarks_json(report)},
-                  {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
-                  {"overexposed", report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},
-                  {"drift", drift_json(report.drift)}};
+  const Json json{
+      {"version", kVersion},
+      {"calibration", report.calibration},
+      {"algorithms", algorithms},
+      {"stages", stages},
+      {"total_ms", milliseconds_of(report.total)},
+      {"peak_rss_bytes", report.peak_rss_bytes},
+      {"quality",
+       {{"median_sigma_mm", q.median_sigma_mm},
+        {"measured_area_mm2", q.measured_area_mm2},
+        {"coverage", q.coverage},
+        {"width_mm", q.width_mm},
+        {"height_mm", q.height_mm},
+        {"nose_relief_mm", q.nose_relief_mm},
+        {"epipolar_residual_px", q.epipolar_residual_px},
+        {"texture_sharpness", q.texture_sharpness},
+        {"symmetry_residual_mm", q.symmetry_residual_mm},
+        {"relief", relief_json(q.relief)}}},
+      {"landmarks", landmarks_json(report)},
+      {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
+      {"overexposed",
+       report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},
+      {"drift", drift_json(report.drift)}};
   // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -9,7 +9,9 @@
 namespace relievo::firmware {
 namespace {
 
-std::string size_of(int width_px, int height_px) { return std::to_string(width_px) + "x" + std::to_string(height_px); }
+std::string size_of(int width_px, int height_px) {
+  return std::to_string(width_px) + "x" + std::to_string(height_px);
+}
 
 }  // namespace
 
@@ -20,13 +22,15 @@ Result<PicturePair> read_pair(const std::filesystem::path& left, const std::file
   const std::string left_size = size_of(pair.left.width_px, pair.left.height_px);
   const std::string right_size = size_of(pair.right.width_px, pair.right.height_px);
   if (left_size != right_size) {
-    return Error{Errc::InvalidInput, "the two pictures differ in size: give a left and a right one of the same shot"}
+    return Error{Errc::InvalidInput,
+                 "the two pictures differ in size: give a left and a right one of the same shot"}
         .at(right.string() + " (" + right_size + ", left " + left_size + ")");
   }
   return pair;
 }
 
-Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair, const std::filesystem::path& file,
+Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair,
+                                                         const std::filesystem::path& file,
                                                          const std::filesystem::path& left) {
   RELIEVO_TRY_ASSIGN(const auto calibration,
                      pipeline::read_calibration(file, {pair.left.width_px, pair.left.height_px, 0}));

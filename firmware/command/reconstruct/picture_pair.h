@@ -23,7 +23,8 @@ Result<PicturePair> read_pair(const std::filesystem::path& left, const std::file
 
 // Of pictures this large; a calibration that does not say for which it is (OpenCV's sample) is taken for
 // these. `left` is named where it is not.
-Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair, const std::filesystem::path& file,
+Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair,
+                                                         const std::filesystem::path& file,
                                                          const std::filesystem::path& left);
 
 }  // namespace relievo::firmware

@@ -26,12 +26,15 @@ State stage_named(std::string_view word) {
   return word == "mesh" ? State::Mesh : State::Texture;
 }
 
-Result<State> first_stage(std::string_view from, const pipeline::AlgorithmSet& saved, const pipeline::AlgorithmSet& wanted) {
+Result<State> first_stage(std::string_view from, const pipeline::AlgorithmSet& saved,
+                          const pipeline::AlgorithmSet& wanted) {
   const State changed = first_change(saved, wanted);
   if (from.empty()) return changed;
   const State named = stage_named(from);
   if (changed >= named) return named;
-  return Error{Errc::InvalidInput, "a setting changes a stage before this one: begin there, or leave --from out"}.at("--from " + std::string(from));
+  return Error{Errc::InvalidInput,
+               "a setting changes a stage before this one: begin there, or leave --from out"}
+      .at("--from " + std::string(from));
 }
 
 }  // namespace
@@ -44,16 +47,20 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
   making_.whole_view = algorithms.whole_view;
   RELIEVO_TRY(session_.open(""));
   session_.products().frame = pictures.frame();
-  left_ = std::move(pictures.left.bytes);   // what the frame looks at stays where it is
+  left_ = std::move(pictures.left.bytes);  // what the frame looks at stays where it is
   right_ = std::move(pictures.right.bytes);
   RELIEVO_TRY(work(State::Match, console, left, when_moved));
   report_.calibration = calibration_file.string();
   return {};
 }
 
-Result<void> Reconstruction::load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
-  const auto placed = [&document](const Error& error) { return error.where().empty() ? error.at(document.string()) : error; };
-  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, hal::read_whole_file(document, storage::kMaxDocumentBytes));
+Result<void> Reconstruction::load(const Path& document, std::string_view from,
+                                  const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
+  const auto placed = [&document](const Error& error) {
+    return error.where().empty() ? error.at(document.string()) : error;
+  };
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                     hal::read_whole_file(document, storage::kMaxDocumentBytes));
   const auto saved = storage::Document::open(bytes);
   if (!saved) return placed(saved.error());
   RELIEVO_TRY_ASSIGN(making_, making_of(*saved));
@@ -83,18 +90,24 @@ Result<void> Reconstruction::load(const Path& document, std::string_view from, c
 // What is done already is in the session, and its records in the making.
 Result<void> Reconstruction::work(State first, Console& console, const Path& named, WhenMoved when_moved) {
   first_ = first;
-  making_.records.resize(std::min(making_.records.size(), static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
+  making_.records.resize(std::min(making_.records.size(),
+                                  static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
   if (first != State::Review) {
-    RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {}, making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
+    RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {},
+                                                               making_.whole_view ? pipeline::Region::All
+                                                                                  : pipeline::Region::Face));
     ThreadPool pool(pool_size());
     const hal::MonotonicClock clock;
     PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
     ReconstructJob job(stages, session_, pool, clock);
     job.begin_with(first);
     const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
-    if (!done && done.error().code == Errc::Cancelled) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    if (!done && done.error().code == Errc::Cancelled)
+      return Error{Errc::Cancelled, "cancelled: nothing was written"};
     // A stage does not know the names of the files it works on.
-    if (!done) return done.error().at(named.string() + (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
+    if (!done)
+      return done.error().at(named.string() +
+                             (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
     making_.records.insert(making_.records.end(), job.records().begin(), job.records().end());
     report_.total = job.took();
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One reconstruction from picture files, or from a saved one, with progress and Ctrl-C, as several commands need it.
-// Owns the memory in which pictures and model lie. Thread: main.
+// One reconstruction from picture files, or from a saved one, with progress and Ctrl-C, as several commands
+// need it. Owns the memory in which pictures and model lie. Thread: main.
 #pragma once
 
 #include <filesystem>
@@ -24,11 +24,14 @@ class Reconstruction {
  public:
   Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
   // Errors: those of the files, of the settings and of the stages; each names its place.
-  Result<void> run(const Path& left, const Path& right, const Path& calibration, const AlgorithmArgs& algorithms,
-                   Console& console, WhenMoved when_moved = WhenMoved::Refuse);
-  // A saved reconstruction; done again are the stages from `from` on ("match" ... "texture"; empty: from the first that the
-  // settings change, or that is missing). Errors: also the document's; InvalidInput for settings of a stage before `from`.
-  Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved);
+  Result<void> run(const Path& left, const Path& right, const Path& calibration,
+                   const AlgorithmArgs& algorithms, Console& console,
+                   WhenMoved when_moved = WhenMoved::Refuse);
+  // A saved reconstruction; done again are the stages from `from` on ("match" ... "texture"; empty: from the
+  // first that the settings change, or that is missing). Errors: also the document's; InvalidInput for
+  // settings of a stage before `from`.
+  Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms,
+                    Console& console, WhenMoved when_moved);
   // All of it, whole or not at all. Errors: the file's.
   Result<void> save(const Path& document) const;
   // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
@@ -43,7 +46,7 @@ class Reconstruction {
 
   BootMemory memory_;
   EnrolmentSession session_;
-  std::vector<std::byte> left_, right_;   // the pictures
+  std::vector<std::byte> left_, right_;  // the pictures
   Making making_;
   State first_ = State::Match;
   Report report_;

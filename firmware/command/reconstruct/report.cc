@@ -11,15 +11,16 @@ namespace relievo::firmware {
 
 namespace {
 
-constexpr double kWorthSayingPx = 0.1;      // less is within what matching follows, and no advice makes it better
+constexpr double kWorthSayingPx = 0.1;  // less is within what matching follows, and no advice makes it better
 constexpr double kWorthSayingShare = 0.02;  // a shine on the nose is less
 
 }  // namespace
 
 std::string line_of(const StageRecord& stage) {
   char line[128];
-  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, static_cast<int>(stage.name.size()),
-                stage.name.data(), static_cast<double>(stage.took.count()) * 1e-6, stage.in, stage.out);
+  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64,
+                static_cast<int>(stage.name.size()), stage.name.data(),
+                static_cast<double>(stage.took.count()) * 1e-6, stage.in, stage.out);
   return line;
 }
 
@@ -30,9 +31,11 @@ std::string line_of(const pipeline::DriftJudgement& drift) {
 std::string line_of_motion(double motion_px) {
   if (motion_px < kWorthSayingPx) return {};
   char line[192];
-  std::snprintf(line, sizeof line,
-                "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
-                "Hold still, or expose both cameras together", motion_px);
+  std::snprintf(
+      line, sizeof line,
+      "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
+      "Hold still, or expose both cameras together",
+      motion_px);
   return line;
 }
 
@@ -41,9 +44,10 @@ std::string line_of_light(const pipeline::Overexposure& white) {
   const double share = left ? white.left : white.right;
   if (share < kWorthSayingShare) return {};
   char line[192];
-  std::snprintf(line, sizeof line,
-                "Light        %.0f %% of the face is white in the %s picture and cannot be measured there: less light, or a shorter exposure",
-                100 * share, left ? "left" : "right");
+  std::snprintf(
+      line, sizeof line,
+      "Light        %.0f %% of the face is white in the %s picture and cannot be measured there: less light, or a shorter exposure",
+      100 * share, left ? "left" : "right");
   return line;
 }
 

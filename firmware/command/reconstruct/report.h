@@ -19,24 +19,24 @@
 namespace relievo::firmware {
 
 struct Report {
-  std::string calibration;               // the file, or the store's revision
-  std::string algorithms;                // "matcher = refined", one a line
+  std::string calibration;  // the file, or the store's revision
+  std::string algorithms;   // "matcher = refined", one a line
   std::vector<StageRecord> stages;
-  std::chrono::nanoseconds total{0};     // pictures in memory to textured model in memory
+  std::chrono::nanoseconds total{0};  // pictures in memory to textured model in memory
   std::uint64_t peak_rss_bytes = 0;
   pipeline::ModelQuality quality;
   std::optional<pipeline::DriftJudgement> drift;  // none where nothing was matched
-  std::optional<double> motion_px;       // MatchSet::motion_px, where it is known
-  pipeline::Landmarks landmarks{};       // the left camera's frame
+  std::optional<double> motion_px;                // MatchSet::motion_px, where it is known
+  pipeline::Landmarks landmarks{};                // the left camera's frame
   pipeline::RigidTransform head_from_camera{};
   std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
 };
 
-std::string line_of(const StageRecord& stage);   // for a terminal
+std::string line_of(const StageRecord& stage);  // for a terminal
 std::string line_of(const pipeline::DriftJudgement& drift);
-std::string line_of_motion(double motion_px);              // empty where it is not worth saying
+std::string line_of_motion(double motion_px);                    // empty where it is not worth saying
 std::string line_of_light(const pipeline::Overexposure& white);  // the same
 std::string report_json(const Report& report);
-std::uint64_t peak_rss_bytes();          // of this process, up to now
+std::uint64_t peak_rss_bytes();  // of this process, up to now
 
 }  // namespace relievo::firmware

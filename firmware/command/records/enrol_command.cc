@@ -23,9 +23,9 @@ constexpr const char* kConsentWording = "operator-1";
 
 struct Calibrated {
   pipeline::StereoCalibration calibration;
-  std::string name;             // for the report
-  std::string note;             // for the store: without the folders, which may be somebody's
-  std::uint32_t revision = 0;   // 0: of a file, and the store does not know it yet
+  std::string name;            // for the report
+  std::string note;            // for the store: without the folders, which may be somebody's
+  std::uint32_t revision = 0;  // 0: of a file, and the store does not know it yet
 };
 
 Result<pipeline::StereoCalibration> in_use(const Path& folder, Services& services) {
@@ -55,7 +55,10 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
   }
   if (kept.error().code != Errc::NotCalibrated) return kept.error();
   if (args.board != "sim")
-    return Error{Errc::NotCalibrated, "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}.at(folder.string());
+    return Error{
+        Errc::NotCalibrated,
+        "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}
+        .at(folder.string());
   // Nobody has to calibrate what is known exactly; the kiosk does the same.
   RELIEVO_TRY_ASSIGN(found.calibration, services.simulated_calibration());
   found.name = found.note = "the simulated rig";
@@ -81,19 +84,23 @@ Result<void> drive(Appliance& appliance, Console& console) {
         if (appliance.problem()) return *appliance.problem();  // it could not be stored
         appliance.ask(ui::Intent::Accept);
         break;
-      case State::Fault: return *appliance.problem();
+      case State::Fault:
+        return *appliance.problem();
       case State::SelfTest:
       case State::Capture:
       case State::Match:
       case State::Reconstruct:
       case State::Mesh:
       case State::Texture:
-      case State::Store: console.progress(name_of(appliance.state()), appliance.progress()); break;
+      case State::Store:
+        console.progress(name_of(appliance.state()), appliance.progress());
+        break;
       case State::Position:
       case State::Calibrate:
       case State::Export:
       case State::Technician:
-      case State::Count: break;
+      case State::Count:
+        break;
     }
   }
 }
@@ -106,14 +113,18 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
     console.say(line_of(appliance.records().back()));
     if (change.from == State::Match && appliance.drift()) console.say(line_of(*appliance.drift()));
   } else if (change.event == Event::StageFailed && change.to == State::Capture) {
-    console.say(std::string(name_of(change.from)) + ": " + std::string(appliance.problem()->what.view()) + "; once more");
+    console.say(std::string(name_of(change.from)) + ": " + std::string(appliance.problem()->what.view()) +
+                "; once more");
   }
 }
 
 std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
                       const pipeline::FaceModel& model) {
-  Report report{calibrated.name, stages.algorithms().to_text(), appliance.records(), {}, peak_rss_bytes(),
-                model.quality, appliance.drift(), {}, model.landmarks, model.head_from_camera};
+  Report report{calibrated.name,     stages.algorithms().to_text(),
+                appliance.records(), {},
+                peak_rss_bytes(),    model.quality,
+                appliance.drift(),   {},
+                model.landmarks,     model.head_from_camera};
   for (const StageRecord& stage : report.stages) report.total += stage.took;
   return report_json(report);
 }
@@ -149,9 +160,12 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
     // What a model was measured with must be found again, also when the file is gone.
     std::uint32_t revision = calibrated.revision;
     if (revision == 0) {
-      RELIEVO_TRY_ASSIGN(revision, store->know_calibration(calibrated.calibration, "of an enrolment, from " + calibrated.note));
+      RELIEVO_TRY_ASSIGN(revision, store->know_calibration(calibrated.calibration,
+                                                           "of an enrolment, from " + calibrated.note));
     }
-    RELIEVO_TRY_ASSIGN(enrolment, store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
+    RELIEVO_TRY_ASSIGN(
+        enrolment,
+        store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
     return {};
   };
   Appliance appliance({*board, stages, memory, pool, keep});
@@ -162,7 +176,8 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   const Result<void> done = drive(appliance, services.console);
   const Result<void> logged = log_drift(appliance, calibrated, *store);
   if (!done) return done.error().where().empty() ? done.error().at(args.board) : done.error();
-  services.console.say("stored: " + args.subject + ", enrolment " + std::to_string(static_cast<std::int64_t>(enrolment)));
+  services.console.say("stored: " + args.subject + ", enrolment " +
+                       std::to_string(static_cast<std::int64_t>(enrolment)));
   return logged;
 }
 

@@ -24,7 +24,8 @@ std::optional<storage::SubjectId> number_in(std::string_view text) {
 Result<std::vector<storage::Subject>> of_name(storage::Store& store, std::string_view name) {
   RELIEVO_TRY_ASSIGN(auto found, store.subjects({std::string(name), true, 0, 2}));
   if (found.size() > 1) {
-    return Error{Errc::InvalidInput, "several have this name: use the number, as in '#3' ('relievo subjects list' shows it)"}
+    return Error{Errc::InvalidInput,
+                 "several have this name: use the number, as in '#3' ('relievo subjects list' shows it)"}
         .at(name);
   }
   return found;
@@ -42,8 +43,9 @@ Result<storage::Subject> find_subject(storage::Store& store, std::string_view na
 
 Result<void> check_subject(std::string_view name_or_number) {
   if (storage::is_name(name_or_number)) return {};
-  return Error{Errc::InvalidInput, "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}.at(
-      "--subject");
+  return Error{Errc::InvalidInput,
+               "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}
+      .at("--subject");
 }
 
 Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number) {

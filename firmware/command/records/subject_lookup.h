@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From what a person typed to somebody in the store: a name, a number as "#3", or the code a visitor was given.
-// Errors: NotFound; InvalidInput where several have the name (the numbers tell them apart).
-// Thread: main.
+// From what a person typed to somebody in the store: a name, a number as "#3", or the code a visitor was
+// given. Errors: NotFound; InvalidInput where several have the name (the numbers tell them apart). Thread:
+// main.
 #pragma once
 
 #include <string_view>

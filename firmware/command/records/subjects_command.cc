@@ -20,7 +20,8 @@ namespace {
 std::string number_of(storage::SubjectId id) { return "#" + std::to_string(static_cast<std::int64_t>(id)); }
 
 void say_subject(const storage::Subject& subject, Console& console) {
-  console.say(number_of(subject.id) + "  " + text_of(subject.created_at) + "  " + std::to_string(subject.enrolments) +
+  console.say(number_of(subject.id) + "  " + text_of(subject.created_at) + "  " +
+              std::to_string(subject.enrolments) +
               (subject.enrolments == 1 ? " enrolment   " : " enrolments  ") + subject.name);
 }
 
@@ -40,9 +41,11 @@ Result<void> show(storage::Store& store, const storage::Subject& subject, Consol
   say_subject(subject, console);
   RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
   for (const storage::Enrolment& one : enrolments) {
-    console.say("  enrolment " + std::to_string(static_cast<std::int64_t>(one.id)) + "  " + text_of(one.created_at) +
-                "  model " + std::to_string(one.model_bytes / 1024) + " KiB  calibration " +
-                (one.calibration_revision == 0 ? std::string("from a file") : std::to_string(one.calibration_revision)) +
+    console.say("  enrolment " + std::to_string(static_cast<std::int64_t>(one.id)) + "  " +
+                text_of(one.created_at) + "  model " + std::to_string(one.model_bytes / 1024) +
+                " KiB  calibration " +
+                (one.calibration_revision == 0 ? std::string("from a file")
+                                               : std::to_string(one.calibration_revision)) +
                 "  consent " + one.consent.wording + " (" + one.consent.language + ", " +
                 text_of(one.consent.given_at) + ")");
   }
@@ -65,13 +68,15 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
     return files.error().at(args.output.string());
   }
   if (args.lod > 0) {
-    RELIEVO_TRY_ASSIGN(const std::string light, write_light_model(model, args.lod, folder.path(), storage::ExportFrame::Head, args.output));
+    RELIEVO_TRY_ASSIGN(const std::string light, write_light_model(model, args.lod, folder.path(),
+                                                                  storage::ExportFrame::Head, args.output));
     console.say(light);
   }
-  if (!newest.report_json.empty()) RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
+  if (!newest.report_json.empty())
+    RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(folder.commit());
-  console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name + ": " +
-              args.output.string());
+  console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name +
+              ": " + args.output.string());
   return {};
 }
 
@@ -80,17 +85,21 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
 Result<void> run_subjects(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
   const Path folder = store_folder(args.store);
-  RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services) : services.open_store(folder, false));
+  RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)
+                                                                : services.open_store(folder, false));
   if (args.verb == Verb::List) return list(*store, services.console);
   RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
   switch (args.verb) {
-    case Verb::Show: return show(*store, subject, services.console);
-    case Verb::Export: return export_newest(*store, subject, args, services.console);
+    case Verb::Show:
+      return show(*store, subject, services.console);
+    case Verb::Export:
+      return export_newest(*store, subject, args, services.console);
     case Verb::Erase:
       RELIEVO_TRY(store->erase_subject(subject.id));
       services.console.say("erased: " + number_of(subject.id));
       return {};
-    case Verb::List: break;
+    case Verb::List:
+      break;
   }
   return {};
 }

@@ -14,7 +14,8 @@ constexpr std::int64_t kHourS = 3600;
 }  // namespace
 
 Result<CodeGuard::Record> CodeGuard::read() {
-  const std::int64_t now_s = std::chrono::floor<std::chrono::seconds>(clock_.wall_now()).time_since_epoch().count();
+  const std::int64_t now_s =
+      std::chrono::floor<std::chrono::seconds>(clock_.wall_now()).time_since_epoch().count();
   const Record fresh{0, now_s};
   const Result<std::string> text = store_.setting(kCodesSetting);
   if (!text && text.error().code == Errc::NotFound) return fresh;
@@ -26,7 +27,10 @@ Result<CodeGuard::Record> CodeGuard::read() {
   return now_s - record.since_s >= kHourS ? fresh : record;
 }
 
-Result<void> CodeGuard::write(const Record& record) { return store_.set_setting(kCodesSetting, std::to_string(record.wrong) + " " + std::to_string(record.since_s)); }
+Result<void> CodeGuard::write(const Record& record) {
+  return store_.set_setting(kCodesSetting,
+                            std::to_string(record.wrong) + " " + std::to_string(record.since_s));
+}
 
 Result<bool> CodeGuard::spend() {
   RELIEVO_TRY_ASSIGN(Record record, read());

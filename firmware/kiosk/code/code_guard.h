@@ -3,8 +3,9 @@
 //
 // CodeGuard: how many wrong codes of records are listened to: kMostWrongCodes an hour, whoever types them
 // and however often the program is started. Kept in the store's setting "codes", and written before a code
-// is looked at, so that pulling the plug gives no further try. A clock that was set back begins the hour anew.
-// A setting that cannot be read counts as a full hour. Thread: the keeper, as the store. Errors: the store's.
+// is looked at, so that pulling the plug gives no further try. A clock that was set back begins the hour
+// anew. A setting that cannot be read counts as a full hour. Thread: the keeper, as the store. Errors: the
+// store's.
 #pragma once
 
 #include "hal/clock.h"
@@ -26,7 +27,7 @@ class CodeGuard {
  private:
   struct Record {
     int wrong = 0;
-    std::int64_t since_s = 0;   // seconds since 1970, of the first wrong one
+    std::int64_t since_s = 0;  // seconds since 1970, of the first wrong one
   };
   Result<Record> read();
   Result<void> write(const Record& record);

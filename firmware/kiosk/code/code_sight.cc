@@ -17,12 +17,14 @@ namespace {
 constexpr std::chrono::seconds kRest{1};  // after a look that ended by itself
 
 bool wanted(const ui::Visit& visit, const Appliance& appliance) {
-  return visit.step == ui::Step::Name && visit.overlay == ui::Overlay::None && visit.name().empty() && appliance.state() == State::Idle;
+  return visit.step == ui::Step::Name && visit.overlay == ui::Overlay::None && visit.name().empty() &&
+         appliance.state() == State::Idle;
 }
 
 }  // namespace
 
-CodeSight::CodeSight(Appliance& appliance, hal::Board& board) : appliance_(appliance), look_(appliance, board) {}
+CodeSight::CodeSight(Appliance& appliance, hal::Board& board)
+    : appliance_(appliance), look_(appliance, board) {}
 
 CodeSight::~CodeSight() {
   if (running_) appliance_.end_side_job(JobPlace::Capture);
@@ -42,7 +44,9 @@ std::optional<std::string> CodeSight::turn(const ui::Visit& visit, hal::Instant 
     if (!running_) look_.ended.store(true);
   }
   if (text && !wants) {  // read in the moment the page was left
-    explicit_bzero(text->data(), text->size());  // NOLINT(clang-analyzer-cplusplus.InnerPointer): the string is whole until reset()
+    explicit_bzero(
+        text->data(),
+        text->size());  // NOLINT(clang-analyzer-cplusplus.InnerPointer): the string is whole until reset()
     text.reset();
   }
   return text;
@@ -64,7 +68,8 @@ Result<void> CodeSight::Look::run(JobControl& control) {
 Result<void> CodeSight::Look::look(JobControl& control) {
   RELIEVO_TRY(appliance_.grabber().start(board_.preferred_mode()));
   for (int pair = 0; !control.cancelled.load(std::memory_order_relaxed); ++pair) {
-    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
+                       appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));
     const auto raw = reader_->read(pair % 2 == 0 ? frame.left : frame.right);
     if (auto text = raw ? code_text(*raw) : std::nullopt) {
       const std::lock_guard lock(mutex_);

@@ -32,7 +32,8 @@ class CodeSight {
  private:
   class Look final : public Job {
    public:
-    Look(Appliance& appliance, hal::Board& board) : appliance_(appliance), board_(board), reader_(CodeReader::make()) {}
+    Look(Appliance& appliance, hal::Board& board)
+        : appliance_(appliance), board_(board), reader_(CodeReader::make()) {}
     Result<void> run(JobControl& control) override;
     std::optional<std::string> take();
     std::atomic<bool> ended{true};

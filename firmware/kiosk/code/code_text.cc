@@ -11,7 +11,9 @@ namespace {
 
 // The letter at the front and its bytes; nothing where it is no UTF-8 (RFC 3629).
 std::optional<std::uint32_t> letter_of(std::string_view text, std::size_t& bytes) {
-  const auto byte = [text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const auto byte = [text](std::size_t i) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+  };
   const std::uint32_t first = byte(0);
   bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
   if (bytes == 1) return first;
@@ -28,8 +30,10 @@ std::optional<std::uint32_t> letter_of(std::string_view text, std::size_t& bytes
 
 // Control, direction, invisible, private, no letter at all.
 bool is_unseen(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) ||
-         c == 0xFEFF || (c >= 0xE000 && c <= 0xF8FF) || (c >= 0xFFF0 && c <= 0xFFFF) || (c & 0xFFFEU) == 0xFFFEU || c >= 0xE0000;
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || (c >= 0x200B && c <= 0x200F) ||
+         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
+         (c >= 0xE000 && c <= 0xF8FF) || (c >= 0xFFF0 && c <= 0xFFFF) || (c & 0xFFFEU) == 0xFFFEU ||
+         c >= 0xE0000;
 }
 
 }  // namespace

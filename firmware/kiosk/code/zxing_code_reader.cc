@@ -12,8 +12,10 @@ class ZxingCodeReader final : public CodeReader {
  public:
   std::optional<std::string> read(const ImageView& picture) override try {
     if (picture.format == PixelFormat::Grey16) return std::nullopt;
-    const auto format = picture.format == PixelFormat::Rgb8 ? ZXing::ImageFormat::RGB : ZXing::ImageFormat::Lum;
-    const ZXing::ImageView view(reinterpret_cast<const std::uint8_t*>(picture.bytes), picture.width_px, picture.height_px, format, picture.stride_bytes);
+    const auto format =
+        picture.format == PixelFormat::Rgb8 ? ZXing::ImageFormat::RGB : ZXing::ImageFormat::Lum;
+    const ZXing::ImageView view(reinterpret_cast<const std::uint8_t*>(picture.bytes), picture.width_px,
+                                picture.height_px, format, picture.stride_bytes);
     ZXing::DecodeHints hints;
     hints.setFormats(ZXing::BarcodeFormat::QRCode).setTryHarder(true).setTryRotate(true);
     const ZXing::Result found = ZXing::ReadBarcode(view, hints);

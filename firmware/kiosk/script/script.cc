@@ -17,15 +17,23 @@ constexpr double kWaitAtMostS = 60, kLongestS = 3600;
 struct Verb {
   const char* word;
   Kind kind;
-  bool rest;       // its word is the rest of the line
+  bool rest;  // its word is the rest of the line
 };
-constexpr Verb kVerbs[] = {{"wait", Kind::Wait, false}, {"tap", Kind::Tap, true}, {"hold", Kind::Hold, false}, {"drag", Kind::Drag, false},
-                           {"type", Kind::Type, true}, {"pause", Kind::Pause, false}, {"screenshot", Kind::Screenshot, false},
-                           {"plug", Kind::Plug, true}, {"unplug", Kind::Unplug, false}};
+constexpr Verb kVerbs[] = {{"wait", Kind::Wait, false},
+                           {"tap", Kind::Tap, true},
+                           {"hold", Kind::Hold, false},
+                           {"drag", Kind::Drag, false},
+                           {"type", Kind::Type, true},
+                           {"pause", Kind::Pause, false},
+                           {"screenshot", Kind::Screenshot, false},
+                           {"plug", Kind::Plug, true},
+                           {"unplug", Kind::Unplug, false}};
 
 Error wrong(const std::string& where, Literal what) { return Error{Errc::InvalidInput, what}.at(where); }
 
-bool length_of(std::istringstream& words, double& seconds) { return (words >> seconds) && seconds >= 0 && seconds <= kLongestS; }
+bool length_of(std::istringstream& words, double& seconds) {
+  return (words >> seconds) && seconds >= 0 && seconds <= kLongestS;
+}
 
 std::string rest_of(std::istringstream& words) {
   std::string rest;
@@ -39,25 +47,31 @@ Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) 
     case Kind::Wait:
       action.seconds = kWaitAtMostS;
       if (!(words >> action.word)) return wrong(action.where, "wait for which state?");
-      if (!(words >> std::ws).eof() && !length_of(words, action.seconds)) return wrong(action.where, "wants a number of seconds, 0 to 3600");
+      if (!(words >> std::ws).eof() && !length_of(words, action.seconds))
+        return wrong(action.where, "wants a number of seconds, 0 to 3600");
       break;
     case Kind::Hold:
-      if (!(words >> action.word) || !length_of(words, action.seconds)) return wrong(action.where, "wants an id and a number of seconds, as hold door 2");
+      if (!(words >> action.word) || !length_of(words, action.seconds))
+        return wrong(action.where, "wants an id and a number of seconds, as hold door 2");
       break;
     case Kind::Drag:
-      if (!(words >> action.word >> action.dx_px >> action.dy_px)) return wrong(action.where, "wants an id and two numbers of pixels, as drag face 120 0");
+      if (!(words >> action.word >> action.dx_px >> action.dy_px))
+        return wrong(action.where, "wants an id and two numbers of pixels, as drag face 120 0");
       break;
     case Kind::Pause:
-      if (!length_of(words, action.seconds)) return wrong(action.where, "wants a number of seconds, 0 to 3600");
+      if (!length_of(words, action.seconds))
+        return wrong(action.where, "wants a number of seconds, 0 to 3600");
       break;
     case Kind::Screenshot:
-      if (!(words >> action.word) || action.word.find_first_of("/\\") != std::string::npos || action.word.front() == '.')
+      if (!(words >> action.word) || action.word.find_first_of("/\\") != std::string::npos ||
+          action.word.front() == '.')
         return wrong(action.where, "wants a name without a folder, as screenshot review");
       break;
     case Kind::Tap:
     case Kind::Type:
     case Kind::Plug:
-    case Kind::Unplug: break;
+    case Kind::Unplug:
+      break;
   }
   if (!(words >> std::ws).eof()) return wrong(action.where, "has words too many");
   return action;

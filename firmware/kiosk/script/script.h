@@ -16,10 +16,10 @@ namespace relievo::firmware {
 struct ScriptAction {
   enum class Kind : std::uint8_t { Wait, Tap, Hold, Drag, Type, Pause, Screenshot, Plug, Unplug };
   Kind kind = Kind::Wait;
-  std::string word;        // a state, an id, a text, a name, a folder
-  double seconds = 0;      // Wait: at most; Hold, Pause: so long
+  std::string word;    // a state, an id, a text, a name, a folder
+  double seconds = 0;  // Wait: at most; Hold, Pause: so long
   float dx_px = 0, dy_px = 0;
-  std::string where;       // file and line, for errors
+  std::string where;  // file and line, for errors
 };
 
 Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file);

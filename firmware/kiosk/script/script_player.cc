@@ -17,7 +17,9 @@ constexpr double kOnTheScreenS = 20;  // an id is waited for
 constexpr int kDragSteps = 8;
 constexpr std::array<const char*, 3> kKeysToTry{"shift", "accents", "shift"};
 
-bool same(std::string_view a, std::string_view b) { return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0; }
+bool same(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
+}
 
 bool is_there(std::string_view state, const Kiosk& kiosk) {
   return same(state, ui::name_of(kiosk.ui().visit().step)) || same(state, name_of(kiosk.appliance().state()));
@@ -27,7 +29,8 @@ bool is_there(std::string_view state, const Kiosk& kiosk) {
 const ui::Node* touchable(const Kiosk& kiosk, std::string_view id) {
   const ui::Node* node = kiosk.ui().tree().find(id);
   if (node == nullptr) return nullptr;
-  const ui::Node* const met = kiosk.ui().tree().at(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
+  const ui::Node* const met =
+      kiosk.ui().tree().at(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
   return met != nullptr && met->id == node->id ? node : nullptr;
 }
 
@@ -54,17 +57,25 @@ Result<bool> ScriptPlayer::act(const ScriptAction& action, const Kiosk& kiosk, h
   switch (action.kind) {
     case Kind::Wait:
       if (is_there(action.word, kiosk)) return true;
-      if (passed > action.seconds) return Error{Errc::Timeout, "the state was not reached in time"}.at(action.where);
+      if (passed > action.seconds)
+        return Error{Errc::Timeout, "the state was not reached in time"}.at(action.where);
       return false;
     case Kind::Tap:
     case Kind::Hold:
-    case Kind::Drag: return touch(action, kiosk, now);
-    case Kind::Type: return type(action, kiosk, now);
-    case Kind::Pause: return passed >= action.seconds;
-    case Kind::Screenshot: screenshot_ = action.word; return true;
+    case Kind::Drag:
+      return touch(action, kiosk, now);
+    case Kind::Type:
+      return type(action, kiosk, now);
+    case Kind::Pause:
+      return passed >= action.seconds;
+    case Kind::Screenshot:
+      screenshot_ = action.word;
+      return true;
     case Kind::Plug:
     case Kind::Unplug:
-      if (!hands_.plug) return Error{Errc::Unsupported, "these cameras have no stick that a script could plug"}.at(action.where);
+      if (!hands_.plug)
+        return Error{Errc::Unsupported, "these cameras have no stick that a script could plug"}.at(
+            action.where);
       RELIEVO_TRY(hands_.plug(action.word));
       return true;
   }
@@ -77,7 +88,8 @@ Result<bool> ScriptPlayer::touch(const ScriptAction& action, const Kiosk& kiosk,
     const ui::Node* const node = touchable(kiosk, action.word);
     if (node == nullptr) {
       if (duration<double>(now - *since_).count() > kOnTheScreenS)
-        return Error{Errc::Timeout, "is not on the screen, or lies under something"}.at(action.where + ": " + action.word);
+        return Error{Errc::Timeout, "is not on the screen, or lies under something"}.at(action.where + ": " +
+                                                                                        action.word);
       return false;
     }
     x_ = node->rect.x + node->rect.w / 2;
@@ -107,7 +119,9 @@ Result<bool> ScriptPlayer::type(const ScriptAction& action, const Kiosk& kiosk, 
   if (!down_at_) {
     const ui::Tree& tree = kiosk.ui().tree();
     const bool there = tree.find(own) != nullptr || tree.find("keyboard") == nullptr;
-    if (!there && turned_ == kKeysToTry.size()) return Error{Errc::InvalidInput, "no key of this keyboard has this letter"}.at(action.where + ": " + letter);
+    if (!there && turned_ == kKeysToTry.size())
+      return Error{Errc::InvalidInput, "no key of this keyboard has this letter"}.at(action.where + ": " +
+                                                                                     letter);
     key_ = there ? own : kKeysToTry[turned_++];
   }
   RELIEVO_TRY_ASSIGN(const bool tapped, touch({Kind::Tap, key_, 0, 0, 0, action.where}, kiosk, now));

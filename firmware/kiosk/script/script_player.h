@@ -24,7 +24,8 @@ class ScriptPlayer {
     std::function<void(const ui::Input&)> touch;
     std::function<Result<void>(const std::string& folder)> plug{};  // no name: the stick is pulled
   };
-  ScriptPlayer(std::vector<ScriptAction> script, Hands hands) : script_(std::move(script)), hands_(std::move(hands)) {}
+  ScriptPlayer(std::vector<ScriptAction> script, Hands hands)
+      : script_(std::move(script)), hands_(std::move(hands)) {}
 
   // False: the script has ended.
   Result<bool> turn(const Kiosk& kiosk, hal::Instant now);
@@ -43,10 +44,10 @@ class ScriptPlayer {
   std::optional<hal::Instant> since_;    // the present action began
   std::optional<hal::Instant> down_at_;  // the finger lies on the glass since
   float x_ = 0, y_ = 0;
-  int moved_ = 0;                        // steps of a drag
-  std::size_t typed_ = 0;                // bytes of the text that are done
-  std::size_t turned_ = 0;               // keys tried for one letter that is not on the keyboard
-  std::string key_;                      // under the finger
+  int moved_ = 0;           // steps of a drag
+  std::size_t typed_ = 0;   // bytes of the text that are done
+  std::size_t turned_ = 0;  // keys tried for one letter that is not on the keyboard
+  std::string key_;         // under the finger
   std::optional<std::string> screenshot_;
 };
 

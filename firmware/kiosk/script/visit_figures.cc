@@ -69,9 +69,12 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
   if (visit.step == ui::Step::Position && view.screen == ui::Screen::Position) {
     const bool still = view.live.advice == pipeline::Advice::None && view.live.steady_s > 0;
     if (!still) still_at_.reset();
-    else if (!still_at_) still_at_ = now - std::chrono::duration_cast<steady_clock::duration>(duration<float>(view.live.steady_s));
+    else if (!still_at_)
+      still_at_ =
+          now - std::chrono::duration_cast<steady_clock::duration>(duration<float>(view.live.steady_s));
   }
-  if (visit.step == ui::Step::Working && still_at_ && !still_to_shot_s_) still_to_shot_s_ = duration<double>(now - *still_at_).count();
+  if (visit.step == ui::Step::Working && still_at_ && !still_to_shot_s_)
+    still_to_shot_s_ = duration<double>(now - *still_at_).count();
   const bool face = visit.step == ui::Step::Review && kiosk.ui().draw_list().face != nullptr;
   if (face && still_at_) {
     still_to_face_s_ = duration<double>(now - *still_at_).count();
@@ -82,7 +85,8 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
 
 std::optional<double> VisitFigures::rate(const PageCost& page) {
   const double passed = duration<double>(page.until - page.from).count();
-  return page.frames > 1 && passed > 0 ? std::optional<double>(static_cast<double>(page.frames) / passed) : std::nullopt;
+  return page.frames > 1 && passed > 0 ? std::optional<double>(static_cast<double>(page.frames) / passed)
+                                       : std::nullopt;
 }
 
 std::vector<std::string> VisitFigures::lines() const {
@@ -90,17 +94,23 @@ std::vector<std::string> VisitFigures::lines() const {
   if (touches_ > 0) said.push_back(line("touches from yes to thanks, without text   %6d    bar 6", touches_));
   if (still_to_face_s_) {
     const double shot = still_to_shot_s_.value_or(0);
-    said.push_back(line("standing still to the face on the screen   %6.2f s  bar 4 (%.2f s to the shot, %.2f s from there)", *still_to_face_s_, shot, *still_to_face_s_ - shot));
+    said.push_back(line(
+        "standing still to the face on the screen   %6.2f s  bar 4 (%.2f s to the shot, %.2f s from there)",
+        *still_to_face_s_, shot, *still_to_face_s_ - shot));
   }
-  if (const auto live = live_frames_a_second()) said.push_back(line("frames a second on the live page           %6.1f    bar 20", *live));
-  said.push_back("page       frames  a second  changed  ms of processor a frame: ours  most  drawing with the GL driver  heap blocks taken");
+  if (const auto live = live_frames_a_second())
+    said.push_back(line("frames a second on the live page           %6.1f    bar 20", *live));
+  said.push_back(
+      "page       frames  a second  changed  ms of processor a frame: ours  most  drawing with the GL driver  heap blocks taken");
   for (std::size_t i = 0; i < kPages; ++i) {
     const PageCost& p = pages_[i];
     if (p.frames == 0) continue;
     const double n = static_cast<double>(p.frames);
-    std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kStepNames[i].data(), p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
+    std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kStepNames[i].data(),
+                           p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
                            1e3 * p.draw_s / static_cast<double>(std::max(1L, p.drawn)));
-    row += allocations_ ? line("%ld in %ld frames", p.allocations, p.allocating_frames) : std::string("not counted");
+    row += allocations_ ? line("%ld in %ld frames", p.allocations, p.allocating_frames)
+                        : std::string("not counted");
     said.push_back(std::move(row));
   }
   return said;

@@ -28,9 +28,9 @@ class VisitFigures {
 
   void begin();
   void made();
-  void shown(const Kiosk& kiosk, bool drawn);   // drawn: something had changed
+  void shown(const Kiosk& kiosk, bool drawn);  // drawn: something had changed
 
-  int touches() const { return touches_; }                     // until Thanks; 0: it was not reached
+  int touches() const { return touches_; }  // until Thanks; 0: it was not reached
   std::optional<double> still_to_face_s() const { return still_to_face_s_; }
   std::optional<double> live_frames_a_second() const { return rate(page(ui::Step::Position)); }
   // Lines for a person, with the bars they are held against.
@@ -38,7 +38,7 @@ class VisitFigures {
 
  private:
   struct PageCost {
-    long frames = 0, drawn = 0; // without the first ones, which lay out words and fill the atlas
+    long frames = 0, drawn = 0;  // without the first ones, which lay out words and fill the atlas
     long waited = 0;
     double turn_s = 0, draw_s = 0, most_turn_s = 0;
     long allocations = 0, allocating_frames = 0;

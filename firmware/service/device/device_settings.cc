@@ -13,7 +13,8 @@ Result<void> DeviceSettings::look() {
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   std::vector<std::string> complaints;
   now_ = wanted_ = settings_of(kept ? *kept : std::string(), complaints);
-  for (const std::string& complaint : complaints) log_.say("the setting \"{}\" is not one: what is usual holds", {complaint});
+  for (const std::string& complaint : complaints)
+    log_.say("the setting \"{}\" is not one: what is usual holds", {complaint});
   return {};
 }
 
@@ -25,7 +26,8 @@ bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
       JobPlace::Keeper,
       [this, next, setting](JobControl&) -> Result<void> {
         // Whoever chooses how long records are kept has looked at the clock.
-        if (setting == ui::Setting::KeepDays) RELIEVO_TRY(trust_clock(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())));
+        if (setting == ui::Setting::KeepDays)
+          RELIEVO_TRY(trust_clock(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())));
         return store_.set_setting(kDeviceSetting, text_of(next));
       },
       [this, next, setting, value, done = std::move(done)](const std::optional<Error>& error) {

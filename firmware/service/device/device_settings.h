@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// DeviceSettings: the staff's settings as they hold now, and the way to change one: checked, written in one transaction of
-// the store, and in force when it is there. What cannot be written does not hold.
-// Thread: main; it is written on the keeper. Errors of look(): the store's.
+// DeviceSettings: the staff's settings as they hold now, and the way to change one: checked, written in one
+// transaction of the store, and in force when it is there. What cannot be written does not hold. Thread:
+// main; it is written on the keeper. Errors of look(): the store's.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,8 @@ namespace relievo::firmware {
 class DeviceSettings {
  public:
   using Done = std::function<void(const std::optional<Error>&)>;
-  DeviceSettings(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock) : store_(store), errands_(errands), log_(log), clock_(clock) {}
+  DeviceSettings(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
+      : store_(store), errands_(errands), log_(log), clock_(clock) {}
 
   // Before any thread uses the store. A value that is none is told in the log.
   Result<void> look();

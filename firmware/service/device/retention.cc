@@ -35,10 +35,14 @@ Result<void> trust_clock(storage::Store& store, WallTime now) {
   return store.set_setting(kClockSeenSetting, std::to_string(now.time_since_epoch().count()));
 }
 
-Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days, const std::atomic<bool>& cancelled) {
+Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
+                          const std::atomic<bool>& cancelled) {
   if (keep_days <= 0) return 0;
   RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
-  if (jumped) return Error{Errc::InvalidState, "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
+  if (jumped)
+    return Error{
+        Errc::InvalidState,
+        "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
   std::vector<storage::SubjectId> expired;
   for (std::int64_t skip = 0;; skip += kPage) {
     RELIEVO_TRY_ASSIGN(const auto subjects, store.subjects({.skip = skip, .limit = kPage}));
@@ -66,7 +70,9 @@ void RetentionWatch::turn(const ui::Settings& settings) {
   errands_.send(
       JobPlace::Keeper,
       [this, erased, days](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*erased, erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()), days, control.cancelled));
+        RELIEVO_TRY_ASSIGN(
+            *erased, erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()),
+                                   days, control.cancelled));
         return {};
       },
       [this, erased](const std::optional<Error>& error) {

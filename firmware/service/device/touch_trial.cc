@@ -10,7 +10,7 @@ namespace {
 using ui::TouchStep;
 using ui::TouchVerdict;
 
-constexpr float kMet = 0.04F;   // of the screen, either way: half a button
+constexpr float kMet = 0.04F;  // of the screen, either way: half a button
 
 }  // namespace
 
@@ -87,9 +87,12 @@ void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
   const ui::TouchMap before = std::exchange(map_, map);
   end(verdict);
   errands_.send(
-      JobPlace::Keeper, [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
+      JobPlace::Keeper,
+      [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
       [this, before](const std::optional<Error>& error) {
-        if (!error) return map_.is_plain() ? log_.say("the touch screen is taken as it is") : log_.say("the touch screen was corrected");
+        if (!error)
+          return map_.is_plain() ? log_.say("the touch screen is taken as it is")
+                                 : log_.say("the touch screen was corrected");
         log_.fault(*error);
         map_ = before;
         end(TouchVerdict::NotSaved);

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TouchTrial: the touch screen's correction that is in force, and the way to another one. While crosses are to be touched
-// every finger belongs to the trial, so that a wrong one presses nothing; keypad and mouse go on. A new correction is in
-// force only after a finger has met a cross by it; a trial that nobody goes on with ends by itself and changes nothing.
+// TouchTrial: the touch screen's correction that is in force, and the way to another one. While crosses are
+// to be touched every finger belongs to the trial, so that a wrong one presses nothing; keypad and mouse go
+// on. A new correction is in force only after a finger has met a cross by it; a trial that nobody goes on
+// with ends by itself and changes nothing.
 //
-//   Rest --begin--> Cross x 4 --fits--> Test --met--> kept        15 s without a touch, a misfit, a miss --> Rest
+//   Rest --begin--> Cross x 4 --fits--> Test --met--> kept        15 s without a touch, a misfit, a miss -->
+//   Rest
 //
 // Thread: main; it is written on the keeper. Errors of look(): the store's.
 #pragma once
@@ -22,18 +24,21 @@
 namespace relievo::firmware {
 
 inline constexpr const char* kTouchSetting = "touch";
-inline constexpr std::chrono::seconds kTouchPatience{15};   // for each cross
+inline constexpr std::chrono::seconds kTouchPatience{15};  // for each cross
 
 class TouchTrial {
  public:
-  TouchTrial(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock) : store_(store), errands_(errands), log_(log), clock_(clock) {}
+  TouchTrial(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
+      : store_(store), errands_(errands), log_(log), clock_(clock) {}
 
-  // Before any thread uses the store. A correction that cannot be read is told in the log; the panel is then taken as it is.
+  // Before any thread uses the store. A correction that cannot be read is told in the log; the panel is then
+  // taken as it is.
   Result<void> look();
   // Where on the screen a finger was, by the correction in force.
   ui::Input placed(ui::Input input, int width_px, int height_px) const;
   bool takes_fingers() const { return view_.step != ui::TouchStep::Rest; }
-  // As the panel tells it, while takes_fingers(); the middle of the cross that is shown. Shares of the screen.
+  // As the panel tells it, while takes_fingers(); the middle of the cross that is shown. Shares of the
+  // screen.
   void touched(ui::TouchPoint at, ui::TouchPoint cross);
 
   void begin();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Behind the page of the consent text. What is in force and how the last try ended is in every view (Desk). Thread: main.
+// Behind the page of the consent text. What is in force and how the last try ended is in every view (Desk).
+// Thread: main.
 #pragma once
 
 #include "firmware/service/desk_page.h"

@@ -17,7 +17,9 @@ constexpr double kMiB = 1048576.0, kWarm = 75, kHot = 90;
 
 double mib(std::size_t bytes) { return static_cast<double>(bytes) / kMiB; }
 
-ui::Mood mood_of(double used, double of) { return used > of ? ui::Mood::Bad : used > 0.9 * of ? ui::Mood::Warn : ui::Mood::Good; }
+ui::Mood mood_of(double used, double of) {
+  return used > of ? ui::Mood::Bad : used > 0.9 * of ? ui::Mood::Warn : ui::Mood::Good;
+}
 
 }  // namespace
 
@@ -71,16 +73,24 @@ void HealthDesk::look() {
 // Of the last capture: the arenas are swept between two people, their high-water marks are not names.
 void HealthDesk::add_memory() {
   std::size_t peak = 0;
-  for (const StageRecord& record : tools().appliance.records()) peak = std::max(peak, record.arena_peak_bytes);
-  const double plan = mib(budget::kOutputArenaBytes + budget::kScratchArenaBytes), all = mib(budget::kApplianceBytes);
+  for (const StageRecord& record : tools().appliance.records())
+    peak = std::max(peak, record.arena_peak_bytes);
+  const double plan = mib(budget::kOutputArenaBytes + budget::kScratchArenaBytes),
+               all = mib(budget::kApplianceBytes);
   rows_.push_back({ui::Gauge::Stages, {}, mib(peak), plan, mood_of(mib(peak), plan)});
   rows_.push_back({ui::Gauge::Process, {}, seen_.process_mib, all, mood_of(seen_.process_mib, all)});
 }
 
 void HealthDesk::add_seen() {
-  rows_.push_back({ui::Gauge::Disk, {}, seen_.disk_used_mib, seen_.disk_mib, mood_of(seen_.disk_used_mib, seen_.disk_mib)});
+  rows_.push_back({ui::Gauge::Disk,
+                   {},
+                   seen_.disk_used_mib,
+                   seen_.disk_mib,
+                   mood_of(seen_.disk_used_mib, seen_.disk_mib)});
   for (const Sensor& sensor : seen_.sensors) {
-    const ui::Mood mood = sensor.celsius >= kHot ? ui::Mood::Bad : sensor.celsius >= kWarm ? ui::Mood::Warn : ui::Mood::Good;
+    const ui::Mood mood = sensor.celsius >= kHot    ? ui::Mood::Bad
+                          : sensor.celsius >= kWarm ? ui::Mood::Warn
+                                                    : ui::Mood::Good;
     rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, 0, mood});
   }
 }

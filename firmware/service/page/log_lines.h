@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lines of the log as a page draws them, newest faults on the health page and everything on the log's own. Thread: main.
+// Lines of the log as a page draws them, newest faults on the health page and everything on the log's own.
+// Thread: main.
 #pragma once
 
 #include <vector>

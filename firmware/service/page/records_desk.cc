@@ -80,17 +80,22 @@ void RecordsDesk::ask(const ui::StaffWish& wish) {
   outcome_ = ui::Outcome::None;
   asked_ = 0;
   switch (wish.verb) {
-    case ui::kRecordsSearch: return search(wish.text());
+    case ui::kRecordsSearch:
+      return search(wish.text());
     case ui::kRecordsNewer:
       skip_ = std::max<std::int64_t>(0, skip_ - kPage);
       return list();
     case ui::kRecordsOlder:
       skip_ += more_ ? kPage : 0;
       return list();
-    case ui::kRecordShow: return load(wish.number);
-    case ui::kRecordErase: return erase(wish.number);
-    case ui::kRecordExport: return take_out(wish.number);
-    default: return;
+    case ui::kRecordShow:
+      return load(wish.number);
+    case ui::kRecordErase:
+      return erase(wish.number);
+    case ui::kRecordExport:
+      return take_out(wish.number);
+    default:
+      return;
   }
 }
 
@@ -119,12 +124,15 @@ void RecordsDesk::list() {
         std::vector<storage::Subject> subjects;
         // The code that a person quotes for their erasure leads to them, too.
         if (is_receipt(listed->searched)) {
-          if (auto subject = find_by_receipt(tools().store, listed->searched)) subjects.push_back(std::move(*subject));
+          if (auto subject = find_by_receipt(tools().store, listed->searched))
+            subjects.push_back(std::move(*subject));
         } else {
           RELIEVO_TRY_ASSIGN(subjects, tools().store.subjects({listed->searched, false, skip, kPage + 1}));
         }
         for (storage::Subject& subject : subjects) {
-          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments});
+          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name,
+                                   text_of(subject.created_at).substr(0, 16), receipt_of(subject),
+                                   subject.enrolments});
           wipe_text(subject.name);
         }
         return {};
@@ -149,7 +157,8 @@ void RecordsDesk::load(std::int64_t number) {
       JobPlace::Keeper,
       [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(storage::Subject subject, tools().store.subject(id));
-        person->found = {static_cast<std::int64_t>(id), subject.name, text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments};
+        person->found = {static_cast<std::int64_t>(id), subject.name,
+                         text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments};
         wipe_text(subject.name);
         RELIEVO_TRY_ASSIGN(const auto enrolments, tools().store.enrolments(id));
         if (enrolments.empty()) return {};
@@ -171,7 +180,8 @@ void RecordsDesk::load(std::int64_t number) {
 void RecordsDesk::erase(std::int64_t number) {
   person_.reset();
   tools().errands.send(
-      JobPlace::Keeper, [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
+      JobPlace::Keeper,
+      [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
       [this, number, visit = visit_](const std::optional<Error>& error) {
         if (!error) tools().log.say("record #{} was erased", {std::to_string(number)});
         if (visit != visit_) return;
@@ -192,7 +202,10 @@ void RecordsDesk::take_out(std::int64_t number) {
   asked_ = static_cast<int>(subjects.size());
   const auto trace = std::make_shared<ExportTrace>();
   tools().errands.send(
-      JobPlace::Keeper, [this, subjects = std::move(subjects), trace](JobControl& control) { return export_records(tools().store, tools().board.media(), subjects, control, *trace); },
+      JobPlace::Keeper,
+      [this, subjects = std::move(subjects), trace](JobControl& control) {
+        return export_records(tools().store, tools().board.media(), subjects, control, *trace);
+      },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (trace->whole > 0) tools().log.say("records exported: {}", {std::to_string(trace->whole)});
         if (visit == visit_) exported(error, *trace);

@@ -52,7 +52,7 @@ class RecordsDesk final : public DeskPage {
   static void wipe(Found& found);
   static void wipe(std::vector<Found>& found);
 
-  std::uint32_t visit_ = 0;          // of the page: what was asked before it was left is not shown after
+  std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
   std::string searched_;
   std::int64_t skip_ = 0;
   bool more_ = false, ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
@@ -60,8 +60,8 @@ class RecordsDesk final : public DeskPage {
   std::shared_ptr<Person> person_;
   std::uint32_t model_number_ = 0;
   ui::Outcome outcome_ = ui::Outcome::None;
-  ExportTrace trace_;                // of the last export
-  int asked_ = 0;                    // how many records it was of
+  ExportTrace trace_;  // of the last export
+  int asked_ = 0;      // how many records it was of
   std::vector<ui::RecordRow> rows_;
   ui::RecordRow shown_;
   ui::RecordsView view_;

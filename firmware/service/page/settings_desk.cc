@@ -7,12 +7,17 @@ namespace relievo::firmware {
 void SettingsDesk::opened() { outcome_ = ui::Outcome::None; }
 
 void SettingsDesk::ask(const ui::StaffWish& wish) {
-  if ((wish.verb != ui::kSettingLess && wish.verb != ui::kSettingMore) || wish.number < 0 || wish.number >= static_cast<std::int64_t>(ui::kSettings)) return;
+  if ((wish.verb != ui::kSettingLess && wish.verb != ui::kSettingMore) || wish.number < 0 ||
+      wish.number >= static_cast<std::int64_t>(ui::kSettings))
+    return;
   const auto setting = static_cast<ui::Setting>(wish.number);
   const ui::SettingInfo& info = info_of(setting);
   if (!(tools().role == ui::StaffRole::Technician ? info.technician : info.clerk)) return;
-  const std::int32_t value = tools().settings.wanted().beside(setting, wish.verb == ui::kSettingMore ? 1 : -1);
-  tools().settings.change(setting, value, [this](const std::optional<Error>& error) { outcome_ = error ? outcome_of(*error) : ui::Outcome::Done; });
+  const std::int32_t value =
+      tools().settings.wanted().beside(setting, wish.verb == ui::kSettingMore ? 1 : -1);
+  tools().settings.change(setting, value, [this](const std::optional<Error>& error) {
+    outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
+  });
   if (setting == ui::Setting::KeepDays) tools().retention.begin_anew();
 }
 

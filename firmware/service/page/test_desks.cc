@@ -55,16 +55,22 @@ void SelfTestDesk::ask(const ui::StaffWish& wish) {
   DeskTools& t = tools();
   t.log.say("self-test begun");
   begin(Check::Memory, JobPlace::Keeper, [](JobControl&) -> Result<void> {
-    if (peak_rss_bytes() > budget::kApplianceBytes) return Error{Errc::OutOfMemory, "the program has used more memory than was planned: see the page of health"};
+    if (peak_rss_bytes() > budget::kApplianceBytes)
+      return Error{Errc::OutOfMemory,
+                   "the program has used more memory than was planned: see the page of health"};
     return {};
   });
   begin(Check::Store, JobPlace::Keeper, [&t](JobControl&) { return t.store.check(); });
-  // The one that is measured with, which may be a file's or the simulated rig's and so not the store's active one.
+  // The one that is measured with, which may be a file's or the simulated rig's and so not the store's active
+  // one.
   begin(Check::Calibration, JobPlace::Keeper, [&t, revision = t.calibration](JobControl&) -> Result<void> {
     RELIEVO_TRY(revision == 0 ? t.store.active_calibration() : t.store.calibration(revision));
     return {};
   });
-  begin(Check::Disk, JobPlace::Keeper, [&t, least = t.settings.now().of(ui::Setting::LeastRoomMib)](JobControl&) { return disk_has_room(t.folder, least); });
+  begin(Check::Disk, JobPlace::Keeper,
+        [&t, least = t.settings.now().of(ui::Setting::LeastRoomMib)](JobControl&) {
+          return disk_has_room(t.folder, least);
+        });
   begin(Check::Cameras, JobPlace::Capture, [&t](JobControl& control) -> Result<void> {
     RELIEVO_TRY(one_pair(t, control));
     return {};

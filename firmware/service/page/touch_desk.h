@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Behind the page of the touch screen's correction: TouchTrial, which is abandoned with the page. Thread: main.
+// Behind the page of the touch screen's correction: TouchTrial, which is abandoned with the page. Thread:
+// main.
 #pragma once
 
 #include "firmware/service/desk_page.h"

@@ -21,8 +21,8 @@ namespace relievo::hal {
 struct GpioTiming {
   std::chrono::microseconds delay{0};
   std::chrono::microseconds lamp_lead{0};
-  std::chrono::microseconds lamp_time{0};   // 0: as long as the lead and the trigger's pulse together
-  bool lamp_on_trigger_wire = false;        // every pulse is a flash
+  std::chrono::microseconds lamp_time{0};  // 0: as long as the lead and the trigger's pulse together
+  bool lamp_on_trigger_wire = false;       // every pulse is a flash
   // InvalidInput: negative, or longer than TriggerLine::kLongestPulse.
   Result<void> check() const;
 };
@@ -37,7 +37,8 @@ Waiter& busy_waiter();
 
 class GpioTriggerLine final : public TriggerLine {
  public:
-  GpioTriggerLine(std::unique_ptr<OutputLines> lines, const GpioTiming& timing, const Clock& clock, Waiter& waiter = busy_waiter())
+  GpioTriggerLine(std::unique_ptr<OutputLines> lines, const GpioTiming& timing, const Clock& clock,
+                  Waiter& waiter = busy_waiter())
       : TriggerLine(clock), lines_(std::move(lines)), timing_(timing), clock_(clock), waiter_(waiter) {}
 
   bool lights_with_every_pulse() const override { return timing_.lamp_on_trigger_wire; }

@@ -21,19 +21,27 @@ Error chip_error(int number) {
     case ENOENT:
     case ENXIO:
     case ENODEV:
-    case ENOTTY: return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
+    case ENOTTY:
+      return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
     case EACCES:
-    case EPERM: return Error{Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio", number};
-    default: return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
+    case EPERM:
+      return Error{Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio",
+                   number};
+    default:
+      return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
   }
 }
 
 Error line_error(int number) {
   switch (number) {
     case EINVAL:
-    case ENOENT: return Error{Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo", number};
-    case EBUSY: return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
-    default: return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
+    case ENOENT:
+      return Error{Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo",
+                   number};
+    case EBUSY:
+      return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
+    default:
+      return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
   }
 }
 
@@ -75,11 +83,13 @@ class Lines {
   ~Lines() {
     if (request_ != nullptr) gpiod_line_request_release(request_);
   }
-  Lines(Lines&& other) noexcept : offsets_(std::move(other.offsets_)), request_(std::exchange(other.request_, nullptr)) {}
+  Lines(Lines&& other) noexcept
+      : offsets_(std::move(other.offsets_)), request_(std::exchange(other.request_, nullptr)) {}
   Lines& operator=(Lines&&) = delete;
   std::size_t count() const { return offsets_.size(); }
   bool set(std::size_t line, bool active) {
-    return gpiod_line_request_set_value(request_, offsets_[line], active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE) == 0;
+    return gpiod_line_request_set_value(request_, offsets_[line],
+                                        active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE) == 0;
   }
 
  private:
@@ -110,7 +120,8 @@ class Lines {
   ~Lines() {
     if (chip_ != nullptr) gpiod_chip_close(chip_);  // releases its lines
   }
-  Lines(Lines&& other) noexcept : chip_(std::exchange(other.chip_, nullptr)), lines_(std::move(other.lines_)) {}
+  Lines(Lines&& other) noexcept
+      : chip_(std::exchange(other.chip_, nullptr)), lines_(std::move(other.lines_)) {}
   Lines& operator=(Lines&&) = delete;
   std::size_t count() const { return lines_.size(); }
   bool set(std::size_t line, bool active) { return gpiod_line_set_value(lines_[line], active ? 1 : 0) == 0; }

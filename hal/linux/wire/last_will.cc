@@ -14,7 +14,8 @@ namespace relievo::hal {
 
 Result<LastWill> LastWill::make(const std::function<void()>& will) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Error{Errc::IoFailed, "no pipe to notice the end of this process", errno};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return Error{Errc::IoFailed, "no pipe to notice the end of this process", errno};
   const pid_t child = ::fork();
   if (child < 0) {
     ::close(ends[0]);

@@ -21,7 +21,8 @@ class LastWill {
   static Result<LastWill> make(const std::function<void()>& will);
   // Has it done, and waits until it is.
   ~LastWill();
-  LastWill(LastWill&& other) noexcept : child_(std::exchange(other.child_, 0)), alive_(std::exchange(other.alive_, -1)) {}
+  LastWill(LastWill&& other) noexcept
+      : child_(std::exchange(other.child_, 0)), alive_(std::exchange(other.alive_, -1)) {}
   LastWill& operator=(LastWill&&) = delete;
 
  private:

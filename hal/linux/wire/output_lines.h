@@ -23,10 +23,10 @@ class OutputLines {
 };
 
 struct GpioOptions {
-  std::string chip;                    // /dev/gpiochip0
-  unsigned trigger = 0;                // the line's offset on the chip
-  std::optional<unsigned> lamp;        // none: no lamp, or one on the trigger's wire
-  bool active_low = false;             // both
+  std::string chip;              // /dev/gpiochip0
+  unsigned trigger = 0;          // the line's offset on the chip
+  std::optional<unsigned> lamp;  // none: no lamp, or one on the trigger's wire
+  bool active_low = false;       // both
 };
 
 // Through libgpiod, 1.6 or 2 as the library at build time is. A process of its own waits beside: when

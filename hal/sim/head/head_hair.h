@@ -14,8 +14,8 @@ namespace relievo::hal::sim {
 
 struct HairStyle {
   Strands strands;
-  std::vector<float> tint;          // per node of the strands: 1 is the person's hair colour
-  std::vector<float> along;         // per node: 0 root, 1 tip
+  std::vector<float> tint;   // per node of the strands: 1 is the person's hair colour
+  std::vector<float> along;  // per node: 0 root, 1 tip
 };
 
 // 0 bare .. 1 full; at head points.

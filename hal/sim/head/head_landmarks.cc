@@ -53,7 +53,9 @@ std::vector<HeadLandmark> landmarks_of(const HeadField& field) {
                                 {"pogonion", extreme(field, gn, gn + 26, 0, 1)}};
   const double inner = t.intercanthal / 2, outer = inner + t.eye_fissure;
   for (const double side : {-1.0, 1.0}) {
-    const auto add = [&](std::string_view right, std::string_view left, Vec3 at) { all.push_back({side < 0 ? right : left, {side * at.x, at.y, at.z}}); };
+    const auto add = [&](std::string_view right, std::string_view left, Vec3 at) {
+      all.push_back({side < 0 ? right : left, {side * at.x, at.y, at.z}});
+    };
     add("endocanthion_right", "endocanthion_left", skin_at(field, inner - 0.5, field.eye.upper_lid(-1)));
     add("exocanthion_right", "exocanthion_left", skin_at(field, outer + 0.5, field.eye.upper_lid(1)));
     const double w = field.mouth.half_width();

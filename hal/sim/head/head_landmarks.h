@@ -14,7 +14,7 @@
 namespace relievo::hal::sim {
 
 struct HeadLandmark {
-  std::string_view name;   // "endocanthion_left": the person's
+  std::string_view name;  // "endocanthion_left": the person's
   Vec3 at;
 };
 

@@ -11,17 +11,22 @@ double fifth(double v) { return v * v * v * v * v; }
 
 }  // namespace
 
-HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting) : panels_(lamp_panels(lighting)) {
+HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool,
+                     const HeadLighting& lighting)
+    : panels_(lamp_panels(lighting)) {
   const Mat3 head_from_world = pose.world_from_head().transposed();
   const Vec3 origin = pose.origin_mm();
-  for (Panel& p : panels_) p = {head_from_world * (p.centre - origin), head_from_world * p.half_x, head_from_world * p.half_y, p.power};
+  for (Panel& p : panels_)
+    p = {head_from_world * (p.centre - origin), head_from_world * p.half_x, head_from_world * p.half_y,
+         p.power};
   eye_ = head_from_world * (Vec3{70, 0, 0} - origin);
   up_ = head_from_world * Vec3{0, -1, 0};
   for (std::size_t shell = 0; shell < HeadModel::BodyCount; ++shell)
     for (std::size_t panel = 0; panel < kPanels; ++panel) measure(model, shell, panel, pool);
 }
 
-void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::size_t panel_index, ThreadPool& pool) {
+void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::size_t panel_index,
+                        ThreadPool& pool) {
   const int rays_a_side = panel_index < 2 ? 3 : 2;
   const Shell& shell = model.shells[shell_index];
   const Panel& panel = panels_[panel_index];
@@ -33,11 +38,12 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
       const auto k = static_cast<std::size_t>(i);
       const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
       if (p.z < -35 || dot(n, panel.centre - p) < -0.3 * length(panel.centre - p)) continue;
-      if (dot(n, normalised(eye_ - p)) < -0.45) continue;      // turned away from both cameras
+      if (dot(n, normalised(eye_ - p)) < -0.45) continue;  // turned away from both cameras
       const std::uint32_t h = hash_cell(i, static_cast<int>(panel_index), 1, 9);
       int open = 0;
       for (int r = 0; r < rays_a_side * rays_a_side; ++r) {
-        const double u = (r % rays_a_side + unit_from_hash(h)) / rays_a_side * 2 - 1, v = (r / rays_a_side + unit_from_hash(h * 31 + 7)) / rays_a_side * 2 - 1;
+        const double u = (r % rays_a_side + unit_from_hash(h)) / rays_a_side * 2 - 1,
+                     v = (r / rays_a_side + unit_from_hash(h * 31 + 7)) / rays_a_side * 2 - 1;
         const Vec3 to = panel.centre + panel.half_x * u + panel.half_y * v - p;
         const double far = length(to);
         open += model.caster.blocked(p + n * 0.15, to * (1 / far), far) ? 0 : 1;
@@ -48,9 +54,12 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
   smooth_over(shell.mesh, seen, 4);
 }
 
-std::array<double, HeadLight::kPanels> HeadLight::seen(std::size_t shell, const std::array<std::uint32_t, 3>& corner, double u, double v) const {
+std::array<double, HeadLight::kPanels> HeadLight::seen(std::size_t shell,
+                                                       const std::array<std::uint32_t, 3>& corner, double u,
+                                                       double v) const {
   std::array<double, kPanels> out{};
-  for (std::size_t k = 0; k < kPanels; ++k) out[k] = static_cast<double>(blend_corners(seen_[shell][k], corner, u, v));
+  for (std::size_t k = 0; k < kPanels; ++k)
+    out[k] = static_cast<double>(blend_corners(seen_[shell][k], corner, u, v));
   return out;
 }
 
@@ -65,7 +74,9 @@ Vec3 HeadLight::ambient(Vec3 normal, double openness, const Surface& s) const {
   const Vec3 light = mix(Vec3{0.065, 0.06, 0.058}, Vec3{0.13, 0.132, 0.14}, sky);
   // In hollows light has bounced off skin before it arrives, and comes red.
   const double o = std::max(openness, 0.02);
-  const Vec3 hollow = s.translucent > 0 ? Vec3{mix(o, std::sqrt(o), 0.3), mix(o, o * o, 0.15), mix(o, o * o, 0.25)} : Vec3{o, o, o};
+  const Vec3 hollow = s.translucent > 0
+                          ? Vec3{mix(o, std::sqrt(o), 0.3), mix(o, o * o, 0.15), mix(o, o * o, 0.25)}
+                          : Vec3{o, o, o};
   return s.colour * light * hollow;
 }
 
@@ -85,9 +96,10 @@ double HeadLight::highlight(const Panel& panel, const Point& p, double roughness
   const double ndl = dot(p.normal, l), ndh = std::max(dot(p.normal, half), 0.0);
   if (ndl <= 0) return 0;
   const double a2 = roughness * roughness * roughness * roughness, q = ndh * ndh * (a2 - 1) + 1;
-  const double widened = std::min(1.0, a2 * 6);                      // an area light spreads and dims a sharp lobe
+  const double widened = std::min(1.0, a2 * 6);  // an area light spreads and dims a sharp lobe
   const double fresnel = 0.028 + 0.972 * fifth(1 - std::max(dot(half, p.to_eye), 0.0));
-  return fresnel * widened * a2 / (3.14159 * q * q) / std::max(a2, 0.02) * 0.35 * std::min(1.0, ndl * 4) * 0.25;
+  return fresnel * widened * a2 / (3.14159 * q * q) / std::max(a2, 0.02) * 0.35 * std::min(1.0, ndl * 4) *
+         0.25;
 }
 
 Vec3 HeadLight::on(const Point& p, const Surface& s) const {
@@ -100,7 +112,8 @@ Vec3 HeadLight::on(const Point& p, const Surface& s) const {
     const double power = panels_[k].power * (kPanelReferenceMm / d) * (kPanelReferenceMm / d);
     const auto lit = [&](double w) { return std::max(0.0, (ndl + w) / ((1 + w) * (1 + w))); };
     const double v = p.seen[k];
-    const Vec3 shade = s.translucent > 0 ? Vec3{mix(v, std::sqrt(v), 0.4), v, mix(v, v * v, 0.1)} : Vec3{v, v, v};
+    const Vec3 shade =
+        s.translucent > 0 ? Vec3{mix(v, std::sqrt(v), 0.4), v, mix(v, v * v, 0.1)} : Vec3{v, v, v};
     out += s.colour * Vec3{lit(wrap.x), lit(wrap.y), lit(wrap.z)} * shade * power;
     const double shine = s.gloss * highlight(panels_[k], p, s.roughness) * power * v * 2.9;
     out += Vec3{shine, shine, shine};
@@ -117,7 +130,8 @@ Vec3 HeadLight::on_hair(const Point& p, Vec3 tangent, Vec3 colour) const {
     const double sl = std::sqrt(std::max(0.0, 1 - tl * tl)), sv = std::sqrt(std::max(0.0, 1 - tv * tv));
     const double facing = clamp01(0.35 + 0.65 * dot(p.normal, l));
     const double shine = std::pow(std::max(0.0, sl * sv - tl * tv), 40);
-    out += colour * (sl * facing * power * 0.85) + (Vec3{0.035, 0.035, 0.035} + colour * 0.35) * (shine * facing * power);
+    out += colour * (sl * facing * power * 0.85) +
+           (Vec3{0.035, 0.035, 0.035} + colour * 0.35) * (shine * facing * power);
   }
   return out;
 }

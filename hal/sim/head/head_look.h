@@ -11,9 +11,9 @@ namespace relievo::hal::sim {
 
 struct Surface {
   Vec3 colour{0.5, 0.5, 0.5};
-  double gloss = 0;                 // weight of the highlight
-  double roughness = 0.4;           // 0 mirror .. 1 dull
-  double translucent = 0;           // how far light bleeds round an edge: skin
+  double gloss = 0;        // weight of the highlight
+  double roughness = 0.4;  // 0 mirror .. 1 dull
+  double translucent = 0;  // how far light bleeds round an edge: skin
 };
 
 class SkinLook {
@@ -34,7 +34,7 @@ class SkinLook {
 
 struct EyeLook {
   Surface surface;
-  Vec3 normal;                      // with the bulge of the cornea
+  Vec3 normal;  // with the bulge of the cornea
 };
 // `from_centre`: of the eyeball; `gaze`: unit vector to what the eye looks at.
 EyeLook eye_look(const HeadTraits& traits, Vec3 from_centre, Vec3 gaze);

@@ -15,10 +15,10 @@
 
 namespace relievo::hal::sim {
 
-struct Shell {                          // one solid body
+struct Shell {  // one solid body
   Mesh mesh;
   std::vector<Vec3> normals;
-  std::vector<float> openness;          // 0 .. 1: how much of the sky a point sees
+  std::vector<float> openness;  // 0 .. 1: how much of the sky a point sees
 };
 
 class HeadModel {
@@ -33,19 +33,20 @@ class HeadModel {
   std::array<Shell, BodyCount> shells;
   HairStyle hair;
   RayCaster caster;
-  std::array<Vec3, 2> eye_centres;      // left, right
+  std::array<Vec3, 2> eye_centres;  // left, right
 
  private:
   void build_skin(ThreadPool& pool);
   void build_eyes();
   void build_shirt(ThreadPool& pool);
-  void build_mouth(ThreadPool& pool);   // nothing behind closed lips
+  void build_mouth(ThreadPool& pool);  // nothing behind closed lips
   void measure_openness(ThreadPool& pool);
 };
 
 // Interpolates over a triangle: weights 1 - u - v, u, v.
 template <typename T>
-T blend_corners(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, double u, double v) {
+T blend_corners(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, double u,
+                double v) {
   using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
   return values[corner[0]] * static_cast<Number>(1 - u - v) + values[corner[1]] * static_cast<Number>(u) +
          values[corner[2]] * static_cast<Number>(v);

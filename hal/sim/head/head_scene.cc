@@ -14,9 +14,14 @@ constexpr Vec3 kMiddleOfFace{0, -28, 95};
 
 class HeadScene final : public Scene {
  public:
-  HeadScene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting)
-      : head_(std::move(head)), world_from_head_(pose.world_from_head()), head_from_world_(world_from_head_.transposed()),
-        origin_(pose.origin_mm()), light_(*head_, pose, pool, lighting), skin_(head_->field) {
+  HeadScene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool,
+            const HeadLighting& lighting)
+      : head_(std::move(head)),
+        world_from_head_(pose.world_from_head()),
+        head_from_world_(world_from_head_.transposed()),
+        origin_(pose.origin_mm()),
+        light_(*head_, pose, pool, lighting),
+        skin_(head_->field) {
     // Looks between the cameras, as far as eyes turn without the head.
     for (std::size_t k = 0; k < 2; ++k) {
       const Vec3 to = to_head({70, 0, 0}) - head_->eye_centres[k];
@@ -45,7 +50,8 @@ class HeadScene final : public Scene {
     out.normal = world_from_head_ * normalised(cross(point_of(mesh, c[1]) - a, point_of(mesh, c[2]) - a));
     Hit first;
     const bool under_hair = head_->caster.cast(o, d, first) && first.body >= HeadModel::kHairBody;
-    out.skin = hit.body == HeadModel::Skin && !under_hair && scalp_hair(head_->traits, at) < 0.05 && at.y > gnathion_y(head_->traits) - 6 && at.z > -10;
+    out.skin = hit.body == HeadModel::Skin && !under_hair && scalp_hair(head_->traits, at) < 0.05 &&
+               at.y > gnathion_y(head_->traits) - 6 && at.z > -10;
     return true;
   }
   bool blocked(Vec3 from, Vec3 direction, double far_mm) const override {
@@ -89,7 +95,7 @@ Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
       const EyeLook look = eye_look(head_->traits, at - head_->eye_centres[side], gaze_[side]);
       s = look.surface;
       p.normal = look.normal;
-      p.openness *= p.openness;           // the lid's shade lies on the ball
+      p.openness *= p.openness;  // the lid's shade lies on the ball
       break;
     }
     case HeadModel::Inner:
@@ -122,7 +128,8 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
   p.to_eye = -d;
   const bool scalp = at.y > 32 || std::abs(at.x) > 56;
   p.normal = scalp ? normalised(at - Vec3{0, 30, 5}) : Vec3{0, 0.1, 1};
-  const double along = mix(static_cast<double>(hair.along[first]), static_cast<double>(hair.along[first + 1]), hit.u);
+  const double along =
+      mix(static_cast<double>(hair.along[first]), static_cast<double>(hair.along[first + 1]), hit.u);
   p.openness = scalp ? mix(0.25, 1, along) : 0.8;
   // Only the two main panels cast shadows on hair: rays are dear where every pixel takes many.
   for (std::size_t k = 0; k < HeadLight::kPanels; ++k)
@@ -161,14 +168,16 @@ Mat3 HeadPose::world_from_head() const {
   // In camera axes a positive turn about y takes -z towards -x, hence the sign.
   return rotation(radians(pitch_deg), radians(-yaw_deg), radians(roll_deg)) * facing;
 }
-Vec3 HeadPose::origin_mm() const { return Vec3{right_mm, down_mm, distance_mm} - world_from_head() * kMiddleOfFace; }
+Vec3 HeadPose::origin_mm() const {
+  return Vec3{right_mm, down_mm, distance_mm} - world_from_head() * kMiddleOfFace;
+}
 
 std::shared_ptr<const HeadModel> make_head(const HeadTraits& traits, ThreadPool& pool) {
   return std::make_shared<const HeadModel>(traits, pool);
 }
 
-std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool,
-                                       const HeadLighting& lighting) {
+std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose,
+                                       ThreadPool& pool, const HeadLighting& lighting) {
   return std::make_unique<HeadScene>(std::move(head), pose, pool, lighting);
 }
 

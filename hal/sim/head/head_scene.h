@@ -16,20 +16,20 @@
 namespace relievo::hal::sim {
 
 struct HeadPose {
-  double yaw_deg = 0;             // + turns the face to the picture's right
-  double pitch_deg = 0;           // + looks down
+  double yaw_deg = 0;    // + turns the face to the picture's right
+  double pitch_deg = 0;  // + looks down
   double roll_deg = 0;
-  double distance_mm = 560;       // left camera to the middle of the face, along its axis
+  double distance_mm = 560;  // left camera to the middle of the face, along its axis
   double right_mm = 0, down_mm = 0;
   Mat3 world_from_head() const;
-  Vec3 origin_mm() const;         // of the head frame, in world
+  Vec3 origin_mm() const;  // of the head frame, in world
 };
 
-class HeadModel;                  // one person's geometry, reusable in any pose
+class HeadModel;  // one person's geometry, reusable in any pose
 
 std::shared_ptr<const HeadModel> make_head(const HeadTraits& traits, ThreadPool& pool);
 
-std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose, ThreadPool& pool,
-                                       const HeadLighting& lighting = {});
+std::unique_ptr<Scene> make_head_scene(std::shared_ptr<const HeadModel> head, const HeadPose& pose,
+                                       ThreadPool& pool, const HeadLighting& lighting = {});
 
 }  // namespace relievo::hal::sim

@@ -31,9 +31,9 @@ void draw_measures(Random& r, HeadTraits& t) {
 }
 
 void draw_form(Random& r, HeadTraits& t) {
-  for (double* form : {&t.brow_ridge, &t.bridge, &t.hump, &t.tip_up, &t.tip_size, &t.lip_fullness, &t.cheekbone, &t.fullness,
-                       &t.chin, &t.eye_tilt, &t.eye_open, &t.forehead, &t.lid_fold, &t.ear_out, &t.eye_depth,
-                       &t.mouth_curve, &t.chin_breadth})
+  for (double* form : {&t.brow_ridge, &t.bridge, &t.hump, &t.tip_up, &t.tip_size, &t.lip_fullness,
+                       &t.cheekbone, &t.fullness, &t.chin, &t.eye_tilt, &t.eye_open, &t.forehead, &t.lid_fold,
+                       &t.ear_out, &t.eye_depth, &t.mouth_curve, &t.chin_breadth})
     *form = r.normal_within(1.7);
   t.brow_ridge += 1.4 * (t.masculine - 0.5);
   t.lip_fullness -= 0.9 * (t.masculine - 0.5);
@@ -42,9 +42,17 @@ void draw_form(Random& r, HeadTraits& t) {
 
 void draw_looks(Random& r, HeadTraits& t) {
   static constexpr std::array<Vec3, 6> kSkin{Vec3{0.70, 0.47, 0.37}, {0.62, 0.40, 0.30}, {0.52, 0.31, 0.21},
-                                             {0.40, 0.22, 0.14}, {0.25, 0.13, 0.08}, {0.14, 0.07, 0.045}};
-  static constexpr std::array<Vec3, 5> kIris{Vec3{0.16, 0.25, 0.34}, {0.15, 0.21, 0.15}, {0.20, 0.12, 0.05}, {0.10, 0.05, 0.025}, {0.05, 0.025, 0.015}};
-  static constexpr std::array<Vec3, 5> kHair{Vec3{0.42, 0.29, 0.15}, {0.20, 0.115, 0.055}, {0.09, 0.05, 0.028}, {0.035, 0.022, 0.015}, {0.014, 0.011, 0.010}};
+                                             {0.40, 0.22, 0.14},     {0.25, 0.13, 0.08}, {0.14, 0.07, 0.045}};
+  static constexpr std::array<Vec3, 5> kIris{Vec3{0.16, 0.25, 0.34},
+                                             {0.15, 0.21, 0.15},
+                                             {0.20, 0.12, 0.05},
+                                             {0.10, 0.05, 0.025},
+                                             {0.05, 0.025, 0.015}};
+  static constexpr std::array<Vec3, 5> kHair{Vec3{0.42, 0.29, 0.15},
+                                             {0.20, 0.115, 0.055},
+                                             {0.09, 0.05, 0.028},
+                                             {0.035, 0.022, 0.015},
+                                             {0.014, 0.011, 0.010}};
   // Light skin goes with any eyes and hair, dark skin with dark ones.
   const double tone = std::pow(r.uniform(), 1.3) * 4.6;
   const auto between = [](const auto& table, double at) {
@@ -54,7 +62,8 @@ void draw_looks(Random& r, HeadTraits& t) {
   t.skin = between(kSkin, tone);
   t.iris = between(kIris, std::min(3.9, std::max(r.uniform(0, 3.9), tone * 1.5)));
   t.hair = between(kHair, std::min(3.9, std::max(r.uniform(0.2, 3.9), tone * 1.3)));
-  if (t.age > 0.6) t.hair = mix(t.hair, Vec3{0.45, 0.44, 0.43}, smoothstep(0.6, 1.0, t.age) * r.uniform(0.3, 1));
+  if (t.age > 0.6)
+    t.hair = mix(t.hair, Vec3{0.45, 0.44, 0.43}, smoothstep(0.6, 1.0, t.age) * r.uniform(0.3, 1));
   t.freckles = tone < 2 ? std::pow(r.uniform(), 2) : 0.15 * r.uniform();
   t.stubble = t.masculine > 0.55 ? r.uniform(0.2, 1) : 0;
   t.hairline_y = r.uniform(62, 76) + (t.masculine > 0.55 ? 9 * t.age : 0);

@@ -51,9 +51,11 @@ RayCaster::~RayCaster() = default;
 
 int RayCaster::add(const Mesh& mesh) {
   RTCGeometry g = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = new_buffer<std::array<float, 3>>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points.size());
+  auto* points =
+      new_buffer<std::array<float, 3>>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points.size());
   std::copy(mesh.points.begin(), mesh.points.end(), points);
-  auto* corners = new_buffer<std::array<std::uint32_t, 3>>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles.size());
+  auto* corners = new_buffer<std::array<std::uint32_t, 3>>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
+                                                           mesh.triangles.size());
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), corners);
   return attach(scene_->solid, g, kSolidMask);
 }
@@ -79,8 +81,10 @@ bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) 
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRayHit r{};
-  r.ray.org_x = static_cast<float>(o.x), r.ray.org_y = static_cast<float>(o.y), r.ray.org_z = static_cast<float>(o.z);
-  r.ray.dir_x = static_cast<float>(d.x), r.ray.dir_y = static_cast<float>(d.y), r.ray.dir_z = static_cast<float>(d.z);
+  r.ray.org_x = static_cast<float>(o.x), r.ray.org_y = static_cast<float>(o.y),
+  r.ray.org_z = static_cast<float>(o.z);
+  r.ray.dir_x = static_cast<float>(d.x), r.ray.dir_y = static_cast<float>(d.y),
+  r.ray.dir_z = static_cast<float>(d.z);
   r.ray.tnear = 0.01F, r.ray.tfar = far, r.ray.mask = ~0U;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene, &context, &r);
@@ -105,8 +109,10 @@ bool RayCaster::blocked(Vec3 origin, Vec3 direction, double far_mm) const {
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRay r{};
-  r.org_x = static_cast<float>(origin.x), r.org_y = static_cast<float>(origin.y), r.org_z = static_cast<float>(origin.z);
-  r.dir_x = static_cast<float>(direction.x), r.dir_y = static_cast<float>(direction.y), r.dir_z = static_cast<float>(direction.z);
+  r.org_x = static_cast<float>(origin.x), r.org_y = static_cast<float>(origin.y),
+  r.org_z = static_cast<float>(origin.z);
+  r.dir_x = static_cast<float>(direction.x), r.dir_y = static_cast<float>(direction.y),
+  r.dir_z = static_cast<float>(direction.z);
   r.tnear = 0.05F, r.tfar = static_cast<float>(far_mm), r.mask = ~0U;
   rtcOccluded1(scene_->solid, &context, &r);
   return r.tfar < 0;

@@ -8,7 +8,7 @@ namespace relievo::hal::sim {
 namespace {
 
 constexpr int kBands = 60;
-constexpr int kFineSide = 3;            // samples a side where bodies meet
+constexpr int kFineSide = 3;  // samples a side where bodies meet
 
 struct Cell {
   std::int32_t body = -1;
@@ -16,10 +16,13 @@ struct Cell {
   bool fine = false;
 };
 
-std::size_t index_of(int width, int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+std::size_t index_of(int width, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
 
 void store(LightPicture& out, std::size_t i, Vec3 light) {
-  out.rgb[3 * i] = static_cast<float>(light.x), out.rgb[3 * i + 1] = static_cast<float>(light.y), out.rgb[3 * i + 2] = static_cast<float>(light.z);
+  out.rgb[3 * i] = static_cast<float>(light.x), out.rgb[3 * i + 1] = static_cast<float>(light.y),
+              out.rgb[3 * i + 2] = static_cast<float>(light.z);
 }
 
 bool differs(const Cell& a, const Cell& b) {
@@ -30,7 +33,8 @@ Vec3 many_samples(const Scene& scene, const SimView& view, Vec3 eye, int x, int 
   Vec3 sum;
   for (int k = 0; k < kFineSide * kFineSide; ++k) {
     const std::uint32_t h = hash_cell(x, y, k, 3);
-    const double u = (k % kFineSide + unit_from_hash(h)) / kFineSide - 0.5, v = (k / kFineSide + unit_from_hash(h * 2654435761U)) / kFineSide - 0.5;
+    const double u = (k % kFineSide + unit_from_hash(h)) / kFineSide - 0.5,
+                 v = (k / kFineSide + unit_from_hash(h * 2654435761U)) / kFineSide - 0.5;
     sum += scene.look(eye, view.ray(x + u, y + v)).light;
   }
   return sum * (1.0 / (kFineSide * kFineSide));
@@ -42,7 +46,9 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
   const int reach = std::max(1, static_cast<int>(std::ceil(3 * deviation_px)));
   std::vector<float> weight(static_cast<std::size_t>(2 * reach + 1));
   float total = 0;
-  for (int i = -reach; i <= reach; ++i) total += weight[static_cast<std::size_t>(i + reach)] = static_cast<float>(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+  for (int i = -reach; i <= reach; ++i)
+    total += weight[static_cast<std::size_t>(i + reach)] =
+        static_cast<float>(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
   for (float& w : weight) w /= total;
   const int w = picture.width_px, h = picture.height_px;
   for (const bool across : {true, false}) {
@@ -53,7 +59,8 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
           for (std::size_t c = 0; c < 3; ++c) {
             float sum = 0;
             for (int k = -reach; k <= reach; ++k) {
-              const std::size_t from = across ? index_of(w, std::clamp(x + k, 0, w - 1), y) : index_of(w, x, std::clamp(y + k, 0, h - 1));
+              const std::size_t from = across ? index_of(w, std::clamp(x + k, 0, w - 1), y)
+                                              : index_of(w, x, std::clamp(y + k, 0, h - 1));
               sum += weight[static_cast<std::size_t>(k + reach)] * picture.rgb[3 * from + c];
             }
             out[3 * index_of(w, x, y) + c] = sum;
@@ -65,7 +72,9 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
 
 double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-std::uint8_t to_byte_by_power(double v) { return static_cast<std::uint8_t>(std::lround(255 * srgb(clamp01(v)))); }
+std::uint8_t to_byte_by_power(double v) {
+  return static_cast<std::uint8_t>(std::lround(255 * srgb(clamp01(v))));
+}
 
 // to_byte_by_power() without a power a value: the least light of every byte, found once by bisection.
 class GammaTable {
@@ -80,7 +89,8 @@ class GammaTable {
       }
       least_[byte] = reached;
     }
-    for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = to_byte_by_power(static_cast<double>(i) / kCells);
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      near_[i] = to_byte_by_power(static_cast<double>(i) / kCells);
   }
   std::uint8_t operator()(double v) const {
     if (v >= 1) return 255;
@@ -104,7 +114,8 @@ std::uint8_t to_byte(double v, bool gamma) {
 
 LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions& sensor, ThreadPool& pool) {
   LightPicture out{view.width_px, view.height_px, {}};
-  const std::size_t count = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
+  const std::size_t count =
+      static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
   out.rgb.resize(3 * count);
   std::vector<Cell> cells(count);
   const Vec3 eye = view.centre();
@@ -123,7 +134,8 @@ LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions
         const std::size_t i = index_of(view.width_px, x, y);
         bool edge = cells[i].fine;
         for (int k = 0; k < 4 && !edge; ++k) {
-          const int u = std::clamp(x + (k == 0) - (k == 1), 0, view.width_px - 1), v = std::clamp(y + (k == 2) - (k == 3), 0, view.height_px - 1);
+          const int u = std::clamp(x + (k == 0) - (k == 1), 0, view.width_px - 1),
+                    v = std::clamp(y + (k == 2) - (k == 3), 0, view.height_px - 1);
           edge = differs(cells[i], cells[index_of(view.width_px, u, v)]);
         }
         if (edge) store(out, i, many_samples(scene, view, eye, x, y));
@@ -147,13 +159,17 @@ Picture read_sensor(const LightPicture& light, const SensorOptions& s, std::uint
   const auto read = [&](double v) {
     const double electrons = std::max(v * s.exposure, 0.0) * s.full_well_electrons;
     const double deviation = s.noise * std::sqrt(electrons + s.read_noise_electrons * s.read_noise_electrons);
-    return to_byte((electrons + deviation * (s.noise > 0 ? random.normal() : 0)) / s.full_well_electrons, s.gamma);
+    return to_byte((electrons + deviation * (s.noise > 0 ? random.normal() : 0)) / s.full_well_electrons,
+                   s.gamma);
   };
   for (std::size_t i = 0; i < count; ++i) {
     if (s.grey) {
-      out.bytes[i] = std::byte{read(0.3 * static_cast<double>(light.rgb[3 * i]) + 0.59 * static_cast<double>(light.rgb[3 * i + 1]) + 0.11 * static_cast<double>(light.rgb[3 * i + 2]))};
+      out.bytes[i] = std::byte{read(0.3 * static_cast<double>(light.rgb[3 * i]) +
+                                    0.59 * static_cast<double>(light.rgb[3 * i + 1]) +
+                                    0.11 * static_cast<double>(light.rgb[3 * i + 2]))};
     } else {
-      for (std::size_t c = 0; c < 3; ++c) out.bytes[3 * i + c] = std::byte{read(static_cast<double>(light.rgb[3 * i + c]))};
+      for (std::size_t c = 0; c < 3; ++c)
+        out.bytes[3 * i + c] = std::byte{read(static_cast<double>(light.rgb[3 * i + c]))};
     }
   }
   return out;

@@ -16,7 +16,7 @@
 
 namespace relievo::hal::sim {
 
-struct LightPicture {                 // linear, 3 floats a pixel
+struct LightPicture {  // linear, 3 floats a pixel
   int width_px = 0, height_px = 0;
   std::vector<float> rgb;
 };
@@ -25,9 +25,9 @@ struct SensorOptions {
   double exposure = 1.0;
   double full_well_electrons = 9000;  // at white
   double read_noise_electrons = 9;
-  double noise = 1;                   // scales both; 0: none
-  double defocus_px = 0.55;           // deviation of the blur
-  bool gamma = true;                  // sRGB's curve; false: linear
+  double noise = 1;          // scales both; 0: none
+  double defocus_px = 0.55;  // deviation of the blur
+  bool gamma = true;         // sRGB's curve; false: linear
   bool grey = false;
 };
 

@@ -13,13 +13,15 @@ namespace {
 
 constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10;
 constexpr int kBands = 60;
-constexpr int kSamples = 32;            // of a pixel that sees an edge, spread over its area and the exposure
+constexpr int kSamples = 32;  // of a pixel that sees an edge, spread over its area and the exposure
 constexpr double kGolden = 0.6180339887498949, kPlastic = 0.7548776662466927;
 constexpr int kTones = 4096;
 constexpr std::size_t kNormals = 1U << 14U;
-constexpr std::int64_t kNothing = -2;   // beside the paper
+constexpr std::int64_t kNothing = -2;  // beside the paper
 
-std::size_t index_of(int width, int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+std::size_t index_of(int width, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
 
 // From a camera's plane z = 1 to the board: the inverse of [first axis, second axis, origin].
 struct ToBoard {
@@ -42,7 +44,8 @@ struct ToBoard {
 
 BoardPose between(const BoardPose& a, const BoardPose& b, double t) {
   BoardPose pose;
-  for (std::size_t i = 0; i < 3; ++i) pose.world_from_board.row[i] = mix(a.world_from_board.row[i], b.world_from_board.row[i], t);
+  for (std::size_t i = 0; i < 3; ++i)
+    pose.world_from_board.row[i] = mix(a.world_from_board.row[i], b.world_from_board.row[i], t);
   pose.origin_mm = mix(a.origin_mm, b.origin_mm, t);
   return pose;
 }
@@ -54,8 +57,9 @@ void blur_row(const float* from, float* to, int count, std::size_t stride, std::
   for (int i = 0; i < count; ++i) {
     float sum = weight[0] * from[static_cast<std::size_t>(i) * stride];
     for (int k = 1; k <= reach; ++k)
-      sum += weight[static_cast<std::size_t>(k)] * (from[static_cast<std::size_t>(std::max(i - k, 0)) * stride] +
-                                                    from[static_cast<std::size_t>(std::min(i + k, count - 1)) * stride]);
+      sum += weight[static_cast<std::size_t>(k)] *
+             (from[static_cast<std::size_t>(std::max(i - k, 0)) * stride] +
+              from[static_cast<std::size_t>(std::min(i + k, count - 1)) * stride]);
     to[static_cast<std::size_t>(i) * stride] = sum;
   }
 }
@@ -65,7 +69,8 @@ std::vector<float> bell(double deviation_px) {
   std::vector<float> weight;
   double total = 0;
   for (int k = 0; k <= reach; ++k) {
-    weight.push_back(static_cast<float>(deviation_px < 0.05 ? (k == 0 ? 1 : 0) : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
+    weight.push_back(static_cast<float>(
+        deviation_px < 0.05 ? (k == 0 ? 1 : 0) : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
     total += (k == 0 ? 1 : 2) * static_cast<double>(weight.back());
   }
   for (float& w : weight) w = static_cast<float>(static_cast<double>(w) / total);
@@ -79,9 +84,11 @@ class HeldBoard::Shot {
  public:
   Shot(const HeldBoard& board, const Eye& eye, const BoardPose& opened, const BoardPose& closed)
       : board_(board), eye_(eye), first_(eye.view, opened), last_(eye.view, closed) {
-    for (int k = 0; k < kSamples; ++k) at_.emplace_back(eye.view, between(opened, closed, (k + 0.5) / kSamples));
+    for (int k = 0; k < kSamples; ++k)
+      at_.emplace_back(eye.view, between(opened, closed, (k + 0.5) / kSamples));
     const BoardPose middle = between(opened, closed, 0.5);
-    const Vec3 normal{middle.world_from_board.row[0].z, middle.world_from_board.row[1].z, middle.world_from_board.row[2].z};
+    const Vec3 normal{middle.world_from_board.row[0].z, middle.world_from_board.row[1].z,
+                      middle.world_from_board.row[2].z};
     lit_ = 0.55 + 0.45 * std::abs(dot(normal, normalised(middle.origin_mm - Vec3{-200, -200, 0})));
     frame(opened);
     frame(closed);
@@ -99,7 +106,8 @@ class HeldBoard::Shot {
     const Spot middle = spot(at_[kSamples / 2], u, v);
     bool even = true;
     for (int k = 0; k < 8 && even; ++k)
-      even = spot(k < 4 ? first_ : last_, u + (k % 2 == 0 ? -du : du), v + (k % 4 < 2 ? -dv : dv)).cell == middle.cell;
+      even = spot(k < 4 ? first_ : last_, u + (k % 2 == 0 ? -du : du), v + (k % 4 < 2 ? -dv : dv)).cell ==
+             middle.cell;
     if (even) return middle.light;
     float sum = 0;
     // A lattice over area and time, with its mirror image: it pulls no edge to any side.
@@ -121,7 +129,8 @@ class HeldBoard::Shot {
     const Vec3 p = to_board(u, v);
     const BoardPattern& b = board_.pattern_;
     const double low = -b.square_mm - b.margin_mm;
-    if (!(p.x > low && p.y > low && p.x < b.corners_x * b.square_mm + b.margin_mm && p.y < b.corners_y * b.square_mm + b.margin_mm))
+    if (!(p.x > low && p.y > low && p.x < b.corners_x * b.square_mm + b.margin_mm &&
+          p.y < b.corners_y * b.square_mm + b.margin_mm))
       return {kNothing, static_cast<float>(kRoom)};
     const BoardPrint::Spot printed = board_.print_.at(p.x, p.y);
     return {printed.cell, static_cast<float>((printed.dark ? kBlack : kWhite) * lit_)};
@@ -146,14 +155,17 @@ class HeldBoard::Shot {
 };
 
 BoardPose HeldPlace::pose(const BoardPattern& pattern) const {
-  const Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm, 0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
+  const Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm,
+                    0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
   BoardPose pose;
-  pose.world_from_board = rotation(0, -radians(yaw_deg), 0) * (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
+  pose.world_from_board = rotation(0, -radians(yaw_deg), 0) *
+                          (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
   pose.origin_mm = Vec3{right_mm, down_mm, distance_mm} - pose.world_from_board * middle;
   return pose;
 }
 
-HeldBoard::HeldBoard(const RigOptions& rig, const BoardPattern& pattern, const SensorOptions& sensor, int threads)
+HeldBoard::HeldBoard(const RigOptions& rig, const BoardPattern& pattern, const SensorOptions& sensor,
+                     int threads)
     : rig_(make_rig(rig)), pattern_(pattern), print_(pattern), sensor_(sensor), pool_(threads) {
   prepare(rig_.left, left_);
   prepare(rig_.right, right_);
@@ -180,7 +192,8 @@ void HeldBoard::prepare(const SimView& view, Eye& eye) {
   });
 }
 
-Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed, std::uint64_t noise_seed) {
+Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed,
+                              std::uint64_t noise_seed) {
   const int width = eye.view.width_px, height = eye.view.height_px;
   std::vector<float> light(eye.plane_x.size(), static_cast<float>(kRoom));
   const Shot shot(*this, eye, opened, closed);
@@ -191,11 +204,13 @@ Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const Boa
   const std::vector<float> weight = bell(sensor_.defocus_px);
   std::vector<float> across(light.size());
   pool_.for_each_band(height, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) blur_row(&light[index_of(width, 0, y)], &across[index_of(width, 0, y)], width, 1, weight);
+    for (int y = begin; y < end; ++y)
+      blur_row(&light[index_of(width, 0, y)], &across[index_of(width, 0, y)], width, 1, weight);
   });
   pool_.for_each_band(width, kBands, [&](int begin, int end, int) {
     for (int x = begin; x < end; ++x)
-      blur_row(&across[static_cast<std::size_t>(x)], &light[static_cast<std::size_t>(x)], height, static_cast<std::size_t>(width), weight);
+      blur_row(&across[static_cast<std::size_t>(x)], &light[static_cast<std::size_t>(x)], height,
+               static_cast<std::size_t>(width), weight);
   });
   return develop(light, eye, noise_seed);
 }
@@ -215,15 +230,18 @@ Picture HeldBoard::develop(const std::vector<float>& light, const Eye& eye, std:
       Random random(Random(noise_seed * 65536 + static_cast<std::uint64_t>(y)).next());
       for (std::size_t i = index_of(out.width_px, 0, y); i < index_of(out.width_px, 0, y + 1); ++i) {
         const float electrons = light[i] * exposure * well;
-        const float level = (electrons + noise * std::sqrt(electrons + read) * normal_[random.next() % kNormals]) / well;
-        out.bytes[i] = std::byte{tone_[static_cast<std::size_t>(std::clamp(static_cast<int>(level * kTones), 0, kTones - 1))]};
+        const float level =
+            (electrons + noise * std::sqrt(electrons + read) * normal_[random.next() % kNormals]) / well;
+        out.bytes[i] = std::byte{
+            tone_[static_cast<std::size_t>(std::clamp(static_cast<int>(level * kTones), 0, kTones - 1))]};
       }
     }
   });
   return out;
 }
 
-PicturePair HeldBoard::photograph(const BoardPose& opened, const BoardPose& closed, std::uint64_t noise_seed) {
+PicturePair HeldBoard::photograph(const BoardPose& opened, const BoardPose& closed,
+                                  std::uint64_t noise_seed) {
   Picture left = photograph(left_, opened, closed, 2 * noise_seed);
   return {std::move(left), photograph(right_, opened, closed, 2 * noise_seed + 1)};
 }

@@ -18,8 +18,8 @@
 
 namespace relievo::hal::sim {
 
-// The board's middle in the world, mm. Turned by roll about the line of sight (clockwise in the picture), then by pitch (upper
-// edge nearer), then by yaw (left edge nearer).
+// The board's middle in the world, mm. Turned by roll about the line of sight (clockwise in the picture),
+// then by pitch (upper edge nearer), then by yaw (left edge nearer).
 struct HeldPlace {
   double right_mm = 0, down_mm = 0, distance_mm = 560;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
@@ -43,7 +43,8 @@ class HeldBoard {
   };
   class Shot;
   void prepare(const SimView& view, Eye& eye);
-  Picture photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed, std::uint64_t noise_seed);
+  Picture photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed,
+                     std::uint64_t noise_seed);
   Picture develop(const std::vector<float>& light, const Eye& eye, std::uint64_t noise_seed);
 
   SimRig rig_;
@@ -52,8 +53,8 @@ class HeldBoard {
   SensorOptions sensor_;
   ThreadPool pool_;
   Eye left_, right_;
-  std::vector<std::uint8_t> tone_;   // of light in 4096 steps
-  std::vector<float> normal_;        // noise of deviation 1, drawn from by hash
+  std::vector<std::uint8_t> tone_;  // of light in 4096 steps
+  std::vector<float> normal_;       // noise of deviation 1, drawn from by hash
 };
 
 }  // namespace relievo::hal::sim

@@ -18,12 +18,14 @@ Panel panel_at(Vec3 centre, double half, double power) {
 
 Result<void> HeadLighting::check() const {
   for (const double power : {left, right, below})
-    if (!(power >= 0) || !(power <= 10)) return Error{Errc::InvalidInput, "a lamp is 0 to 10 times as bright as usual"};
+    if (!(power >= 0) || !(power <= 10))
+      return Error{Errc::InvalidInput, "a lamp is 0 to 10 times as bright as usual"};
   return {};
 }
 
 std::array<Panel, kPanels> lamp_panels(const HeadLighting& lighting) {
-  return {panel_at({-330, -190, 40}, 130, 0.80 * lighting.left), panel_at({470, -200, 60}, 130, 0.42 * lighting.right),
+  return {panel_at({-330, -190, 40}, 130, 0.80 * lighting.left),
+          panel_at({470, -200, 60}, 130, 0.42 * lighting.right),
           panel_at({80, 420, 60}, 120, 0.10 * lighting.below)};
 }
 

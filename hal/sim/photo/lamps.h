@@ -14,16 +14,16 @@
 namespace relievo::hal::sim {
 
 struct Panel {
-  Vec3 centre, half_x, half_y;        // a rectangle
-  double power = 0;                   // on white that faces it from kPanelReferenceMm away
+  Vec3 centre, half_x, half_y;  // a rectangle
+  double power = 0;             // on white that faces it from kPanelReferenceMm away
 };
 
 constexpr std::size_t kPanels = 3;
 constexpr double kPanelReferenceMm = 640;
 
-struct HeadLighting {                 // shares of the kiosk's own powers
+struct HeadLighting {                     // shares of the kiosk's own powers
   double left = 1, right = 1, below = 1;  // as the cameras see it
-  Result<void> check() const;         // InvalidInput
+  Result<void> check() const;             // InvalidInput
 };
 
 std::array<Panel, kPanels> lamp_panels(const HeadLighting& lighting);

@@ -16,7 +16,7 @@
 
 namespace relievo::hal::sim {
 
-struct Mesh {                                       // millimetres
+struct Mesh {  // millimetres
   std::vector<std::array<float, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
@@ -27,14 +27,14 @@ struct Strands {
     float x, y, z, radius_mm;
   };
   std::vector<Node> nodes;
-  std::vector<std::uint32_t> pieces;                // index of the first node of every straight piece
+  std::vector<std::uint32_t> pieces;  // index of the first node of every straight piece
 };
 
 struct Hit {
   double distance_mm = 0;
-  int body = -1;                                    // what add() returned
+  int body = -1;  // what add() returned
   std::uint32_t primitive = 0;
-  double u = 0, v = 0;                              // barycentric, of the second and third corner
+  double u = 0, v = 0;  // barycentric, of the second and third corner
 };
 
 class RayCaster {
@@ -52,7 +52,7 @@ class RayCaster {
 
   enum class Against : std::uint8_t { Everything, SolidOnly };
   bool cast(Vec3 origin, Vec3 direction, Hit& hit, Against against = Against::Everything) const;
-  bool blocked(Vec3 origin, Vec3 direction, double far_mm) const;   // by solid bodies
+  bool blocked(Vec3 origin, Vec3 direction, double far_mm) const;  // by solid bodies
 
  private:
   struct Scene;

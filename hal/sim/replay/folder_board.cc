@@ -3,8 +3,8 @@
 #include <charconv>
 #include <optional>
 
-#include "hal/sim/board.h"
 #include "hal/recording/capture_file.h"
+#include "hal/sim/board.h"
 #include "hal/sim/replay/picture_pairs.h"
 #include "hal/sim/replay/replay_board.h"
 
@@ -13,7 +13,8 @@ namespace {
 
 class FolderSource final : public PairSource {
  public:
-  FolderSource(std::vector<PicturePairFiles> pairs, CaptureFile capture) : pairs_(std::move(pairs)), capture_(std::move(capture)) {}
+  FolderSource(std::vector<PicturePairFiles> pairs, CaptureFile capture)
+      : pairs_(std::move(pairs)), capture_(std::move(capture)) {}
 
   Result<Exposure> expose(Side side, std::uint32_t number) override {
     const PicturePairFiles& pair = pairs_[(number - 1) % pairs_.size()];
@@ -29,7 +30,8 @@ class FolderSource final : public PairSource {
     std::from_chars(digits, pair.rest.c_str() + pair.rest.size(), number);
     for (const CaptureRecord& r : capture_.frames)
       if (r.number == number)
-        return std::chrono::nanoseconds((side == Side::Left ? r.left_ns : r.right_ns) - std::min(r.left_ns, r.right_ns));
+        return std::chrono::nanoseconds((side == Side::Left ? r.left_ns : r.right_ns) -
+                                        std::min(r.left_ns, r.right_ns));
     return std::chrono::nanoseconds(0);
   }
 
@@ -51,7 +53,8 @@ Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& fo
   RELIEVO_TRY_ASSIGN(const Picture left, read_picture(pairs.front().left));
   RELIEVO_TRY_ASSIGN(const Picture right, read_picture(pairs.front().right));
   if (left.width_px != right.width_px || left.height_px != right.height_px)
-    return Error{Errc::InvalidInput, "the left and right pictures differ in size"}.at(pairs.front().right.native());
+    return Error{Errc::InvalidInput, "the left and right pictures differ in size"}.at(
+        pairs.front().right.native());
   const auto exposure = capture.frames.empty() ? 0 : capture.frames.front().exposure_us;
   const CaptureMode mode{left.width_px, left.height_px, std::chrono::microseconds(exposure)};
   return std::unique_ptr<Board>(std::make_unique<ReplayBoard>(

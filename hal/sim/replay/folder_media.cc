@@ -38,7 +38,9 @@ Result<void> FolderMedia::flush_and_eject() {
   if (folder < 0) return Error{Errc::MediaMissing, "the stick is gone", errno}.at(root_->native());
   const int failed = ::syncfs(folder) == 0 ? 0 : errno;
   ::close(folder);
-  if (failed != 0) return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", failed}.at(root_->native());
+  if (failed != 0)
+    return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", failed}.at(
+        root_->native());
   ejected_ = std::exchange(root_, std::nullopt);
   return {};
 }
@@ -46,7 +48,8 @@ Result<void> FolderMedia::flush_and_eject() {
 Result<void> FolderMedia::take_up_again() {
   const std::lock_guard lock(mutex_);
   std::error_code error;
-  if (!ejected_ || !std::filesystem::is_directory(*ejected_, error)) return Error{Errc::MediaMissing, "the stick is gone"};
+  if (!ejected_ || !std::filesystem::is_directory(*ejected_, error))
+    return Error{Errc::MediaMissing, "the stick is gone"};
   root_ = std::exchange(ejected_, std::nullopt);
   return {};
 }

@@ -19,9 +19,9 @@ class FolderMedia final : public RemovableMedia {
   void plug(std::filesystem::path root);
   void unplug();
 
-  std::optional<Medium> current() override;   // nothing when unplugged or the folder is gone
-  Result<void> flush_and_eject() override;    // MediaMissing, IoFailed
-  Result<void> take_up_again() override;      // MediaMissing
+  std::optional<Medium> current() override;  // nothing when unplugged or the folder is gone
+  Result<void> flush_and_eject() override;   // MediaMissing, IoFailed
+  Result<void> take_up_again() override;     // MediaMissing
 
  private:
   std::mutex mutex_;

@@ -16,7 +16,7 @@ namespace relievo::hal {
 
 struct PicturePairFiles {
   std::filesystem::path left, right;
-  std::string rest;                   // between "left" and the extension: "_000001"
+  std::string rest;  // between "left" and the extension: "_000001"
 };
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder);

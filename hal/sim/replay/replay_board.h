@@ -19,7 +19,8 @@ namespace relievo::hal {
 class ReplayBoard final : public Board {
  public:
   // together: the pairs were exposed by one trigger.
-  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode, bool together)
+  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode,
+              bool together)
       : name_(name), source_(std::move(source)), mode_(mode), together_(together) {}
 
   std::string_view name() const override { return name_; }

@@ -11,14 +11,15 @@ Result<void> ReplayCamera::do_open(const CaptureMode& mode) {
 }
 
 Result<void> ReplayCamera::do_start() {
-  seen_ = trigger_.count();           // pulses before the start exposed nothing
+  seen_ = trigger_.count();  // pulses before the start exposed nothing
   return {};
 }
 
 Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   int slot = 0;
   while (slot < kBuffers && buffers_[static_cast<std::size_t>(slot)].lent) ++slot;
-  if (slot == kBuffers) return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
+  if (slot == kBuffers)
+    return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
   RELIEVO_TRY_ASSIGN(const SilentTrigger::Pulse pulse, trigger_.wait_after(seen_, deadline));
   seen_ = pulse.number;
   RELIEVO_TRY_ASSIGN(PairSource::Exposure exposure, source_.expose(side_, pulse.number));
@@ -27,7 +28,8 @@ Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   Buffer& buffer = buffers_[static_cast<std::size_t>(slot)];
   buffer.picture = std::move(exposure.picture);
   buffer.lent = true;
-  return Frame(raw_of(buffer.picture.view()), {pulse.at + exposure.late, pulse.number}, &ReplayCamera::give_back, this, slot);
+  return Frame(raw_of(buffer.picture.view()), {pulse.at + exposure.late, pulse.number},
+               &ReplayCamera::give_back, this, slot);
 }
 
 void ReplayCamera::give_back(void* owner, int slot) {

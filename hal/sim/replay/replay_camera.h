@@ -21,7 +21,7 @@ class PairSource {
   enum class Side : std::uint8_t { Left, Right };
   struct Exposure {
     Picture picture;
-    std::chrono::nanoseconds late{0};        // exposed this long after the pulse
+    std::chrono::nanoseconds late{0};  // exposed this long after the pulse
   };
   virtual ~PairSource() = default;
   virtual Result<Exposure> expose(Side side, std::uint32_t number) = 0;
@@ -29,14 +29,15 @@ class PairSource {
 
 class ReplayCamera : public Camera {
  public:
-  ReplayCamera(PairSource& source, PairSource::Side side, SilentTrigger& trigger, const CaptureMode& only_mode)
+  ReplayCamera(PairSource& source, PairSource::Side side, SilentTrigger& trigger,
+               const CaptureMode& only_mode)
       : source_(source), side_(side), trigger_(trigger), only_mode_(only_mode) {}
 
  private:
   static constexpr int kBuffers = 3;
-  Result<void> do_open(const CaptureMode& mode) override;          // Unsupported: another size
+  Result<void> do_open(const CaptureMode& mode) override;  // Unsupported: another size
   Result<void> do_start() override;
-  Result<Frame> do_next_frame(Instant deadline) override;          // Timeout, what the source says
+  Result<Frame> do_next_frame(Instant deadline) override;  // Timeout, what the source says
   void do_stop() override {}
   static void give_back(void* owner, int slot);
 

@@ -19,7 +19,7 @@ class SilentTrigger final : public TriggerLine {
   explicit SilentTrigger(const Clock& clock) : TriggerLine(clock), clock_(clock) {}
 
   struct Pulse {
-    std::uint32_t number = 0;        // counts from 1
+    std::uint32_t number = 0;  // counts from 1
     Instant at;
   };
   // The newest pulse after number `after`; waits for one until the deadline. Nothing: Timeout.

@@ -6,7 +6,8 @@
 
 namespace relievo::hal::sim {
 
-Result<void> photograph_sheet(const Picture& picture, const SheetPhotoOptions& options, const std::filesystem::path& folder) {
+Result<void> photograph_sheet(const Picture& picture, const SheetPhotoOptions& options,
+                              const std::filesystem::path& folder) {
   RELIEVO_TRY(options.rig.check());
   RELIEVO_TRY_ASSIGN(const auto scene, make_sheet_scene(picture, options.sheet));
   std::error_code failed;

@@ -22,6 +22,7 @@ struct SheetPhotoOptions {
 };
 
 // left.png right.png rig.yml. Makes the folder. Errors: InvalidInput, IoFailed, MediaFull.
-Result<void> photograph_sheet(const Picture& picture, const SheetPhotoOptions& options, const std::filesystem::path& folder);
+Result<void> photograph_sheet(const Picture& picture, const SheetPhotoOptions& options,
+                              const std::filesystem::path& folder);
 
 }  // namespace relievo::hal::sim

@@ -9,7 +9,7 @@ namespace relievo::hal::sim {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kScreenBlack = 0.004;   // light that a screen lets through where it shows black
+constexpr double kScreenBlack = 0.004;  // light that a screen lets through where it shows black
 
 double linear(std::byte level) {
   const double v = std::to_integer<int>(level) / 255.0;
@@ -23,19 +23,24 @@ class Print {
     const std::size_t channels = picture.format == PixelFormat::Grey8 ? 1 : 3;
     const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t c = 0; c < 3; ++c) light_.push_back(static_cast<float>(linear(picture.bytes[channels * i + (channels == 1 ? 0 : c)])));
+      for (std::size_t c = 0; c < 3; ++c)
+        light_.push_back(static_cast<float>(linear(picture.bytes[channels * i + (channels == 1 ? 0 : c)])));
   }
   double aspect() const { return static_cast<double>(height_) / width_; }
-  Vec3 at(double across, double down) const {   // 0 .. 1 over the picture
-    const double x = std::clamp(across * width_ - 0.5, 0.0, width_ - 1.0), y = std::clamp(down * height_ - 0.5, 0.0, height_ - 1.0);
+  Vec3 at(double across, double down) const {  // 0 .. 1 over the picture
+    const double x = std::clamp(across * width_ - 0.5, 0.0, width_ - 1.0),
+                 y = std::clamp(down * height_ - 0.5, 0.0, height_ - 1.0);
     const int i = std::min(static_cast<int>(x), width_ - 2), j = std::min(static_cast<int>(y), height_ - 2);
-    return mix(mix(pixel(i, j), pixel(i + 1, j), x - i), mix(pixel(i, j + 1), pixel(i + 1, j + 1), x - i), y - j);
+    return mix(mix(pixel(i, j), pixel(i + 1, j), x - i), mix(pixel(i, j + 1), pixel(i + 1, j + 1), x - i),
+               y - j);
   }
 
  private:
   Vec3 pixel(int x, int y) const {
-    const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
-    return {static_cast<double>(light_[i]), static_cast<double>(light_[i + 1]), static_cast<double>(light_[i + 2])};
+    const std::size_t i =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+    return {static_cast<double>(light_[i]), static_cast<double>(light_[i + 1]),
+            static_cast<double>(light_[i + 2])};
   }
   int width_, height_;
   std::vector<float> light_;
@@ -44,11 +49,17 @@ class Print {
 class SheetScene final : public Scene {
  public:
   SheetScene(const Picture& picture, const SheetOptions& o)
-      : print_(picture), o_(o), size_{o.width_mm, o.width_mm * print_.aspect()}, sheet_(make_sheet(size_, o.bend)), panels_(lamp_panels(o.lamps)) {
+      : print_(picture),
+        o_(o),
+        size_{o.width_mm, o.width_mm * print_.aspect()},
+        sheet_(make_sheet(size_, o.bend)),
+        panels_(lamp_panels(o.lamps)) {
     const Mat3 turn = rotation(radians(o.pose.pitch_deg), radians(-o.pose.yaw_deg), radians(o.pose.roll_deg));
     const Vec3 middle{o.pose.right_mm, o.pose.down_mm, o.pose.distance_mm};
     for (auto& p : sheet_.mesh.points) {
-      const Vec3 q = turn * Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} + middle;
+      const Vec3 q =
+          turn * Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} +
+          middle;
       p = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
     }
     smooth_normals();
@@ -74,7 +85,9 @@ class SheetScene final : public Scene {
     out.skin = true;
     return true;
   }
-  bool blocked(Vec3 from, Vec3 direction, double far_mm) const override { return caster_.blocked(from, direction, far_mm); }
+  bool blocked(Vec3 from, Vec3 direction, double far_mm) const override {
+    return caster_.blocked(from, direction, far_mm);
+  }
   Mesh solid_mesh() const override { return sheet_.mesh; }
 
  private:
@@ -105,25 +118,31 @@ class SheetScene final : public Scene {
 
   Vec3 light(const Hit& hit, Vec3 at, Vec3 normal, Vec3 direction, bool back) const {
     const SheetLook& look = o_.look;
-    double lit = 0.09 + 0.03 * dot(normal, Vec3{0, -1, 0});    // the room
+    double lit = 0.09 + 0.03 * dot(normal, Vec3{0, -1, 0});  // the room
     double mirrored = 0;
     const Vec3 reflected = direction - normal * (2 * dot(direction, normal));
     // Schlick's formula: any film mirrors more of what grazes it.
-    const double bounce = look.gloss > 0 ? look.gloss + (1 - look.gloss) * std::pow(1 - std::min(1.0, -dot(direction, normal)), 5) : 0;
+    const double bounce =
+        look.gloss > 0
+            ? look.gloss + (1 - look.gloss) * std::pow(1 - std::min(1.0, -dot(direction, normal)), 5)
+            : 0;
     for (const Panel& panel : panels_) {
       const Vec3 to = panel.centre - at;
       const double d = length(to), facing = dot(normal, to) / d, nearer = kPanelReferenceMm / d;
-      if (facing <= 0 || (o_.bend.radius_mm != 0 && caster_.blocked(at + normal * 0.2, to * (1 / d), d))) continue;
+      if (facing <= 0 || (o_.bend.radius_mm != 0 && caster_.blocked(at + normal * 0.2, to * (1 / d), d)))
+        continue;
       lit += panel.power * facing * nearer * nearer;
       if (bounce > 0) mirrored += bounce * mirror(panel, at, reflected);
     }
     const Vec3 ink = back ? Vec3{0.8, 0.8, 0.8} : colour(hit);
-    const Vec3 own = look.screen && !back ? ink * look.brightness + Vec3{kScreenBlack, kScreenBlack, kScreenBlack} : ink * (look.brightness * lit);
+    const Vec3 own = look.screen && !back
+                         ? ink * look.brightness + Vec3{kScreenBlack, kScreenBlack, kScreenBlack}
+                         : ink * (look.brightness * lit);
     return own + Vec3{mirrored, mirrored, mirrored};
   }
 
-  // Radiance of the panel in this direction: its power spread over the solid angle it is seen under from where
-  // the power is stated, its rim as soft as the mirror is rough.
+  // Radiance of the panel in this direction: its power spread over the solid angle it is seen under from
+  // where the power is stated, its rim as soft as the mirror is rough.
   double mirror(const Panel& panel, Vec3 at, Vec3 reflected) const {
     const Vec3 n = cross(panel.half_x, panel.half_y);
     const double towards = dot(reflected, n);
@@ -132,7 +151,8 @@ class SheetScene final : public Scene {
     if (along <= 0) return 0;
     const Vec3 from = at + reflected * along - panel.centre;
     const auto inside = [&](Vec3 half) {
-      const double reach = length(half), place = std::abs(dot(from, half)) / reach, rim = std::max(1.0, 2 * o_.look.roughness * along);
+      const double reach = length(half), place = std::abs(dot(from, half)) / reach,
+                   rim = std::max(1.0, 2 * o_.look.roughness * along);
       return 1 - smoothstep(reach - rim, reach + rim, place);
     };
     const double solid_angle = 4 * length(n) / (kPanelReferenceMm * kPanelReferenceMm);
@@ -151,14 +171,16 @@ class SheetScene final : public Scene {
 }  // namespace
 
 Result<void> SheetLook::check() const {
-  if (!(brightness > 0) || !(brightness <= 2)) return Error{Errc::InvalidInput, "a sheet's white is 0 to 2 times a white surface's light"};
+  if (!(brightness > 0) || !(brightness <= 2))
+    return Error{Errc::InvalidInput, "a sheet's white is 0 to 2 times a white surface's light"};
   if (!(gloss >= 0) || !(gloss <= 1)) return Error{Errc::InvalidInput, "gloss is a share from 0 to 1"};
   if (!(roughness >= 0) || !(roughness <= 1)) return Error{Errc::InvalidInput, "roughness is 0 to 1 radians"};
   return {};
 }
 
 Result<void> SheetOptions::check() const {
-  if (!(width_mm >= 20) || !(width_mm <= 2000)) return Error{Errc::InvalidInput, "a picture is held 20 to 2000 mm wide"};
+  if (!(width_mm >= 20) || !(width_mm <= 2000))
+    return Error{Errc::InvalidInput, "a picture is held 20 to 2000 mm wide"};
   RELIEVO_TRY(bend.check());
   RELIEVO_TRY(look.check());
   return lamps.check();
@@ -166,8 +188,10 @@ Result<void> SheetOptions::check() const {
 
 Result<std::unique_ptr<Scene>> make_sheet_scene(const Picture& picture, const SheetOptions& options) {
   RELIEVO_TRY(options.check());
-  if (picture.format == PixelFormat::Grey16) return Error{Errc::InvalidInput, "a picture to be held up has 8 bits: grey or colour"};
-  if (picture.width_px < 2 || picture.height_px < 2) return Error{Errc::InvalidInput, "a picture to be held up has at least 2 by 2 pixels"};
+  if (picture.format == PixelFormat::Grey16)
+    return Error{Errc::InvalidInput, "a picture to be held up has 8 bits: grey or colour"};
+  if (picture.width_px < 2 || picture.height_px < 2)
+    return Error{Errc::InvalidInput, "a picture to be held up has at least 2 by 2 pixels"};
   return std::unique_ptr<Scene>(std::make_unique<SheetScene>(picture, options));
 }
 

@@ -17,20 +17,20 @@
 namespace relievo::hal::sim {
 
 struct SheetLook {
-  bool screen = false;          // shines by itself, and the room's light does not show on its black
-  double brightness = 0.7;      // of white: a screen's light, or the share of light that paper gives back
-  double gloss = 0;             // share of the lamps' light that is mirrored: 0 matt, 0.04 a film or glass
-  double roughness = 0.05;      // of that mirror, radians: 0.02 glass, 0.15 satin paper
-  Result<void> check() const;   // InvalidInput
+  bool screen = false;         // shines by itself, and the room's light does not show on its black
+  double brightness = 0.7;     // of white: a screen's light, or the share of light that paper gives back
+  double gloss = 0;            // share of the lamps' light that is mirrored: 0 matt, 0.04 a film or glass
+  double roughness = 0.05;     // of that mirror, radians: 0.02 glass, 0.15 satin paper
+  Result<void> check() const;  // InvalidInput
 };
 
 struct SheetOptions {
-  double width_mm = 270;        // of the picture as it is held; its height follows
+  double width_mm = 270;  // of the picture as it is held; its height follows
   SheetBend bend;
   SheetLook look;
-  HeadPose pose;                // turned as a head that looks at the cameras; its middle where a face's would be
+  HeadPose pose;  // turned as a head that looks at the cameras; its middle where a face's would be
   HeadLighting lamps;
-  Result<void> check() const;   // InvalidInput
+  Result<void> check() const;  // InvalidInput
 };
 
 // `picture` is 8 bit, as a camera or printer has it (sRGB). Errors: InvalidInput.

@@ -8,7 +8,7 @@ namespace relievo::hal::sim {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStepMm = 1.5;         // on a radius of 30 mm an arc leaves its chord by 0.0094 mm
+constexpr double kStepMm = 1.5;  // on a radius of 30 mm an arc leaves its chord by 0.0094 mm
 constexpr double kLeastRadiusMm = 30;
 
 struct Arc {
@@ -16,7 +16,9 @@ struct Arc {
 };
 
 // The profile of constant curvature, s along it.
-Arc arc(double s, double radius) { return {radius * std::sin(s / radius), radius * (1 - std::cos(s / radius))}; }
+Arc arc(double s, double radius) {
+  return {radius * std::sin(s / radius), radius * (1 - std::cos(s / radius))};
+}
 
 // Curvature cos(2 pi s / wave) / radius: its direction is known, its place is summed up (Simpson's rule).
 Arc wave(double s, double radius, double length) {
@@ -34,12 +36,14 @@ Arc wave(double s, double radius, double length) {
 
 // Unrolled, a cone is a sector round its apex; the line through the middle stays where it is.
 Vec3 cone(double s, double t, double radius, double apex) {
-  const double half_angle = std::atan(std::abs(radius / apex)), sine = std::sin(half_angle), cosine = std::cos(half_angle);
+  const double half_angle = std::atan(std::abs(radius / apex)), sine = std::sin(half_angle),
+               cosine = std::cos(half_angle);
   const double along = apex > 0 ? 1 : -1;
   const double slant = std::hypot(s, along * t + std::abs(apex));
   const double turn = std::atan2(s, along * t + std::abs(apex)) / sine;
   const double away = slant * sine * cosine * (1 - std::cos(turn));
-  return {slant * sine * std::sin(turn), along * (slant * (sine * sine * std::cos(turn) + cosine * cosine) - std::abs(apex)),
+  return {slant * sine * std::sin(turn),
+          along * (slant * (sine * sine * std::cos(turn) + cosine * cosine) - std::abs(apex)),
           radius > 0 ? away : -away};
 }
 
@@ -48,10 +52,14 @@ Vec3 cone(double s, double t, double radius, double apex) {
 Result<void> SheetBend::check() const {
   if (radius_mm != 0 && !(std::abs(radius_mm) >= kLeastRadiusMm))
     return Error{Errc::InvalidInput, "a sheet bends to a radius of 30 mm and no closer; 0 is flat"};
-  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg)) return Error{Errc::InvalidInput, "a sheet's bend must be finite"};
-  if (apex_mm != 0 && !(std::abs(apex_mm) >= 250)) return Error{Errc::InvalidInput, "a cone's apex lies 250 mm from the sheet's middle or further"};
-  if (wave_mm != 0 && !(wave_mm >= 60)) return Error{Errc::InvalidInput, "a sheet's wave is 60 mm long or longer"};
-  if (apex_mm != 0 && wave_mm != 0) return Error{Errc::InvalidInput, "a sheet is bent to a cone or in waves, not both"};
+  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg))
+    return Error{Errc::InvalidInput, "a sheet's bend must be finite"};
+  if (apex_mm != 0 && !(std::abs(apex_mm) >= 250))
+    return Error{Errc::InvalidInput, "a cone's apex lies 250 mm from the sheet's middle or further"};
+  if (wave_mm != 0 && !(wave_mm >= 60))
+    return Error{Errc::InvalidInput, "a sheet's wave is 60 mm long or longer"};
+  if (apex_mm != 0 && wave_mm != 0)
+    return Error{Errc::InvalidInput, "a sheet is bent to a cone or in waves, not both"};
   return {};
 }
 
@@ -70,18 +78,21 @@ Vec3 bent(const SheetBend& bend, double u, double v) {
 }
 
 SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
-  const int columns = 1 + static_cast<int>(std::ceil(size.width_mm / kStepMm)), rows = 1 + static_cast<int>(std::ceil(size.height_mm / kStepMm));
+  const int columns = 1 + static_cast<int>(std::ceil(size.width_mm / kStepMm)),
+            rows = 1 + static_cast<int>(std::ceil(size.height_mm / kStepMm));
   SheetMesh out;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
-      const double u = size.width_mm * (static_cast<double>(i) / (columns - 1) - 0.5), v = size.height_mm * (static_cast<double>(j) / (rows - 1) - 0.5);
+      const double u = size.width_mm * (static_cast<double>(i) / (columns - 1) - 0.5),
+                   v = size.height_mm * (static_cast<double>(j) / (rows - 1) - 0.5);
       const Vec3 p = bent(bend, u, v);
       out.mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
       out.paper_mm.push_back({static_cast<float>(u), static_cast<float>(v)});
     }
   for (int j = 0; j + 1 < rows; ++j)
     for (int i = 0; i + 1 < columns; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * columns + i), below = a + static_cast<std::uint32_t>(columns);
+      const auto a = static_cast<std::uint32_t>(j * columns + i),
+                 below = a + static_cast<std::uint32_t>(columns);
       out.mesh.triangles.push_back({a, a + 1, below});
       out.mesh.triangles.push_back({a + 1, below + 1, below});
     }

@@ -15,10 +15,10 @@
 namespace relievo::hal::sim {
 
 struct SheetBend {
-  double radius_mm = 0;   // in the middle; + bulges towards who looks, - away; 0: flat
-  double axis_deg = 0;    // of the straight lines that stay: 0 upright (as on a column), 90 lying
-  double apex_mm = 0;     // a cone: where those lines meet, from the middle along them; 0: they never do
-  double wave_mm = 0;     // the bend turns over every half of this length; 0: it stays; not with apex_mm
+  double radius_mm = 0;        // in the middle; + bulges towards who looks, - away; 0: flat
+  double axis_deg = 0;         // of the straight lines that stay: 0 upright (as on a column), 90 lying
+  double apex_mm = 0;          // a cone: where those lines meet, from the middle along them; 0: they never do
+  double wave_mm = 0;          // the bend turns over every half of this length; 0: it stays; not with apex_mm
   Result<void> check() const;  // InvalidInput
 };
 

@@ -92,9 +92,13 @@ CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corn
 CheckPicture thumbnail_picture(const ImageView& image, int width_px) {
   CheckPicture picture;
   picture.width_px = std::clamp(width_px, 1, image.width_px);
-  picture.height_px = std::max(1, static_cast<int>(std::lround(static_cast<double>(picture.width_px) * image.height_px / image.width_px)));
-  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px));
-  const auto begin = [](int at, int small, int large) { return static_cast<int>(static_cast<long>(at) * large / small); };
+  picture.height_px = std::max(1, static_cast<int>(std::lround(static_cast<double>(picture.width_px) *
+                                                               image.height_px / image.width_px)));
+  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) *
+                     static_cast<std::size_t>(picture.height_px));
+  const auto begin = [](int at, int small, int large) {
+    return static_cast<int>(static_cast<long>(at) * large / small);
+  };
   for (int y = 0; y < picture.height_px; ++y)
     for (int x = 0; x < picture.width_px; ++x) {
       const int top = begin(y, picture.height_px, image.height_px);

@@ -17,8 +17,9 @@ namespace {
 constexpr double kReachShare = 0.42;
 constexpr double kMaxReachPx = 20;
 constexpr double kMinReachPx = 2.5;
-constexpr double kFirstWidthPx = 4;       // of the blurred step: a blur of 1.2 px
-constexpr double kFirstWidthShare = 0.5;  // at most, of what is plain beside the edge: the window must show its flanks
+constexpr double kFirstWidthPx = 4;  // of the blurred step: a blur of 1.2 px
+constexpr double kFirstWidthShare =
+    0.5;  // at most, of what is plain beside the edge: the window must show its flanks
 constexpr double kMinWidthPx = 1;
 constexpr double kAngleDeviation = 0.04;  // rad: how far the neighbours' directions may err
 constexpr double kWidthDeviation = 2;     // px

@@ -66,7 +66,8 @@ Result<void> check_camera(const CameraIntrinsics& c, const char* matrix, const c
 }
 
 bool are_words(const std::string& text) {
-  return text.size() <= kMaxCameraWords && std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  return text.size() <= kMaxCameraWords &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 }  // namespace
@@ -103,8 +104,10 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
   if (!(calibration.rms_px >= 0 && calibration.rms_px < 1000)) return wrong("no possible rms", "pair_rms_px");
   if (!(calibration.epipolar_shift_px >= 0 && calibration.epipolar_shift_px < 1000))
     return wrong("no possible shift", "epipolar_shift_px");
-  if (!are_words(calibration.cameras.left)) return wrong("no possible name of a camera; calibrate again", "left_camera");
-  if (!are_words(calibration.cameras.right)) return wrong("no possible name of a camera; calibrate again", "right_camera");
+  if (!are_words(calibration.cameras.left))
+    return wrong("no possible name of a camera; calibrate again", "left_camera");
+  if (!are_words(calibration.cameras.right))
+    return wrong("no possible name of a camera; calibrate again", "right_camera");
   return {};
 }
 

@@ -69,7 +69,8 @@ Result<void> check_hinted_size(const CameraIntrinsics& camera, std::string_view 
   constexpr double kOffCentre = 0.125;
   if (std::abs(camera.centre_px.x / camera.width_px - 0.5) > kOffCentre ||
       std::abs(camera.centre_px.y / camera.height_px - 0.5) > kOffCentre)
-    return wrong("the principal point does not fit pictures of this size; is the calibration for other ones?", name);
+    return wrong("the principal point does not fit pictures of this size; is the calibration for other ones?",
+                 name);
   return {};
 }
 
@@ -91,8 +92,8 @@ Result<void> read_distortion(const YamlFields& fields, const FieldNames& names, 
     return wrong("distortion must be k1 k2 p1 p2 and perhaps k3", names.usual);
   for (std::size_t i = 5; i < v.size(); ++i)
     if (v[i] != 0)
-      return Error{Errc::Unsupported, "more than five distortion coefficients; calibrate with k1 k2 p1 p2 k3"}.at(
-          names.usual);
+      return Error{Errc::Unsupported, "more than five distortion coefficients; calibrate with k1 k2 p1 p2 k3"}
+          .at(names.usual);
   for (std::size_t i = 0; i < 5; ++i) camera.distortion[i] = i < v.size() ? v[i] : 0;
   return {};
 }

@@ -84,7 +84,8 @@ Result<YamlFields> fields_of(std::string_view text) {
   return parse_yaml_fields(text);
 }
 
-Result<StereoCalibration> checked(Result<StereoCalibration> calibration, const CalibrationHints& hints, bool hinted) {
+Result<StereoCalibration> checked(Result<StereoCalibration> calibration, const CalibrationHints& hints,
+                                  bool hinted) {
   if (!calibration) return calibration;
   RELIEVO_TRY(check_calibration(*calibration));
   if (!hinted || hints.width_px == 0) return calibration;
@@ -98,7 +99,8 @@ bool is_half(const YamlFields& fields) {
   return is_camera_info(fields) || has_stereo_cameras(fields) != has_stereo_relation(fields);
 }
 
-Result<StereoCalibration> read_pair(const YamlFields& one, const YamlFields& other, const CalibrationHints& hints) {
+Result<StereoCalibration> read_pair(const YamlFields& one, const YamlFields& other,
+                                    const CalibrationHints& hints) {
   if (is_camera_info(one) && is_camera_info(other))
     return checked(read_camera_infos(one, other, hints), hints, !one.numbers.contains("image_width"));
   const YamlFields& cameras = has_stereo_cameras(one) ? one : other;
@@ -155,12 +157,14 @@ Result<StereoCalibration> read_calibration(const std::filesystem::path& file, co
   }
   std::error_code missing;
   if (other.empty() || (named.empty() && !std::filesystem::exists(other, missing)))
-    return wrong("is half of a calibration, and the other half is not beside it; give both files", file.native());
+    return wrong("is half of a calibration, and the other half is not beside it; give both files",
+                 file.native());
   RELIEVO_TRY_ASSIGN(const std::string other_text, read_text(other));
   const auto other_fields = fields_of(other_text);
   if (!other_fields) return in_file(other_fields.error(), other);
   const auto calibration = read_pair(*fields, *other_fields, hints);
-  return calibration ? calibration : in_file(calibration.error(), file.native() + " and " + other.filename().native());
+  return calibration ? calibration
+                     : in_file(calibration.error(), file.native() + " and " + other.filename().native());
 }
 
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration) {

@@ -41,7 +41,8 @@ struct CalibrationHints {
 
 // Where `file` is one of a pair, the other is looked for beside it, by its name (left and right,
 // intrinsics and extrinsics), unless it is named.
-Result<StereoCalibration> read_calibration(const std::filesystem::path& file, const CalibrationHints& hints = {},
+Result<StereoCalibration> read_calibration(const std::filesystem::path& file,
+                                           const CalibrationHints& hints = {},
                                            const std::filesystem::path& other = {});
 Result<StereoCalibration> parse_calibration(std::string_view text, const CalibrationHints& hints = {});
 // The two files of a pair, in either order.

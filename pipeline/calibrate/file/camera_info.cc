@@ -23,8 +23,8 @@ Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidIn
 struct CameraInfo {
   CameraIntrinsics camera;
   Rotation rectified_from_camera;
-  double focal_px = 0;   // of the projection
-  double offset = 0;     // minus the distance from the left camera along the rows, metres
+  double focal_px = 0;  // of the projection
+  double offset = 0;    // minus the distance from the left camera along the rows, metres
 };
 
 Result<void> read_model(const YamlFields& fields) {
@@ -42,7 +42,8 @@ Result<void> read_projection(const YamlFields& fields, CameraInfo& info) {
   const auto& p = matrix->values;
   const bool form = p[1] == 0 && p[4] == 0 && p[8] == 0 && p[9] == 0 && p[10] == 1 && p[11] == 0 && p[0] > 0;
   if (!form || std::abs(p[5] - p[0]) > kSame * p[0])
-    return wrong("must be [f 0 cx Tx; 0 f cy 0; 0 0 1 0]: give the files of a stereo calibration", "projection_matrix");
+    return wrong("must be [f 0 cx Tx; 0 f cy 0; 0 0 1 0]: give the files of a stereo calibration",
+                 "projection_matrix");
   if (p[7] != 0)
     return wrong("the cameras stand above each other; only cameras side by side are measured with",
                  "projection_matrix");
@@ -87,15 +88,15 @@ struct Eye {
   const char* name = "";
   const CameraIntrinsics& camera;
   const Rotation& rectified_from_camera;
-  Vec2d centre_px;  // of the rectified picture
+  Vec2d centre_px;         // of the rectified picture
   double baseline_mm = 0;  // from the left camera to this one
 };
 
 std::string text_of(const Eye& eye, double focal_px) {
   const CameraIntrinsics& c = eye.camera;
   char head[128];
-  std::snprintf(head, sizeof head, "image_width: %d\nimage_height: %d\ncamera_name: %s\n", c.width_px, c.height_px,
-                eye.name);
+  std::snprintf(head, sizeof head, "image_width: %d\nimage_height: %d\ncamera_name: %s\n", c.width_px,
+                c.height_px, eye.name);
   std::string text = head;
   const double k[9] = {c.focal_px.x, 0, c.centre_px.x, 0, c.focal_px.y, c.centre_px.y, 0, 0, 1};
   append(text, "camera_matrix", 3, 3, k);
@@ -120,13 +121,15 @@ Result<StereoCalibration> read_camera_infos(const YamlFields& one, const YamlFie
   RELIEVO_TRY_ASSIGN(CameraInfo right, read_info(other, hints));
   if (left.offset != 0) std::swap(left, right);
   if (left.offset != 0 || right.offset == 0)
-    return wrong("one camera must stand at the origin and one beside it: give left and right of one stereo calibration",
-                 "projection_matrix");
+    return wrong(
+        "one camera must stand at the origin and one beside it: give left and right of one stereo calibration",
+        "projection_matrix");
   if (std::abs(left.focal_px - right.focal_px) > kSame * left.focal_px)
     return wrong("left and right are rectified to different focal lengths: they are not of one calibration",
                  "projection_matrix");
   if (left.camera.width_px != right.camera.width_px || left.camera.height_px != right.camera.height_px)
-    return wrong("left and right have pictures of different sizes; both cameras must be of one kind", "image_width");
+    return wrong("left and right have pictures of different sizes; both cameras must be of one kind",
+                 "image_width");
   for (const CameraInfo* info : {&left, &right})
     RELIEVO_TRY(check_rotation(info->rectified_from_camera, "rectification_matrix"));
   StereoCalibration calibration;

@@ -11,8 +11,8 @@
 // lies between the two optical axes), with the pictures' own size and a principal point of its own for
 // each camera: toed-in cameras would otherwise look past each other. image_proc and image_geometry's
 // StereoCameraModel take both into account.
-// ROS has no field for how good a calibration is: rms_px and epipolar_shift_px are not kept; nor are the cameras' names.
-// Errors: InvalidInput (the field in where()), Unsupported (another lens model). Thread: any.
+// ROS has no field for how good a calibration is: rms_px and epipolar_shift_px are not kept; nor are the
+// cameras' names. Errors: InvalidInput (the field in where()), Unsupported (another lens model). Thread: any.
 #pragma once
 
 #include <string>

@@ -40,7 +40,8 @@ double number_or_zero(const YamlFields& fields, std::string_view name) {
 
 // No field: nobody knows. A number would be no words of ours.
 Result<std::string> words_or_empty(const YamlFields& fields, std::string_view name) {
-  if (fields.numbers.contains(name)) return Error{Errc::InvalidInput, "a camera is named in words, not by a number alone"}.at(name);
+  if (fields.numbers.contains(name))
+    return Error{Errc::InvalidInput, "a camera is named in words, not by a number alone"}.at(name);
   const auto found = fields.words.find(name);
   return found == fields.words.end() ? std::string() : found->second;
 }
@@ -57,8 +58,8 @@ void append_words(std::string& text, const char* name, std::string_view words) {
 
 void append_matrix(std::string& text, const char* name, int rows, int cols, std::span<const double> values) {
   char line[96];
-  std::snprintf(line, sizeof line, "%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [", name, rows,
-                cols);
+  std::snprintf(line, sizeof line, "%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [",
+                name, rows, cols);
   text += line;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const char* before = i == 0 ? " " : i % 3 == 0 ? ",\n       " : ", ";
@@ -98,8 +99,9 @@ std::string calibration_text(const StereoCalibration& c) {
   std::string text = "%YAML:1.0\n---\n";
   append_words(text, "left_camera", c.cameras.left);
   append_words(text, "right_camera", c.cameras.right);
-  std::snprintf(head, sizeof head, "pair_rms_px: %.16e\nepipolar_shift_px: %.16e\nimage_width: %d\nimage_height: %d\n",
-                c.rms_px, c.epipolar_shift_px, c.left.width_px, c.left.height_px);
+  std::snprintf(head, sizeof head,
+                "pair_rms_px: %.16e\nepipolar_shift_px: %.16e\nimage_width: %d\nimage_height: %d\n", c.rms_px,
+                c.epipolar_shift_px, c.left.width_px, c.left.height_px);
   text += head;
   append_camera(text, c.left, "K1", "D1");
   append_camera(text, c.right, "K2", "D2");

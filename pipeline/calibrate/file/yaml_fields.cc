@@ -37,17 +37,22 @@ class Event {
   bool plain() const { return event_.data.scalar.style == YAML_PLAIN_SCALAR_STYLE; }
   bool named() const {
     switch (event_.type) {
-      case YAML_ALIAS_EVENT: return true;
-      case YAML_SCALAR_EVENT: return event_.data.scalar.anchor != nullptr;
-      case YAML_SEQUENCE_START_EVENT: return event_.data.sequence_start.anchor != nullptr;
-      case YAML_MAPPING_START_EVENT: return event_.data.mapping_start.anchor != nullptr;
+      case YAML_ALIAS_EVENT:
+        return true;
+      case YAML_SCALAR_EVENT:
+        return event_.data.scalar.anchor != nullptr;
+      case YAML_SEQUENCE_START_EVENT:
+        return event_.data.sequence_start.anchor != nullptr;
+      case YAML_MAPPING_START_EVENT:
+        return event_.data.mapping_start.anchor != nullptr;
       case YAML_NO_EVENT:
       case YAML_STREAM_START_EVENT:
       case YAML_STREAM_END_EVENT:
       case YAML_DOCUMENT_START_EVENT:
       case YAML_DOCUMENT_END_EVENT:
       case YAML_SEQUENCE_END_EVENT:
-      case YAML_MAPPING_END_EVENT: break;
+      case YAML_MAPPING_END_EVENT:
+        break;
     }
     return false;
   }
@@ -59,7 +64,9 @@ class Event {
 bool begins(yaml_event_type_t type) {
   return type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT;
 }
-bool ends(yaml_event_type_t type) { return type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT; }
+bool ends(yaml_event_type_t type) {
+  return type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT;
+}
 
 // The whole word or nothing.
 template <typename Number>
@@ -113,8 +120,8 @@ class Reader {
       if (parser_.error == YAML_MEMORY_ERROR)
         return Error{Errc::OutOfMemory, "there is not enough memory to read this file"};
       if (parser_.error == YAML_READER_ERROR)
-        return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"}.at(
-            "byte " + std::to_string(parser_.problem_offset));
+        return Error{Errc::InvalidInput, "holds bytes that are no text; give a calibration such as rig.yml"}
+            .at("byte " + std::to_string(parser_.problem_offset));
       return at_line(line, "is no YAML here; the file was cut short or damaged, copy it again");
     }
     if (event.named()) return wrong(event, "refers to another field; write the values out");
@@ -128,7 +135,8 @@ class Reader {
     Event event;
     RELIEVO_TRY(next(event));
     if (event.type() == type) return {};
-    if (type == YAML_STREAM_END_EVENT) return wrong(event, "a second document follows; give one calibration a file");
+    if (type == YAML_STREAM_END_EVENT)
+      return wrong(event, "a second document follows; give one calibration a file");
     return wrong(event, "not of the form `name: value`; the file is damaged or no calibration");
   }
 
@@ -198,7 +206,8 @@ class Reader {
         return wrong(value, "the data of a matrix must be a list of numbers");
       return read_numbers(matrix.values);
     }
-    if (value.type() != YAML_SCALAR_EVENT) return wrong(value, "rows, cols and dt of a matrix are one word each");
+    if (value.type() != YAML_SCALAR_EVENT)
+      return wrong(value, "rows, cols and dt of a matrix are one word each");
     if (part == "dt") {
       if (value.text() != "d" && value.text() != "f" && value.text() != "i")
         return wrong(value, "the type of a matrix must be d, f or i");

@@ -51,7 +51,8 @@ void add(const bundle::Problem& p, const bundle::View& view, Sums& sums, ViewSum
     sums.g += by_shape.transpose() * t.residual;
     sums.by_globals.template middleCols<Terms::kOwn>(Terms::kBase) += by_shape.transpose() * t.by_own;
     of_view.by_pose += by_shape.transpose() * t.by_pose;
-    of_view.globals_by_pose.template middleRows<Terms::kOwn>(Terms::kBase) += t.by_own.transpose() * t.by_pose;
+    of_view.globals_by_pose.template middleRows<Terms::kOwn>(Terms::kBase) +=
+        t.by_own.transpose() * t.by_pose;
     of_view.c += t.by_pose.transpose() * t.by_pose;
     of_view.h += t.by_pose.transpose() * t.residual;
   }
@@ -85,14 +86,16 @@ BoardBend measure_bend(const bundle::Problem& solved) {
   }
   for (int i = 0; i < kGlobals; ++i)
     if (!solved.free[static_cast<std::size_t>(i)]) sums.by_globals.col(i).setZero();
-  const Eigen::Matrix3d information = sums.a - sums.by_globals * solved.covariance * sums.by_globals.transpose();
+  const Eigen::Matrix3d information =
+      sums.a - sums.by_globals * solved.covariance * sums.by_globals.transpose();
   const auto factor = information.ldlt();
   const Shapes bend = factor.solve(sums.g);
   const Eigen::Matrix3d covariance = solved.noise_px2 * factor.solve(Eigen::Matrix3d::Identity());
   BoardBend found;
   found.sag_mm = sag_of(solved.pattern, bend);
   for (int i = 0; i < kShapes; ++i)
-    found.sigma_mm = std::max(found.sigma_mm, std::sqrt(std::max(0.0, covariance(i, i))) * sag_of(solved.pattern, Shapes::Unit(i)));
+    found.sigma_mm = std::max(
+        found.sigma_mm, std::sqrt(std::max(0.0, covariance(i, i))) * sag_of(solved.pattern, Shapes::Unit(i)));
   // Wilson and Hilferty (1931).
   const double ratio = std::cbrt(std::max(0.0, bend.dot(information * bend)) / solved.noise_px2 / kShapes);
   const double spread = 2.0 / (9 * kShapes);

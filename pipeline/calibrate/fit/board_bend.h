@@ -11,9 +11,9 @@
 namespace relievo::pipeline {
 
 struct BoardBend {
-  double sag_mm = 0;        // greatest height above the board's mean plane, less the least
-  double sigma_mm = 0;      // of the sag, one standard deviation
-  double deviations = 0;    // how far from flat, in standard deviations (chi-square of 3, as a normal deviate)
+  double sag_mm = 0;      // greatest height above the board's mean plane, less the least
+  double sigma_mm = 0;    // of the sag, one standard deviation
+  double deviations = 0;  // how far from flat, in standard deviations (chi-square of 3, as a normal deviate)
 };
 
 // `solved`: a problem that solve() has just solved.

@@ -54,11 +54,16 @@ void add_camera(const Problem& p, View& view, Block block) {
 double& parameter(Problem& p, int i) {
   CameraIntrinsics& c = p.camera[static_cast<std::size_t>(i / kCameraGlobals)];
   switch (i % kCameraGlobals) {
-    case 0: return c.focal_px.x;
-    case 1: return c.focal_px.y;
-    case 2: return c.centre_px.x;
-    case 3: return c.centre_px.y;
-    default: return c.distortion[i % kCameraGlobals - 4];
+    case 0:
+      return c.focal_px.x;
+    case 1:
+      return c.focal_px.y;
+    case 2:
+      return c.centre_px.x;
+    case 3:
+      return c.centre_px.y;
+    default:
+      return c.distortion[i % kCameraGlobals - 4];
   }
 }
 
@@ -118,7 +123,6 @@ Normal linearise(Problem& p) {
   }
   return n;
 }
-
 
 // One damped step; the Schur complement without damping is kept for the covariance.
 Problem stepped(const Problem& p, const Normal& n, double damping) {
@@ -203,8 +207,8 @@ bool solve(Problem& problem) {
 
 CameraVector parameters_of(const CameraIntrinsics& c) {
   CameraVector p;
-  p << c.focal_px.x, c.focal_px.y, c.centre_px.x, c.centre_px.y, c.distortion[0], c.distortion[1], c.distortion[2],
-      c.distortion[3], c.distortion[4];
+  p << c.focal_px.x, c.focal_px.y, c.centre_px.x, c.centre_px.y, c.distortion[0], c.distortion[1],
+      c.distortion[2], c.distortion[3], c.distortion[4];
   return p;
 }
 

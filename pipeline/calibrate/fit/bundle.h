@@ -74,12 +74,13 @@ struct Problem {
   std::array<Prior, kGlobals> prior{};
   std::array<double, 2> aspect_weight{};  // of fx / fy being 1, for each camera: 1/sigma²
   std::array<CameraBelief, 2> belief{};
-  double noise_px2 = 0.01;                // variance of one coordinate of a corner: weighs the priors
+  double noise_px2 = 0.01;  // variance of one coordinate of a corner: weighs the priors
   // out:
   double squared_px = 0;  // of all views, without the priors
   int residuals = 0;      // numbers, two a corner
-  Globals information = Globals::Zero();  // of the globals, poses eliminated, corners of 1 px noise, priors in
-  Globals covariance = Globals::Zero();   // its inverse: times noise_px2; 0 for what is not free
+  Globals information =
+      Globals::Zero();                   // of the globals, poses eliminated, corners of 1 px noise, priors in
+  Globals covariance = Globals::Zero();  // its inverse: times noise_px2; 0 for what is not free
 };
 
 CameraVector parameters_of(const CameraIntrinsics& camera);

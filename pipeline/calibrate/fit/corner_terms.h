@@ -15,8 +15,8 @@ using CameraJacobian = Eigen::Matrix<double, 2, 9>;  // of a pixel by fx fy cx c
 using PointJacobian = Eigen::Matrix<double, 2, 3>;
 
 // Pixel of a point in the camera's frame, with its derivatives where asked for.
-Eigen::Vector2d pixel_of(const CameraIntrinsics& camera, const Eigen::Vector3d& point, CameraJacobian* by_camera,
-                         PointJacobian* by_point);
+Eigen::Vector2d pixel_of(const CameraIntrinsics& camera, const Eigen::Vector3d& point,
+                         CameraJacobian* by_camera, PointJacobian* by_point);
 
 // The globals of one eye lie together: its camera, and for the right eye the relation behind it.
 template <int kEye>

@@ -21,8 +21,8 @@ struct CornerResidual {
 };
 
 struct FittedView {
-  bool placed = false;              // false: took no part in the fit
-  RigidTransform left_from_board;   // as the left camera has it, where both disagree
+  bool placed = false;               // false: took no part in the fit
+  RigidTransform left_from_board;    // as the left camera has it, where both disagree
   std::vector<CornerResidual> left;  // in the pattern's order; empty where the camera's board took no part
   std::vector<CornerResidual> right;
 };

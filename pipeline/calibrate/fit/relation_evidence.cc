@@ -25,7 +25,8 @@ Miss miss_of(const RelationEvidence& view, const Pose& relation) {
   const Eigen::Matrix3d& r = relation.rotation;
   const Eigen::Vector3d turned = r * view.left_from_board.translation_mm;
   Miss miss;
-  miss.off.head<3>() = bundle::turn_of(r * view.left_from_board.rotation * view.right_from_board.rotation.transpose());
+  miss.off.head<3>() =
+      bundle::turn_of(r * view.left_from_board.rotation * view.right_from_board.rotation.transpose());
   miss.off.tail<3>() = turned + relation.translation_mm - view.right_from_board.translation_mm;
   miss.by_step.setIdentity();
   miss.by_step.bottomLeftCorner<3, 3>() = -cross(turned);
@@ -82,7 +83,8 @@ double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool c
     cost = 0;
     for (const RelationEvidence& view : views) {
       const Miss miss = miss_of(view, relation);
-      const Direction excused = camera_turned ? Direction(miss.by_step * turned_camera(relation)) : carried_board();
+      const Direction excused =
+          camera_turned ? Direction(miss.by_step * turned_camera(relation)) : carried_board();
       const Direction weighted = miss.weight * excused;
       const Eigen::Matrix3d inner = excused.transpose() * weighted;
       const Matrix6d weight = miss.weight - weighted * inner.ldlt().solve(weighted.transpose());
@@ -104,7 +106,8 @@ Stories tell_stories(std::span<const RelationEvidence> views, const Pose& right_
   return {misfit_but(views, right_from_left, true), misfit_but(views, right_from_left, false)};
 }
 
-Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen, Pose right_from_left) {
+Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
+                  Pose right_from_left) {
   constexpr int kSteps = 3;
   for (int i = 0; i < kSteps; ++i) {
     Matrix6d sum = Matrix6d::Zero();

@@ -126,11 +126,13 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
   p.right_from_left = relation;
   const auto add = [&](int view, bool left, bool right) {
     made.views.push_back(view);
-    p.views.emplace_back(left ? &corners_of(input, false, view) : nullptr,
-                         right ? &corners_of(input, true, view) : nullptr,
-                         left ? cameras.left.pose(view) : left_from_right_board(relation, cameras.right.pose(view)));
+    p.views.emplace_back(
+        left ? &corners_of(input, false, view) : nullptr, right ? &corners_of(input, true, view) : nullptr,
+        left ? cameras.left.pose(view) : left_from_right_board(relation, cameras.right.pose(view)));
   };
-  const auto is_paired = [&](int view) { return std::find(paired.begin(), paired.end(), view) != paired.end(); };
+  const auto is_paired = [&](int view) {
+    return std::find(paired.begin(), paired.end(), view) != paired.end();
+  };
   for (const int view : paired) add(view, true, true);
   for (const int view : cameras.left.views)
     if (!is_paired(view)) add(view, true, false);
@@ -162,7 +164,8 @@ std::vector<double> judge_pairs(const CalibratorInput& input, const CameraFits& 
   std::vector<double> squared;
   // One at a time: a view far off must not hold up the damping of the others.
   for (const int view : views) {
-    p.views.assign(1, {&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view)});
+    p.views.assign(
+        1, {&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view)});
     const bool solved = bundle::solve_poses(p);
     squared.push_back(solved ? p.views[0].squared_px[0] + p.views[0].squared_px[1] : 1e12);
     if (judged != nullptr) judged->push_back(p.views[0]);

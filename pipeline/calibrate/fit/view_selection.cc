@@ -72,7 +72,8 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
 std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
   std::vector<std::size_t> order(cost.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
   order.resize(std::min(count, order.size()));
   std::sort(order.begin(), order.end());
   return order;
@@ -108,10 +109,12 @@ std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pair
   std::vector<Half> halves;
   for (std::size_t s = 0; s < pairs.size(); s += stride) {
     Half one = concentrate(views, relation_of(cameras, pairs[s]), half);
-    const bool known = std::any_of(halves.begin(), halves.end(), [&](const Half& h) { return h.places == one.places; });
+    const bool known =
+        std::any_of(halves.begin(), halves.end(), [&](const Half& h) { return h.places == one.places; });
     if (!known) halves.push_back(std::move(one));
   }
-  std::stable_sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
+  std::stable_sort(halves.begin(), halves.end(),
+                   [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
   return halves;
 }
 
@@ -152,7 +155,8 @@ constexpr double kPlain = 1.5;
 
 // Lets in every view outside that is plainly no surprise, else the cheapest if it is not too great a
 // one; false when none is let in.
-bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs, StereoFit& fit) {
+bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+           StereoFit& fit) {
   constexpr std::size_t kCandidates = 3;
   std::vector<int> outside;
   for (const int view : pairs)
@@ -219,8 +223,8 @@ bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::
   if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
   // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
   // word has the slip's weight, so that a slip does not bend a lens.
-  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(), &chosen,
-                    out.fit);
+  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
+                    &chosen, out.fit);
 }
 
 ChangePoint change_point(std::span<const double> excess, double spread_px2) {

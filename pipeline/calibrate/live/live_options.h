@@ -24,7 +24,7 @@ struct LiveOptions {
   double least_worth = 0.3;  // of a view, once the cameras are known: share of what the best one would bring
   int patience_pairs = 100;  // on the way to one target, before another is chosen
 
-  double expected_baseline_mm = 0;            // these two as in CalibratorInput
+  double expected_baseline_mm = 0;  // these two as in CalibratorInput
   std::optional<StereoCalibration> in_use{};
 
   Result<void> check() const;  // InvalidInput

@@ -51,7 +51,8 @@ double held_out_shift(const Fitted& f, const RigSpread& spread) {
   double sum = 0;
   double count = 0;
   for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const auto missed = missed_lines(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])]);
+    const auto missed =
+        missed_lines(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])]);
     if (missed.size() < 4) continue;
     sum += field_squared(missed);
     count += static_cast<double>(missed.size());

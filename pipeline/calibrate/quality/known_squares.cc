@@ -30,7 +30,8 @@ Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle
   for (std::size_t i = 0; i < view.left.size(); ++i) {
     if (!seen(view.left[i]) || !seen(view.right[i])) continue;
     const int n = static_cast<int>(i);
-    const Eigen::Vector3d on_board(n % rig.pattern.columns * rig.pattern.square_mm, n / rig.pattern.columns * rig.pattern.square_mm, 0);
+    const Eigen::Vector3d on_board(n % rig.pattern.columns * rig.pattern.square_mm,
+                                   n / rig.pattern.columns * rig.pattern.square_mm, 0);
     points.board.col(count) = on_board;
     points.expected.col(count) = pose.rotation * on_board + pose.translation_mm;
     points.found.col(count) = point_of(rig, view.left[i], view.right[i]);
@@ -51,8 +52,9 @@ KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, dou
   double views = 0;
   double all = 0;
   for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const Points p = points_of(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])],
-                               f.selection.fit.problem.views[i].left_from_board);
+    const Points p =
+        points_of(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])],
+                  f.selection.fit.problem.views[i].left_from_board);
     if (p.found.cols() < 4) continue;
     const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
                                (distance_mm / p.expected.row(2).transpose().array()).square();
@@ -63,7 +65,8 @@ KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, dou
     views += 1;
   }
   views = std::max(views, 1.0);
-  return {std::sqrt(boards / views), std::sqrt(corners / std::max(all, 1.0)), 100 * std::sqrt(lengths / views)};
+  return {std::sqrt(boards / views), std::sqrt(corners / std::max(all, 1.0)),
+          100 * std::sqrt(lengths / views)};
 }
 
 }  // namespace relievo::pipeline

@@ -40,19 +40,20 @@ struct ViewQuality {
 
 struct CalibrationQuality {
   CalibrationVerdict verdict = CalibrationVerdict::Refuse;
-  std::vector<Sentence> reasons;     // most important first
-  std::vector<ViewQuality> views;    // all that were given, in their order
+  std::vector<Sentence> reasons;   // most important first
+  std::vector<ViewQuality> views;  // all that were given, in their order
   int used = 0;
   double left_rms_px = 0;  // each camera alone, all its boards
   double right_rms_px = 0;
   double pair_rms_px = 0;  // both together, used views
   double epipolar_rms_px = 0;
   double held_out_epipolar_px = 0;  // of views that had no part in the fit (leave-out cross-validation)
-  double held_out_shift_px = 0;     // of these, what a whole board misses them by together: corner noise averages out
-  double coverage_left = 0;         // share of an 8 x 8 grid over the picture in which a corner was seen
+  double held_out_shift_px =
+      0;  // of these, what a whole board misses them by together: corner noise averages out
+  double coverage_left = 0;  // share of an 8 x 8 grid over the picture in which a corner was seen
   double coverage_right = 0;
-  bool holds_still = true;     // left and right agree as well as each camera alone allows
-  double slip_ratio = 1;       // disagreement over what corner noise explains, 1 for a firm rig
+  bool holds_still = true;  // left and right agree as well as each camera alone allows
+  double slip_ratio = 1;    // disagreement over what corner noise explains, 1 for a firm rig
   SlipCause slip_cause = SlipCause::None;
   int moved_after = -1;        // index of the view after which a camera seems to have moved; -1: none
   int moved_after_first = -1;  // the range in which it may as well have been
@@ -63,12 +64,12 @@ struct CalibrationQuality {
   double tilt_spread_deg = 0;       // of the boards used: the median angle between two of them
   double board_sag_mm = 0;          // peak to valley, estimated from all views
   double board_sag_sigma_mm = 0;
-  bool board_bent = false;  // more than noise and a thousandth of its size explain
+  bool board_bent = false;         // more than noise and a thousandth of its size explain
   double working_distance_mm = 0;  // median distance of the boards used
   // One standard deviation of a head measured there, as far as this calibration is to blame:
-  double depth_sigma_mm = 0;  // of its distance
+  double depth_sigma_mm = 0;       // of its distance
   double face_depth_sigma_mm = 0;  // the same at 560 mm, where faces are
-  double shape_sigma_mm = 0;  // of its shape and size: what stays when it is laid over the true one
+  double shape_sigma_mm = 0;       // of its shape and size: what stays when it is laid over the true one
   // Measured, on boards that had no part in the fit, against the known size of their squares; root mean
   // squares, depth brought to 560 mm:
   double measured_depth_mm = 0;        // of a whole board

@@ -26,7 +26,8 @@ double epipolar_rms(const Fitted& f, const bundle::Problem& rig, std::span<const
   double sum = 0;
   int count = 0;
   for (const int view : views)
-    sum += epipolar_squared(rig, f.input.views[static_cast<std::size_t>(view)].left, f.input.views[static_cast<std::size_t>(view)].right, count);
+    sum += epipolar_squared(rig, f.input.views[static_cast<std::size_t>(view)].left,
+                            f.input.views[static_cast<std::size_t>(view)].right, count);
   return std::sqrt(sum / std::max(count, 1));
 }
 
@@ -44,8 +45,10 @@ double coverage(const CalibratorInput& input, bool right) {
 
 // Did a camera turn, or did the board go on between the two exposures? The pairs tell together.
 SlipCause cause_of(const Fitted& f) {
-  const Stories stories = tell_stories(gather_evidence(f.cameras, f.pairs), f.selection.fit.problem.right_from_left);
-  return stories.board_carried_px2 < stories.camera_turned_px2 ? SlipCause::BoardCarried : SlipCause::CameraTurns;
+  const Stories stories =
+      tell_stories(gather_evidence(f.cameras, f.pairs), f.selection.fit.problem.right_from_left);
+  return stories.board_carried_px2 < stories.camera_turned_px2 ? SlipCause::BoardCarried
+                                                               : SlipCause::CameraTurns;
 }
 
 // Median angle between two boards' normals: boards held alike do not determine a focal length.
@@ -81,7 +84,8 @@ void measure_flatness(const Fitted& f, CalibrationQuality& q) {
   q.board_sag_mm = surer.sag_mm;
   q.board_sag_sigma_mm = surer.sigma_mm;
   constexpr double kCertain = 5;
-  q.board_bent = left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > limits::kFlat * size_mm;
+  q.board_bent =
+      left.deviations > kCertain && right.deviations > kCertain && surer.sag_mm > limits::kFlat * size_mm;
 }
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {

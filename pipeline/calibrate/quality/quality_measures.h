@@ -4,8 +4,8 @@
 // The numbers of CalibrationQuality, from the fits. Inside calibrate/ only.
 #pragma once
 
-#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/fit/view_selection.h"
+#include "pipeline/calibrate/quality/quality.h"
 
 namespace relievo::pipeline {
 

@@ -38,7 +38,8 @@ Eigen::Vector3d point_of(const bundle::Problem& p, const Vec2d& left, const Vec2
   return 0.5 * (s * a + c + t * b);
 }
 
-double epipolar_squared(const bundle::Problem& p, const BoardCorners& left, const BoardCorners& right, int& count) {
+double epipolar_squared(const bundle::Problem& p, const BoardCorners& left, const BoardCorners& right,
+                        int& count) {
   const bundle::Pose& relation = p.right_from_left;
   double sum = 0;
   for (std::size_t i = 0; i < left.size(); ++i) {

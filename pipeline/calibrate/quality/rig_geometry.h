@@ -21,7 +21,8 @@ Eigen::Vector3d point_of(const bundle::Problem& rig, const Vec2d& left, const Ve
 
 // Sum of squared distances (px of the right camera) of right corners from the epipolar lines of the
 // left ones; counts them.
-double epipolar_squared(const bundle::Problem& rig, const BoardCorners& left, const BoardCorners& right, int& count);
+double epipolar_squared(const bundle::Problem& rig, const BoardCorners& left, const BoardCorners& right,
+                        int& count);
 
 // Points of the field as pixels of both pictures: what another rig makes of them is its error.
 struct Probes {

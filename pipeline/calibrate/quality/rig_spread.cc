@@ -17,7 +17,8 @@ RigSpread::RigSpread(const StereoFit& fit, bool slips) : likeliest_(fit.problem)
   // Parameters differ by orders of magnitude: equilibrate, or the small ones drown in rounding.
   const bundle::Globals& covariance = fit.problem.covariance;
   const bundle::GlobalVector unit = covariance.diagonal().cwiseMax(1e-30).cwiseSqrt();
-  const bundle::Globals even = unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
+  const bundle::Globals even =
+      unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<bundle::Globals> eigen(0.5 * (even + even.transpose()));
   for (int i = 0; i < bundle::kGlobals; ++i) {
     const double length = std::sqrt(std::max(0.0, eigen.eigenvalues()[i]) * fit.problem.noise_px2);

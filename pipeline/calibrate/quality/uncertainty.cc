@@ -25,14 +25,17 @@ std::vector<Eigen::Vector3d> box(double distance_mm, double step_mm, int layers)
   return points;
 }
 
-Eigen::VectorXd flat(const Cloud& cloud) { return Eigen::Map<const Eigen::VectorXd>(cloud.data(), cloud.size()); }
+Eigen::VectorXd flat(const Cloud& cloud) {
+  return Eigen::Map<const Eigen::VectorXd>(cloud.data(), cloud.size());
+}
 
 // Pictures of fixed rays, less what the best small turn of the camera explains of their move.
 ProjectionMap projection_map(const RigSpread& spread, int eye) {
   const CameraIntrinsics& camera = spread.likeliest().camera[static_cast<std::size_t>(eye)];
   ProjectionMap map;
   map.columns = kMapColumns;
-  map.rows = std::max(2, static_cast<int>(std::lround(kMapColumns * static_cast<double>(camera.height_px) / camera.width_px)));
+  map.rows = std::max(2, static_cast<int>(std::lround(kMapColumns * static_cast<double>(camera.height_px) /
+                                                      camera.width_px)));
   std::vector<bundle::Pose> rays;
   const auto pixels = [](const CameraIntrinsics& c, const std::vector<bundle::Pose>& of) {
     Eigen::VectorXd at(2 * static_cast<Eigen::Index>(of.size()));
@@ -73,7 +76,8 @@ ParameterUncertainty parameter_uncertainty(const RigSpread& spread) {
     Eigen::VectorXd all(2 * bundle::kCameraGlobals + 7);
     const bundle::Pose& relation = rig.right_from_left;
     all << bundle::parameters_of(rig.camera[0]), bundle::parameters_of(rig.camera[1]),
-        kDegrees * bundle::turn_of(relation.rotation), relation.translation_mm, relation.translation_mm.norm();
+        kDegrees * bundle::turn_of(relation.rotation), relation.translation_mm,
+        relation.translation_mm.norm();
     return all;
   });
   ParameterUncertainty u;
@@ -92,8 +96,9 @@ ParameterUncertainty parameter_uncertainty(const RigSpread& spread) {
 
 DepthUncertainty depth_uncertainty(const RigSpread& spread, double distance_mm) {
   const Probes probes = probes_of(spread.likeliest(), box(distance_mm, kFieldStepMm, 1));
-  const Eigen::VectorXd variance = spread.variance(
-      [&](const bundle::Problem& rig) -> Eigen::VectorXd { return cloud_of(rig, probes).row(2).transpose(); });
+  const Eigen::VectorXd variance = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
+    return cloud_of(rig, probes).row(2).transpose();
+  });
   return {distance_mm, std::sqrt(variance.mean()), std::sqrt(variance.maxCoeff())};
 }
 

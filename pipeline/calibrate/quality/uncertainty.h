@@ -22,7 +22,10 @@ struct ProjectionMap {
   int rows = 0;
   std::vector<double> sigma_px;
 
-  double at(int column, int row) const { return sigma_px[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)]; }
+  double at(int column, int row) const {
+    return sigma_px[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)];
+  }
 };
 
 // Of the distance from the left camera, over a field of 160 mm by 160 mm.
@@ -52,7 +55,7 @@ struct CalibrationUncertainty {
   double scale_percent = 0;   // of lengths in the middle of the field
   double shape_sigma_mm = 0;  // of a head at the boards' distance, laid over the true one
   ParameterUncertainty parameters;
-  bool slips = false;         // the spread of the views was larger than the corners' noise explains
+  bool slips = false;  // the spread of the views was larger than the corners' noise explains
 };
 
 }  // namespace relievo::pipeline

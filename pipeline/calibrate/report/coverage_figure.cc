@@ -4,8 +4,8 @@
 #include <array>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
@@ -75,16 +75,18 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye) {
   d.strokes("dots " + style, layers.dots);
   d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
   const auto cells = std::count(layers.covered.begin(), layers.covered.end(), true);
-  return figure_of(d.svg(), kCameraNames[eye],
-                   "Corners in " + std::to_string(cells) + " of " + std::to_string(kGrid * kGrid) + " fields.");
+  return figure_of(
+      d.svg(), kCameraNames[eye],
+      "Corners in " + std::to_string(cells) + " of " + std::to_string(kGrid * kGrid) + " fields.");
 }
 
 }  // namespace
 
 std::string coverage_figure(const CalibrationReport& r) {
   const std::size_t stride = corner_stride(r);
-  std::string lead = "Every corner that took part, with the outline of its board. Hatched fields hold none: bring the board there. "
-                     "Grey: pairs left out; they still speak for this camera’s lens.";
+  std::string lead =
+      "Every corner that took part, with the outline of its board. Hatched fields hold none: bring the board there. "
+      "Grey: pairs left out; they still speak for this camera’s lens.";
   if (stride > 1) lead += " One corner in " + std::to_string(stride) + " is drawn.";
   return "<section>\n<h2>Where the board was seen</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
          side_by_side(camera_figure(r, 0), camera_figure(r, 1)) + "</section>\n";

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
@@ -25,7 +25,8 @@ std::string colour(double share) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string out = "#";
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto level = static_cast<unsigned>(std::lround(kStops[stop][c] + rest * (kStops[stop + 1][c] - kStops[stop][c])));
+    const auto level =
+        static_cast<unsigned>(std::lround(kStops[stop][c] + rest * (kStops[stop + 1][c] - kStops[stop][c])));
     (out += kHex[level >> 4U]) += kHex[level & 15U];
   }
   return out;
@@ -80,7 +81,8 @@ std::string map_figure(const CalibrationReport& r, std::size_t eye, const Scale&
   Drawing d({kWidth, height + 14 + kLegend}, "Heat map: projection uncertainty over the picture");
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
-      d.filled({{column * kWidth / map.columns, row * height / map.rows}, {kWidth / map.columns, height / map.rows}},
+      d.filled({{column * kWidth / map.columns, row * height / map.rows},
+                {kWidth / map.columns, height / map.rows}},
                colour(scale.share(map.at(column, row))));
   d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
   legend(d, scale, height + 14);
@@ -89,7 +91,8 @@ std::string map_figure(const CalibrationReport& r, std::size_t eye, const Scale&
   const double middle = sorted.empty() ? 0 : sorted[sorted.size() / 2];
   const double worst = sorted.empty() ? 0 : sorted.back();
   return figure_of(d.svg(), kCameraNames[eye],
-                   "Median " + figure(middle, decimals_for(middle)) + " px, worst " + figure(worst, decimals_for(worst)) + " px.");
+                   "Median " + figure(middle, decimals_for(middle)) + " px, worst " +
+                       figure(worst, decimals_for(worst)) + " px.");
 }
 
 }  // namespace

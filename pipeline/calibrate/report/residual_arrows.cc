@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
@@ -30,7 +30,8 @@ double usual_length(const CalibrationReport& r) {
   for (const std::size_t eye : {0U, 1U})
     for_each_used(r, eye, [&](const CornerResidual& c) { lengths.push_back(std::hypot(c.off.x, c.off.y)); });
   if (lengths.empty()) return 1;
-  const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lengths.size() - 1));
+  const auto at =
+      lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lengths.size() - 1));
   std::nth_element(lengths.begin(), at, lengths.end());
   return std::max(*at, 1e-9);
 }
@@ -64,7 +65,8 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double ma
   Strokes key;
   arrow(key, {1, height + 20}, {shown * scale * magnified, 0});
   d.strokes(style, key);
-  d.text("tick begin", {10 + shown * scale * magnified, height + 24.5}, figure(shown, tick_decimals(shown)) + " px");
+  d.text("tick begin", {10 + shown * scale * magnified, height + 24.5},
+         figure(shown, tick_decimals(shown)) + " px");
   return figure_of(d.svg(), kCameraNames[eye], counted(static_cast<int>(count), "corner.", "corners."));
 }
 
@@ -73,9 +75,11 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double ma
 std::string residual_arrows(const CalibrationReport& r) {
   const double usual = usual_length(r);
   const double magnified = rounded_down(kUsualLength * r.output.calibration.left.width_px / usual);
-  std::string lead = "At every corner of the pairs used, an arrow from where the fit puts it towards where it was seen, " +
-                     number(magnified, 3) + " times as long as it is. They must point everywhere at random: a common "
-                     "direction in one place is a lens, or a board, that the fit does not describe.";
+  std::string lead =
+      "At every corner of the pairs used, an arrow from where the fit puts it towards where it was seen, " +
+      number(magnified, 3) +
+      " times as long as it is. They must point everywhere at random: a common "
+      "direction in one place is a lens, or a board, that the fit does not describe.";
   return "<section>\n<h2>What is left over</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
          side_by_side(camera_figure(r, 0, magnified, usual), camera_figure(r, 1, magnified, usual)) +
          residual_histogram(r) + "</section>\n";

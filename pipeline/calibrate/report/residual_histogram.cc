@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
@@ -43,7 +43,8 @@ void ticks(Drawing& d, const Axis& x) {
     d.line("axis", {x(i * step), kPlot.bottom()}, {x(i * step), kPlot.bottom() + 5});
     d.text("tick middle", {x(i * step), kPlot.bottom() + 20}, figure(i * step, tick_decimals(step)));
   }
-  d.text("label middle", {0.5 * (kPlot.corner.x + kPlot.right()), kSize.height - 6}, "residual of one coordinate, px");
+  d.text("label middle", {0.5 * (kPlot.corner.x + kPlot.right()), kSize.height - 6},
+         "residual of one coordinate, px");
 }
 
 std::string camera_figure(const CalibrationReport& r, std::size_t eye, double reach) {
@@ -60,17 +61,21 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double re
   const double width = 2 * reach / kBins;
   const auto normal = [&](double value) {
     constexpr double kRoot = 2.5066282746310002;
-    return static_cast<double>(values.size()) * width / (kRoot * sigma) * std::exp(-0.5 * value * value / (sigma * sigma));
+    return static_cast<double>(values.size()) * width / (kRoot * sigma) *
+           std::exp(-0.5 * value * value / (sigma * sigma));
   };
   const double top = std::max<double>(*std::max_element(bins.begin(), bins.end()), normal(0)) * 1.04;
   const Axis x{-reach, reach, kPlot.corner.x, kPlot.right()};
   const Axis y{0, std::max(top, 1.0), kPlot.bottom(), kPlot.corner.y};
-  Drawing d(kSize, std::string(kCameraNames[eye]) + ": histogram of the residuals with a normal distribution");
+  Drawing d(kSize,
+            std::string(kCameraNames[eye]) + ": histogram of the residuals with a normal distribution");
   const std::string style(kCameraStyles[eye]);
   for (int i = 0; i < kBins; ++i) {
     const double left = x(-reach + i * width);
     const double count = bins[static_cast<std::size_t>(i)];
-    if (count > 0) d.box("bar " + style, {{left + 0.5, y(count)}, {x(-reach + (i + 1) * width) - left - 1, y(0) - y(count)}});
+    if (count > 0)
+      d.box("bar " + style,
+            {{left + 0.5, y(count)}, {x(-reach + (i + 1) * width) - left - 1, y(0) - y(count)}});
   }
   Strokes curve;
   constexpr int kPoints = 120;

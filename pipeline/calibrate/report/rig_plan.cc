@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "pipeline/calibrate/quality/rig_geometry.h"
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
@@ -17,7 +17,8 @@ constexpr double kFieldMm = 160;  // of DepthUncertainty
 constexpr double kNear = kFirstDepthMm;
 constexpr double kFar = kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm;
 
-// Seen from above, down the left camera's y: x to the right along the baseline, y (of the page) towards the rig.
+// Seen from above, down the left camera's y: x to the right along the baseline, y (of the page) towards the
+// rig.
 class Plan {
  public:
   explicit Plan(const StereoCalibration& c, double farthest_mm) {
@@ -30,7 +31,8 @@ class Plan {
     origin_ = {0.5 * kSize.width - 0.5 * length * scale_, kSize.height - 4 - kBehind * scale_};
   }
   Vec2d operator()(const Vec3d& p) const {
-    return {origin_.x + scale_ * (p.x * along_.x + p.z * along_.y), origin_.y - scale_ * (p.z * along_.x - p.x * along_.y)};
+    return {origin_.x + scale_ * (p.x * along_.x + p.z * along_.y),
+            origin_.y - scale_ * (p.z * along_.x - p.x * along_.y)};
   }
   double scale() const { return scale_; }
   const Vec3d& right_camera() const { return right_; }
@@ -77,8 +79,8 @@ void draw_boards(Drawing& d, const Plan& plan, const CalibrationReport& r) {
     if (!view.placed) continue;
     const auto at = [&](double x, double y) { return plan(apply(view.left_from_board, {x, y, 0})); };
     Strokes outline;
-    outline.outline(std::array<Vec2d, 4>{at(-s, -s), at(board.columns * s, -s), at(board.columns * s, board.rows * s),
-                                         at(-s, board.rows * s)});
+    outline.outline(std::array<Vec2d, 4>{at(-s, -s), at(board.columns * s, -s),
+                                         at(board.columns * s, board.rows * s), at(-s, board.rows * s)});
     d.strokes(r.output.quality.views[v].used ? "board used" : "board other", outline);
   }
 }
@@ -86,8 +88,8 @@ void draw_boards(Drawing& d, const Plan& plan, const CalibrationReport& r) {
 void draw_faces(Drawing& d, const Plan& plan) {
   constexpr double kHalf = kFieldMm / 2;
   Strokes volume;
-  volume.outline(std::array<Vec2d, 4>{plan({-kHalf, 0, kNear}), plan({kHalf, 0, kNear}), plan({kHalf, 0, kFar}),
-                                      plan({-kHalf, 0, kFar})});
+  volume.outline(std::array<Vec2d, 4>{plan({-kHalf, 0, kNear}), plan({kHalf, 0, kNear}),
+                                      plan({kHalf, 0, kFar}), plan({-kHalf, 0, kFar})});
   d.strokes("volume", volume);
 }
 
@@ -103,7 +105,8 @@ void draw_measures(Drawing& d, const Plan& plan, double baseline_mm) {
   const Vec2d a = plan({0, 0, 0});
   const Vec2d b = plan(plan.right_camera());
   d.line("measure", a, b);
-  d.text("tick middle", {0.5 * (a.x + b.x), std::max(a.y, b.y) + 44 * plan.scale() + 24}, figure(baseline_mm, 1) + " mm");
+  d.text("tick middle", {0.5 * (a.x + b.x), std::max(a.y, b.y) + 44 * plan.scale() + 24},
+         figure(baseline_mm, 1) + " mm");
   d.text("tick end", {a.x - 20, a.y + 16}, "left");
   d.text("tick begin", {b.x + 20, b.y + 16}, "right");
   const double length = 100 * plan.scale();
@@ -130,9 +133,10 @@ std::string rig_plan(const CalibrationReport& r) {
   name_faces(d, plan);
   draw_measures(d, plan, r.output.quality.baseline_mm);
   for (const std::size_t eye : {0U, 1U}) draw_camera(d, plan, cameras[eye], kCameraStyles[eye]);
-  return figure_of(d.svg(), "The rig from above",
-                   "To scale. The cameras with their fields of view; the boards of the pairs used and, in grey, of those left out; "
-                   "dashed, the volume that the depth uncertainty is worked out for.");
+  return figure_of(
+      d.svg(), "The rig from above",
+      "To scale. The cameras with their fields of view; the boards of the pairs used and, in grey, of those left out; "
+      "dashed, the volume that the depth uncertainty is worked out for.");
 }
 
 }  // namespace relievo::pipeline::report

@@ -13,15 +13,15 @@
 
 namespace relievo::pipeline::report {
 
-std::string verdict_section(const CalibrationReport& r);      // word, icon, reasons
-std::string face_figures(const CalibrationReport& r);         // in mm at a face
-std::string key_figures(const CalibrationReport& r);          // with what is good
-std::string depth_chart(const CalibrationReport& r);          // uncertainty over distance
-std::string rig_plan(const CalibrationReport& r);             // from above, to scale
-std::string projection_maps(const CalibrationReport& r);      // heat maps of both cameras
-std::string coverage_figure(const CalibrationReport& r);      // where corners were seen
-std::string residual_arrows(const CalibrationReport& r);      // at every corner
-std::string residual_histogram(const CalibrationReport& r);   // against a normal distribution
+std::string verdict_section(const CalibrationReport& r);     // word, icon, reasons
+std::string face_figures(const CalibrationReport& r);        // in mm at a face
+std::string key_figures(const CalibrationReport& r);         // with what is good
+std::string depth_chart(const CalibrationReport& r);         // uncertainty over distance
+std::string rig_plan(const CalibrationReport& r);            // from above, to scale
+std::string projection_maps(const CalibrationReport& r);     // heat maps of both cameras
+std::string coverage_figure(const CalibrationReport& r);     // where corners were seen
+std::string residual_arrows(const CalibrationReport& r);     // at every corner
+std::string residual_histogram(const CalibrationReport& r);  // against a normal distribution
 std::string view_table(const CalibrationReport& r);
 std::string number_tables(const CalibrationReport& r);
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/report/drawing.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {

@@ -11,31 +11,35 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kPupilMm = 31.5;               // from the middle of the face; people: 27 to 37
+constexpr double kPupilMm = 31.5;  // from the middle of the face; people: 27 to 37
 constexpr double kHalfWidthMm = 20, kTopMm = -58, kBottomMm = -6;
 constexpr double kSearchRightMm = 7, kHighestMm = -50, kLowestMm = -25;  // where an iris can be
 constexpr std::array kRadiiMm{5.4, 5.9, 6.4};
-constexpr double kAcrossMm = 1.0;               // to both sides of the edge
-constexpr double kSidesMm = 3.0;                // rows above and below the middle that are looked at
-constexpr double kGlareShare = 1.35;             // of skin and sclera
-constexpr double kScleraShare = 1.1;             // of the skin, where that is dark
+constexpr double kAcrossMm = 1.0;     // to both sides of the edge
+constexpr double kSidesMm = 3.0;      // rows above and below the middle that are looked at
+constexpr double kGlareShare = 1.35;  // of skin and sclera
+constexpr double kScleraShare = 1.1;  // of the skin, where that is dark
 constexpr double kBurntOut = 245;
-// A lamp that is mirrored in glasses shines before eye and lids alike; sclera and the lamp in a cornea end where the lids begin.
+// A lamp that is mirrored in glasses shines before eye and lids alike; sclera and the lamp in a cornea end
+// where the lids begin.
 constexpr double kEyeHalfWidthMm = 13, kEyeHalfHeightMm = 5;
-constexpr double kShineRightMm = 20, kShineDownMm = 14;   // how far about the iris it is looked for
+constexpr double kShineRightMm = 20, kShineDownMm = 14;  // how far about the iris it is looked for
 constexpr double kBesideEyeMm2 = 15;
-constexpr double kLostShare = 0.5;               // of the other eye's contrast: this one is covered
+constexpr double kLostShare = 0.5;  // of the other eye's contrast: this one is covered
 
-struct Circle { double right = 0, down = 0, radius = 0, contrast = 0; };
+struct Circle {
+  double right = 0, down = 0, radius = 0, contrast = 0;
+};
 
 // Sclera less iris in one row of the circle: left, right.
 std::array<double, 2> sides(const FaceWindow& w, const Circle& c, double row_mm) {
   const double half = std::sqrt(std::max(0.0, c.radius * c.radius - row_mm * row_mm)), y = c.down + row_mm;
   const auto edge = [&](double outside, double inside) {
     const double a = w.between(outside, y), b = w.between(inside, y);
-    return (a - b) / std::max(a + b, 1.0);   // the shade of lids and brows falls on both
+    return (a - b) / std::max(a + b, 1.0);  // the shade of lids and brows falls on both
   };
-  return {edge(c.right - half - kAcrossMm, c.right - half + kAcrossMm), edge(c.right + half + kAcrossMm, c.right + half - kAcrossMm)};
+  return {edge(c.right - half - kAcrossMm, c.right - half + kAcrossMm),
+          edge(c.right + half + kAcrossMm, c.right + half - kAcrossMm)};
 }
 
 double contrast(const FaceWindow& w, const Circle& c) {
@@ -56,11 +60,13 @@ Circle find_iris(const FaceWindow& w, double side) {
     if (c.contrast > best.contrast) best = c;
   };
   for (double down = kHighestMm; down <= kLowestMm; down += 1)
-    for (double right = side * kPupilMm - kSearchRightMm; right <= side * kPupilMm + kSearchRightMm; right += 1)
+    for (double right = side * kPupilMm - kSearchRightMm; right <= side * kPupilMm + kSearchRightMm;
+         right += 1)
       for (const double radius : kRadiiMm) look({right, down, radius, 0});
   const Circle rough = best;
   for (double down = -0.5; down <= 0.5; down += 0.5)
-    for (double right = -0.5; right <= 0.5; right += 0.5) look({rough.right + right, rough.down + down, rough.radius, 0});
+    for (double right = -0.5; right <= 0.5; right += 0.5)
+      look({rough.right + right, rough.down + down, rough.radius, 0});
   return best;
 }
 
@@ -90,9 +96,14 @@ double disc(const FaceWindow& w, const Circle& c) {
 class Shine {
  public:
   Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
-      : w_(window), eye_(eye), x0_(std::max(0, static_cast<int>(w_.column(eye.x - kShineRightMm)))), x1_(std::min(w_.columns - 1, static_cast<int>(w_.column(eye.x + kShineRightMm)))),
-        y0_(std::max(0, static_cast<int>(w_.row(eye.y - kShineDownMm)))), y1_(std::min(w_.rows - 1, static_cast<int>(w_.row(eye.y + kShineDownMm)))),
-        open_(&context.scratch), todo_(&context.scratch) {
+      : w_(window),
+        eye_(eye),
+        x0_(std::max(0, static_cast<int>(w_.column(eye.x - kShineRightMm)))),
+        x1_(std::min(w_.columns - 1, static_cast<int>(w_.column(eye.x + kShineRightMm)))),
+        y0_(std::max(0, static_cast<int>(w_.row(eye.y - kShineDownMm)))),
+        y1_(std::min(w_.rows - 1, static_cast<int>(w_.row(eye.y + kShineDownMm)))),
+        open_(&context.scratch),
+        todo_(&context.scratch) {
     open_.assign(w_.grey.size(), 0);
     for (int y = y0_; y <= y1_; ++y)
       for (int x = x0_; x <= x1_; ++x) open_[index(x, y)] = w_.at(x, y) > bright ? 1 : 0;
@@ -124,7 +135,8 @@ class Shine {
     take(from_x, from_y);
     for (std::size_t i = 0; i < todo_.size(); ++i) {
       const auto [x, y] = todo_[i];
-      const double u = (w_.right_mm(x) - eye_.x) / kEyeHalfWidthMm, v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm;
+      const double u = (w_.right_mm(x) - eye_.x) / kEyeHalfWidthMm,
+                   v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm;
       ++samples[u * u + v * v < 1 ? 0 : 1];
       take(x - 1, y), take(x + 1, y), take(x, y - 1), take(x, y + 1);
     }
@@ -134,7 +146,7 @@ class Shine {
   const FaceWindow& w_;
   Vec2d eye_;
   int x0_, x1_, y0_, y1_;
-  std::pmr::vector<std::uint8_t> open_;             // shines and has not been counted yet
+  std::pmr::vector<std::uint8_t> open_;  // shines and has not been counted yet
   std::pmr::vector<std::array<int, 2>> todo_;
 };
 
@@ -144,7 +156,9 @@ double skin_of(const FaceWindow& w, double side, StageContext& context) {
 }
 
 double glare(const FaceWindow& w, double side, Vec2d eye, StageContext& context) {
-  const double skin = skin_of(w, side, context), sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75, context);  // or the glare itself
+  const double skin = skin_of(w, side, context),
+               sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75,
+                                 context);  // or the glare itself
   const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
   return Shine(w, eye, static_cast<float>(bright), context).before_eye_mm2();
 }
@@ -159,7 +173,8 @@ EyeSight measure_eye(const FaceWindow& w, double side, StageContext& context) {
   eye.contrast = iris.contrast;
   eye.aperture_mm = iris.contrast > 0 ? aperture(w, iris) : 0;
   eye.iris = disc(w, iris) / skin;
-  eye.brightness = quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;
+  eye.brightness =
+      quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;
   return eye;
 }
 
@@ -167,7 +182,10 @@ EyeSight measure_eye(const FaceWindow& w, double side, StageContext& context) {
 
 std::array<EyeSight, 2> measure_eyes(const FacePhoto& photo, StageContext& context) {
   constexpr std::array kSides{-1.0, 1.0};
-  const auto window = [&](double side) { return cut_window(photo, {side * kPupilMm - kHalfWidthMm, side * kPupilMm + kHalfWidthMm, kTopMm, kBottomMm}, context); };
+  const auto window = [&](double side) {
+    return cut_window(
+        photo, {side * kPupilMm - kHalfWidthMm, side * kPupilMm + kHalfWidthMm, kTopMm, kBottomMm}, context);
+  };
   const std::array windows{window(kSides[0]), window(kSides[1])};
   std::array<EyeSight, 2> eyes;
   for (std::size_t i = 0; i < 2; ++i) eyes[i] = measure_eye(windows[i], kSides[i], context);
@@ -175,7 +193,9 @@ std::array<EyeSight, 2> measure_eyes(const FacePhoto& photo, StageContext& conte
     if (!eyes[i].known) continue;
     const EyeSight& other = eyes[1 - i];
     const bool covered = other.known && eyes[i].contrast < kLostShare * other.contrast;
-    eyes[i].glare_mm2 = glare(windows[i], kSides[i], covered ? Vec2d{-other.right_mm, other.down_mm} : Vec2d{eyes[i].right_mm, eyes[i].down_mm}, context);
+    eyes[i].glare_mm2 = glare(
+        windows[i], kSides[i],
+        covered ? Vec2d{-other.right_mm, other.down_mm} : Vec2d{eyes[i].right_mm, eyes[i].down_mm}, context);
   }
   return eyes;
 }

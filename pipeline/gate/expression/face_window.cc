@@ -12,12 +12,15 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kCell = 8;               // samples between places that go through the lens one by one
-constexpr double kStrangeMm = 8;       // off the plane: hair, a hand, a frame of glasses
+constexpr int kCell = 8;          // samples between places that go through the lens one by one
+constexpr double kStrangeMm = 8;  // off the plane: hair, a hand, a frame of glasses
 constexpr int kLeastPoints = 12;
 
 // How far the part of the face lies behind the tip of the nose: level + across * right + slope * down.
-struct Plane { double level = 0, across = 0, slope = 0; bool known = false; };
+struct Plane {
+  double level = 0, across = 0, slope = 0;
+  bool known = false;
+};
 
 Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& box) {
   Plane plane;
@@ -30,7 +33,10 @@ Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& bo
         const FacePlace place = place_on(relief, head, right, down);
         if (!place.inside || !relief.known(place.x, place.y)) continue;
         const double behind = dot(minus(relief.point(place.x, place.y), head.tip_mm), head.away);
-        if (plane.known ? std::abs(behind - plane.level - plane.across * right - plane.slope * down) > kStrangeMm : behind < -20 || behind > 60) continue;
+        if (plane.known
+                ? std::abs(behind - plane.level - plane.across * right - plane.slope * down) > kStrangeMm
+                : behind < -20 || behind > 60)
+          continue;
         terms.add({1, right, down}, behind);
         ++count;
       }
@@ -44,9 +50,12 @@ Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& bo
 float luminance(const ImageView& image, int x, int y) {
   const std::uint8_t* row = image.row(y);
   switch (image.format) {
-    case PixelFormat::Rgb8: return static_cast<float>(row[3 * x] + row[3 * x + 1] + row[3 * x + 2]) / 3.0F;
-    case PixelFormat::Grey16: return static_cast<float>(row[2 * x] + 256 * row[2 * x + 1]) / 257.0F;
-    case PixelFormat::Grey8: break;
+    case PixelFormat::Rgb8:
+      return static_cast<float>(row[3 * x] + row[3 * x + 1] + row[3 * x + 2]) / 3.0F;
+    case PixelFormat::Grey16:
+      return static_cast<float>(row[2 * x] + 256 * row[2 * x + 1]) / 257.0F;
+    case PixelFormat::Grey8:
+      break;
   }
   return row[x];
 }
@@ -68,18 +77,22 @@ float sample(const ImageView& image, Vec2d at, int side) {
 // Source pixels of a lattice of cells, and between them.
 class Lattice {
  public:
-  Lattice(const FacePhoto& photo, const Plane& plane, const FaceWindow& window, std::pmr::memory_resource* memory)
+  Lattice(const FacePhoto& photo, const Plane& plane, const FaceWindow& window,
+          std::pmr::memory_resource* memory)
       : across_((window.columns - 1) / kCell + 2), nodes_(memory) {
     const int along = (window.rows - 1) / kCell + 2;
     nodes_.reserve(static_cast<std::size_t>(across_ * along));
     for (int j = 0; j < along; ++j)
-      for (int i = 0; i < across_; ++i) nodes_.push_back(pixel(photo, plane, window.right_mm(i * kCell), window.down_mm(j * kCell)));
+      for (int i = 0; i < across_; ++i)
+        nodes_.push_back(pixel(photo, plane, window.right_mm(i * kCell), window.down_mm(j * kCell)));
   }
   Vec2d at(int x, int y) const {
     const auto k = static_cast<std::size_t>(y / kCell * across_ + x / kCell);
     const double u = static_cast<double>(x % kCell) / kCell, v = static_cast<double>(y % kCell) / kCell;
     const auto across = static_cast<std::size_t>(across_);
-    const auto mix = [&](double a, double b, double c, double d) { return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d); };
+    const auto mix = [&](double a, double b, double c, double d) {
+      return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
+    };
     return {mix(nodes_[k].x, nodes_[k + 1].x, nodes_[k + across].x, nodes_[k + across + 1].x),
             mix(nodes_[k].y, nodes_[k + 1].y, nodes_[k + across].y, nodes_[k + across + 1].y)};
   }
@@ -88,9 +101,11 @@ class Lattice {
   static Vec2d pixel(const FacePhoto& photo, const Plane& plane, double right, double down) {
     const HeadSight& h = photo.head;
     const double behind = plane.level + plane.across * right + plane.slope * down;
-    const Vec3d p{h.tip_mm.x + right * h.right.x + down * h.down.x + behind * h.away.x, h.tip_mm.y + right * h.right.y + down * h.down.y + behind * h.away.y,
+    const Vec3d p{h.tip_mm.x + right * h.right.x + down * h.down.x + behind * h.away.x,
+                  h.tip_mm.y + right * h.right.y + down * h.down.y + behind * h.away.y,
                   h.tip_mm.z + right * h.right.z + down * h.down.z + behind * h.away.z};
-    return source_pixel(photo.calibration.left, photo.relief.rectified_from_left, 1, {0, 0}, {p.x / p.z, p.y / p.z});
+    return source_pixel(photo.calibration.left, photo.relief.rectified_from_left, 1, {0, 0},
+                        {p.x / p.z, p.y / p.z});
   }
   int across_;
   std::pmr::vector<Vec2d> nodes_;
@@ -99,7 +114,8 @@ class Lattice {
 }  // namespace
 
 double FaceWindow::between(double right_mm, double down_mm) const {
-  const double x = std::clamp(column(right_mm), 0.0, columns - 1.001), y = std::clamp(row(down_mm), 0.0, rows - 1.001);
+  const double x = std::clamp(column(right_mm), 0.0, columns - 1.001),
+               y = std::clamp(row(down_mm), 0.0, rows - 1.001);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const double u = x - x0, v = y - y0;
   return (1 - v) * ((1 - u) * static_cast<double>(at(x0, y0)) + u * static_cast<double>(at(x0 + 1, y0))) +
@@ -117,13 +133,14 @@ FaceWindow cut_window(const FacePhoto& photo, const WindowBox& box, StageContext
   const Lattice lattice(photo, plane, window, &context.scratch);
   const ImageView& image = photo.frame.left;
   const Vec2d a = lattice.at(0, 0), b = lattice.at(0, window.rows - 1);
-  const double pixels = std::hypot(b.x - a.x, b.y - a.y) / (window.rows - 1);   // a sample
+  const double pixels = std::hypot(b.x - a.x, b.y - a.y) / (window.rows - 1);  // a sample
   const int side = std::clamp(static_cast<int>(std::lround(pixels)), 1, 8);
   window.grey.reserve(static_cast<std::size_t>(window.columns * window.rows));
   for (int y = 0; y < window.rows; ++y)
     for (int x = 0; x < window.columns; ++x) {
       const Vec2d at = lattice.at(x, y);
-      if (!(at.x > side && at.y > side && at.x < image.width_px - side - 1 && at.y < image.height_px - side - 1)) {
+      if (!(at.x > side && at.y > side && at.x < image.width_px - side - 1 &&
+            at.y < image.height_px - side - 1)) {
         window.grey.clear();
         return window;
       }
@@ -133,8 +150,10 @@ FaceWindow cut_window(const FacePhoto& photo, const WindowBox& box, StageContext
 }
 
 double quantile(const FaceWindow& window, const WindowBox& box, double share, StageContext& context) {
-  const int x0 = std::max(0, static_cast<int>(window.column(box.right0_mm))), x1 = std::min(window.columns - 1, static_cast<int>(window.column(box.right1_mm)));
-  const int y0 = std::max(0, static_cast<int>(window.row(box.down0_mm))), y1 = std::min(window.rows - 1, static_cast<int>(window.row(box.down1_mm)));
+  const int x0 = std::max(0, static_cast<int>(window.column(box.right0_mm))),
+            x1 = std::min(window.columns - 1, static_cast<int>(window.column(box.right1_mm)));
+  const int y0 = std::max(0, static_cast<int>(window.row(box.down0_mm))),
+            y1 = std::min(window.rows - 1, static_cast<int>(window.row(box.down1_mm)));
   if (window.empty() || x1 < x0 || y1 < y0) return 0;
   std::pmr::vector<float> values(&context.scratch);
   values.reserve(static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1)));

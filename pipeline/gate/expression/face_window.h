@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FaceWindow: a part of the face as seen from in front of it, upright, every sample so many millimetres of skin: what is measured in it
-// is metric, however far away and however turned the person stands. Taken from the left picture at full size (or the mean of as many
-// pixels as a sample covers), through a plane laid into the part of the face that the relief knows.
-// Luminance: mean of the channels, 0 .. 255. Axes: right and down, millimetres from the tip of the nose along those of HeadSight.
-// Memory: context's scratch. Thread: worker. Errors: none; empty() where the relief or the picture ends.
+// FaceWindow: a part of the face as seen from in front of it, upright, every sample so many millimetres of
+// skin: what is measured in it is metric, however far away and however turned the person stands. Taken from
+// the left picture at full size (or the mean of as many pixels as a sample covers), through a plane laid into
+// the part of the face that the relief knows. Luminance: mean of the channels, 0 .. 255. Axes: right and
+// down, millimetres from the tip of the nose along those of HeadSight. Memory: context's scratch. Thread:
+// worker. Errors: none; empty() where the relief or the picture ends.
 #pragma once
 
 #include <memory_resource>
@@ -17,13 +18,15 @@
 
 namespace relievo::pipeline {
 
-struct WindowBox { double right0_mm, right1_mm, down0_mm, down1_mm; };
+struct WindowBox {
+  double right0_mm, right1_mm, down0_mm, down1_mm;
+};
 
 struct FaceWindow {
   explicit FaceWindow(std::pmr::memory_resource* memory) : grey(memory) {}
   WindowBox box{};
   int columns = 0, rows = 0;
-  std::pmr::vector<float> grey;      // row by row
+  std::pmr::vector<float> grey;  // row by row
 
   static constexpr double kStepMm = 0.5;
   bool empty() const { return grey.empty(); }
@@ -39,7 +42,7 @@ struct FaceWindow {
 // What the window is cut from.
 struct FacePhoto {
   const StereoFrame& frame;
-  const StereoCalibration& calibration;   // of the frame's size
+  const StereoCalibration& calibration;  // of the frame's size
   const Relief& relief;
   const HeadSight& head;
 };

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FaceWatch: where faces are in the small live picture, fast enough for every picture (Haar cascades: Viola and Jones
-// 2001; Lienhart 2002). It asks less than FaceFinder (match/region): faces of a size that people at the machine have, and other
-// tries than the first only where that finds nothing. What it misses or imagines, the relief and the history set right.
-// Thread: one caller at a time. Memory: OpenCV's own, bounded by the size of the picture.
+// FaceWatch: where faces are in the small live picture, fast enough for every picture (Haar cascades: Viola
+// and Jones 2001; Lienhart 2002). It asks less than FaceFinder (match/region): faces of a size that people at
+// the machine have, and other tries than the first only where that finds nothing. What it misses or imagines,
+// the relief and the history set right. Thread: one caller at a time. Memory: OpenCV's own, bounded by the
+// size of the picture.
 #pragma once
 
 #include <array>
@@ -17,21 +18,21 @@
 namespace relievo::pipeline {
 
 struct FaceHit {
-  Vec2d centre_px{};      // between the eyes and the mouth, pixels of the relief
-  double width_px = 0;    // about 150 mm on a grown-up
-  int votes = 0;          // overlapping hits: 4 doubtful, 30 certain
-  bool frontal = true;    // false: the profile cascade saw it
+  Vec2d centre_px{};    // between the eyes and the mouth, pixels of the relief
+  double width_px = 0;  // about 150 mm on a grown-up
+  int votes = 0;        // overlapping hits: 4 doubtful, 30 certain
+  bool frontal = true;  // false: the profile cascade saw it
 };
 
 struct FaceHits {
-  std::array<FaceHit, 8> hit{};   // the most certain one first
+  std::array<FaceHit, 8> hit{};  // the most certain one first
   int count = 0;
 };
 
 struct FaceWatchOptions {
   std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-  int search_height_px = 180;      // the picture is reduced to this height
-  double smallest_face = 0.2;      // width of the smallest face, share of the picture's height
+  int search_height_px = 180;                                   // the picture is reduced to this height
+  double smallest_face = 0.2;  // width of the smallest face, share of the picture's height
   int least_votes = 4;
   Result<void> check() const;
 };

@@ -22,19 +22,24 @@ constexpr std::string_view kFrontalSha = "7b0c967d9abbdfbde025eb9c786947d151b642
 constexpr std::string_view kProfile = "haarcascade_profileface.xml";
 constexpr std::string_view kProfileSha = "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d";
 
-constexpr double kLeanDeg = 22;            // the cascades stand 15 themselves
+constexpr double kLeanDeg = 22;  // the cascades stand 15 themselves
 constexpr double kDegree = std::numbers::pi / 180;
 
-Result<void> read_cascade(const std::filesystem::path& path, std::string_view sha, cv::CascadeClassifier& cascade) {
+Result<void> read_cascade(const std::filesystem::path& path, std::string_view sha,
+                          cv::CascadeClassifier& cascade) {
   RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, sha));
-  const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
+  const cv::FileStorage file(text,
+                             cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
   if (!cascade.read(file.getFirstTopLevelNode()))
-    return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}.at(path.string());
+    return Error{Errc::LibraryFailed,
+                 "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
+        .at(path.string());
   return {};
 }
 
 bool same_face(const FaceHit& a, const FaceHit& b) {
-  return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) < 0.6 * std::max(a.width_px, b.width_px);
+  return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) <
+         0.6 * std::max(a.width_px, b.width_px);
 }
 
 }  // namespace
@@ -43,7 +48,8 @@ struct FaceWatch::Cascades {
   FaceWatchOptions options;
   cv::CascadeClassifier frontal, profile;
 
-  void look(cv::CascadeClassifier& cascade, const cv::Mat& grey, double scale, bool mirrored, FaceHits& hits) {
+  void look(cv::CascadeClassifier& cascade, const cv::Mat& grey, double scale, bool mirrored,
+            FaceHits& hits) {
     const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
@@ -52,7 +58,11 @@ struct FaceWatch::Cascades {
       const cv::Rect& box = boxes[i];
       double x = box.x + (box.width - 1) / 2.0;
       if (mirrored) x = grey.cols - 1 - x;
-      add({{(x + 0.5) * scale - 0.5, (box.y + (box.height - 1) / 2.0 + 0.5) * scale - 0.5}, box.width * scale, votes[i], &cascade == &frontal}, hits);
+      add({{(x + 0.5) * scale - 0.5, (box.y + (box.height - 1) / 2.0 + 0.5) * scale - 0.5},
+           box.width * scale,
+           votes[i],
+           &cascade == &frontal},
+          hits);
     }
   }
 
@@ -66,8 +76,10 @@ struct FaceWatch::Cascades {
     const double sine = std::sin(lean_deg * kDegree), cosine = std::cos(lean_deg * kDegree);
     for (int i = before; i < hits.count; ++i) {
       Vec2d& at = hits.hit[static_cast<std::size_t>(i)].centre_px;
-      const double x = (at.x + 0.5) / scale - 0.5 - static_cast<double>(middle.x), y = (at.y + 0.5) / scale - 0.5 - static_cast<double>(middle.y);
-      at = {(cosine * x - sine * y + static_cast<double>(middle.x) + 0.5) * scale - 0.5, (sine * x + cosine * y + static_cast<double>(middle.y) + 0.5) * scale - 0.5};
+      const double x = (at.x + 0.5) / scale - 0.5 - static_cast<double>(middle.x),
+                   y = (at.y + 0.5) / scale - 0.5 - static_cast<double>(middle.y);
+      at = {(cosine * x - sine * y + static_cast<double>(middle.x) + 0.5) * scale - 0.5,
+            (sine * x + cosine * y + static_cast<double>(middle.y) + 0.5) * scale - 0.5};
     }
   }
 
@@ -78,14 +90,18 @@ struct FaceWatch::Cascades {
         if (hit.votes > known.votes) known = hit;
         return;
       }
-    if (hits.count < static_cast<int>(hits.hit.size())) hits.hit[static_cast<std::size_t>(hits.count++)] = hit;
+    if (hits.count < static_cast<int>(hits.hit.size()))
+      hits.hit[static_cast<std::size_t>(hits.count++)] = hit;
   }
 };
 
 Result<void> FaceWatchOptions::check() const {
-  if (search_height_px < 60 || search_height_px > 2000) return Error{Errc::InvalidInput, "search_height_px must lie in 60 .. 2000"}.at("face-watch");
-  if (!(smallest_face > 0.02 && smallest_face < 1)) return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-watch");
-  if (least_votes < 1 || least_votes > 1000) return Error{Errc::InvalidInput, "least_votes must lie in 1 .. 1000"}.at("face-watch");
+  if (search_height_px < 60 || search_height_px > 2000)
+    return Error{Errc::InvalidInput, "search_height_px must lie in 60 .. 2000"}.at("face-watch");
+  if (!(smallest_face > 0.02 && smallest_face < 1))
+    return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-watch");
+  if (least_votes < 1 || least_votes > 1000)
+    return Error{Errc::InvalidInput, "least_votes must lie in 1 .. 1000"}.at("face-watch");
   return {};
 }
 
@@ -104,17 +120,25 @@ Result<FaceWatch> FaceWatch::open(const FaceWatchOptions& options) {
     RELIEVO_TRY(read_cascade(dir / kProfile, kProfileSha, cascades->profile));
     return FaceWatch(std::move(cascades));
   } catch (const cv::Exception&) {
-    return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}.at(options.cascade_dir);
+    return Error{Errc::LibraryFailed,
+                 "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
+        .at(options.cascade_dir);
   }
 }
 
 Result<FaceHits> FaceWatch::look(const Relief& relief) {
-  if (relief.width_px <= 0 || relief.height_px <= 0) return Error{Errc::InvalidInput, "a picture without pixels has no face"}.at("face-watch");
+  if (relief.width_px <= 0 || relief.height_px <= 0)
+    return Error{Errc::InvalidInput, "a picture without pixels has no face"}.at("face-watch");
   try {
-    const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1, const_cast<std::uint8_t*>(relief.grey.data()));
-    const double scale = std::max(1.0, static_cast<double>(relief.height_px) / cascades_->options.search_height_px);
+    const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1,
+                          const_cast<std::uint8_t*>(relief.grey.data()));
+    const double scale =
+        std::max(1.0, static_cast<double>(relief.height_px) / cascades_->options.search_height_px);
     cv::Mat grey;
-    cv::resize(picture, grey, {static_cast<int>(std::lround(relief.width_px / scale)), static_cast<int>(std::lround(relief.height_px / scale))}, 0, 0, cv::INTER_AREA);
+    cv::resize(picture, grey,
+               {static_cast<int>(std::lround(relief.width_px / scale)),
+                static_cast<int>(std::lround(relief.height_px / scale))},
+               0, 0, cv::INTER_AREA);
     FaceHits hits{};
     cascades_->look(cascades_->frontal, grey, scale, false, hits);
     if (hits.count == 0) {  // poor or one-sided light
@@ -135,7 +159,8 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
       if (worth(hits.hit[i]) > worth(hits.hit[0])) std::swap(hits.hit[i], hits.hit[0]);
     return hits;
   } catch (const cv::Exception&) {
-    return Error{Errc::LibraryFailed, "OpenCV gave up looking for faces in the live picture"}.at("face-watch");
+    return Error{Errc::LibraryFailed, "OpenCV gave up looking for faces in the live picture"}.at(
+        "face-watch");
   }
 }
 

@@ -9,11 +9,12 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kUpMm = 95, kDownMm = 35;      // of the tip of the nose: brows to mouth, no shoulders
-constexpr double kOwnMm = 60;                   // a surface with so much aside of the tip is the head's,
-constexpr double kOwnMm2 = 300;                 // where it covers so much there
-constexpr double kOwnShare = 0.6;               // of a field, for wide hair, a hat, the back of a head turned by 25 degrees (a third): fuller is what touches the head
-constexpr double kLeastSeen = 0.25;             // of a field: the rest is out of the picture
+constexpr double kUpMm = 95, kDownMm = 35;  // of the tip of the nose: brows to mouth, no shoulders
+constexpr double kOwnMm = 60;               // a surface with so much aside of the tip is the head's,
+constexpr double kOwnMm2 = 300;             // where it covers so much there
+constexpr double kOwnShare = 0.6;    // of a field, for wide hair, a hat, the back of a head turned by 25
+                                     // degrees (a third): fuller is what touches the head
+constexpr double kLeastSeen = 0.25;  // of a field: the rest is out of the picture
 constexpr std::size_t kSurfaces = 256;
 
 // The pixels of a rectangle before the head, `right` to the picture's right of the tip.
@@ -23,12 +24,15 @@ struct Field {
 };
 
 Field field(const Relief& relief, const Vec3d& tip, double right0, double right1, double z) {
-  const Vec2d a = relief.pixel({tip.x + right0, tip.y - kUpMm, z}), b = relief.pixel({tip.x + right1, tip.y + kDownMm, z});
-  return {static_cast<int>(std::ceil(a.x)), static_cast<int>(std::floor(b.x)), static_cast<int>(std::ceil(a.y)), static_cast<int>(std::floor(b.y))};
+  const Vec2d a = relief.pixel({tip.x + right0, tip.y - kUpMm, z}),
+              b = relief.pixel({tip.x + right1, tip.y + kDownMm, z});
+  return {static_cast<int>(std::ceil(a.x)), static_cast<int>(std::floor(b.x)),
+          static_cast<int>(std::ceil(a.y)), static_cast<int>(std::floor(b.y))};
 }
 
 Field within(const Relief& relief, const Field& f) {
-  return {std::max(f.x0, 0), std::min(f.x1, relief.width_px - 1), std::max(f.y0, 0), std::min(f.y1, relief.height_px - 1)};
+  return {std::max(f.x0, 0), std::min(f.x1, relief.width_px - 1), std::max(f.y0, 0),
+          std::min(f.y1, relief.height_px - 1)};
 }
 
 bool level_with(const Vec3d& tip, float depth_mm) {
@@ -43,7 +47,8 @@ std::array<bool, kSurfaces> own_surfaces(const Relief& relief, const Vec3d& tip)
   for (int y = head.y0; y <= head.y1; ++y)
     for (int x = head.x0; x <= head.x1; ++x) {
       const std::size_t i = relief.index(x, y);
-      if (relief.surface[i] != 0 && relief.surface[i] < kSurfaces && level_with(tip, relief.depth_mm[i])) ++pixels[relief.surface[i]];
+      if (relief.surface[i] != 0 && relief.surface[i] < kSurfaces && level_with(tip, relief.depth_mm[i]))
+        ++pixels[relief.surface[i]];
     }
   std::array<bool, kSurfaces> own{};
   const double pixel_mm = tip.z / relief.focal_px;
@@ -61,7 +66,8 @@ double beside_share(const Relief& relief, const HeadSight& head) {
   for (const double side : {-1.0, 1.0}) {
     // Seen at the depth of the ears.
     const double a = side * kBesideInnerMm, b = side * kBesideOuterMm;
-    const Field whole = field(relief, tip, std::min(a, b), std::max(a, b), tip.z + 60), seen = within(relief, whole);
+    const Field whole = field(relief, tip, std::min(a, b), std::max(a, b), tip.z + 60),
+                seen = within(relief, whole);
     if (seen.pixels() < kLeastSeen * whole.pixels()) continue;
     int foreign = 0, owned = 0;
     for (int y = seen.y0; y <= seen.y1; ++y)

@@ -1,20 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Something beside the head at the depth of the face: somebody else's head that no cascade knows for a face, a hand, a bag. What is
-// matched and measured there would be taken for a part of this person. What lies behind the head, however cluttered, is cut away by its depth and does no harm;
-// of it nothing is said. Frame: that of the relief, millimetres. Memory: none. Thread: any. Errors: none.
+// Something beside the head at the depth of the face: somebody else's head that no cascade knows for a face,
+// a hand, a bag. What is matched and measured there would be taken for a part of this person. What lies
+// behind the head, however cluttered, is cut away by its depth and does no harm; of it nothing is said.
+// Frame: that of the relief, millimetres. Memory: none. Thread: any. Errors: none.
 #pragma once
 
 #include "pipeline/gate/head/head_sight.h"
 
 namespace relievo::pipeline {
 
-// Of two fields beside the head, level with the face, kBesideInnerMm to kBesideOuterMm aside from the tip of the nose, the share of the fuller
-// one that something stands in, from kBesideBeforeMm before the tip to kBesideBehindMm behind it. Surfaces that reach into the head are
-// its own (hair, a hat, its back when it is turned), up to three fifths of the field: a bag held against the head grows into one surface with it.
+// Of two fields beside the head, level with the face, kBesideInnerMm to kBesideOuterMm aside from the tip of
+// the nose, the share of the fuller one that something stands in, from kBesideBeforeMm before the tip to
+// kBesideBehindMm behind it. Surfaces that reach into the head are its own (hair, a hat, its back when it is
+// turned), up to three fifths of the field: a bag held against the head grows into one surface with it.
 double beside_share(const Relief& relief, const HeadSight& head);
 
-inline constexpr double kBesideInnerMm = 110, kBesideOuterMm = 180, kBesideBeforeMm = 120, kBesideBehindMm = 150;
+inline constexpr double kBesideInnerMm = 110, kBesideOuterMm = 180, kBesideBeforeMm = 120,
+                        kBesideBehindMm = 150;
 
 }  // namespace relievo::pipeline

@@ -11,17 +11,17 @@ namespace {
 
 // The face about the hint's middle, in widths of the hint (150 mm).
 constexpr double kHalfWidth = 0.42, kUp = 0.55, kDown = 0.5;
-constexpr double kGap = 0.3;                   // beside something near, one of the cameras does not see what is behind
+constexpr double kGap = 0.3;  // beside something near, one of the cameras does not see what is behind
 constexpr double kLeastFront = 0.04, kLeastBehind = 0.10;  // share of the face
-constexpr double kMostStepMm = 160;            // what is further behind is not the face
+constexpr double kMostStepMm = 160;                        // what is further behind is not the face
 // Where the middle of the covered face may lie: a neck is lower, an ear further aside.
 constexpr double kAside = 0.3, kBelow = 0.36;
 constexpr std::size_t kSurfaces = 8;
 
 struct Piece {
   int name = 0, pixels = 0;
-  double sum_x = 0, sum_y = 0;                 // from the hint's middle, widths
-  std::array<int, kSurfaces> before{};         // meetings with each other piece that lies behind it
+  double sum_x = 0, sum_y = 0;          // from the hint's middle, widths
+  std::array<int, kSurfaces> before{};  // meetings with each other piece that lies behind it
 };
 
 struct Face {
@@ -59,7 +59,8 @@ struct Face {
     for (int i = 0; i < steps; ++i, x += dx, y += dy, ++since) {
       if (!inside(x, y) || !relief.known(x, y)) continue;
       const std::size_t here = relief.index(x, y);
-      if (any && relief.surface[here] != relief.surface[last] && since <= kGap * hint.width_px) meet(last, here);
+      if (any && relief.surface[here] != relief.surface[last] && since <= kGap * hint.width_px)
+        meet(last, here);
       last = here;
       since = 0;
       any = true;
@@ -71,10 +72,12 @@ struct Face {
     if (step < kStepMm || step > kMostStepMm) return;
     Piece* front = named(relief.surface[a]);
     const Piece* behind = named(relief.surface[b]);
-    if (front != nullptr && behind != nullptr) ++front->before[static_cast<std::size_t>(behind - piece.data())];
+    if (front != nullptr && behind != nullptr)
+      ++front->before[static_cast<std::size_t>(behind - piece.data())];
   }
   bool of_face(const Piece& p) const {
-    return p.pixels > kLeastBehind * all && std::abs(p.sum_x) < kAside * p.pixels && p.sum_y < kBelow * p.pixels;
+    return p.pixels > kLeastBehind * all && std::abs(p.sum_x) < kAside * p.pixels &&
+           p.sum_y < kBelow * p.pixels;
   }
 };
 
@@ -83,8 +86,10 @@ struct Face {
 double covered_share(const Relief& relief, const HeadHint& hint) {
   if (!(hint.width_px > 4) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px)) return 0;
   Face face{relief, hint};
-  const int x0 = static_cast<int>(hint.centre_px.x - kHalfWidth * hint.width_px), x1 = static_cast<int>(hint.centre_px.x + kHalfWidth * hint.width_px);
-  const int y0 = static_cast<int>(hint.centre_px.y - kUp * hint.width_px), y1 = static_cast<int>(hint.centre_px.y + kDown * hint.width_px);
+  const int x0 = static_cast<int>(hint.centre_px.x - kHalfWidth * hint.width_px),
+            x1 = static_cast<int>(hint.centre_px.x + kHalfWidth * hint.width_px);
+  const int y0 = static_cast<int>(hint.centre_px.y - kUp * hint.width_px),
+            y1 = static_cast<int>(hint.centre_px.y + kDown * hint.width_px);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
       if (face.inside(x, y)) face.count(x, y);
@@ -95,7 +100,8 @@ double covered_share(const Relief& relief, const HeadHint& hint) {
   for (const Piece& front : face.piece) {
     if (front.pixels < kLeastFront * face.all) continue;
     bool before = false;
-    for (std::size_t i = 0; i < kSurfaces; ++i) before |= front.before[i] >= least_px && face.of_face(face.piece[i]);
+    for (std::size_t i = 0; i < kSurfaces; ++i)
+      before |= front.before[i] >= least_px && face.of_face(face.piece[i]);
     covered += before ? front.pixels : 0;
   }
   return face.all > 0 ? static_cast<double>(covered) / face.all : 0;

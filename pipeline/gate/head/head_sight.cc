@@ -18,13 +18,13 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kReachMm = 78;            // of the tip of the nose: brows and chin, little hair
+constexpr double kReachMm = 78;  // of the tip of the nose: brows and chin, little hair
 constexpr std::size_t kLeastPoints = 60;
-constexpr double kNoseReachMm = 27;        // left out where the slope of the face is measured
-constexpr double kMeanSlopeDeg = 2.6;      // of the average head that looks straight (hal/sim, seeds 1 and 2)
-constexpr double kSettledMm = 6;           // a tip found anew within that of the old one: the mirror plane holds
-constexpr int kRounds = 3;                 // of that
-constexpr double kLeastNoseMm = 10;        // a nose stands out further
+constexpr double kNoseReachMm = 27;    // left out where the slope of the face is measured
+constexpr double kMeanSlopeDeg = 2.6;  // of the average head that looks straight (hal/sim, seeds 1 and 2)
+constexpr double kSettledMm = 6;       // a tip found anew within that of the old one: the mirror plane holds
+constexpr int kRounds = 3;             // of that
+constexpr double kLeastNoseMm = 10;    // a nose stands out further
 constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
 
 std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
@@ -37,13 +37,14 @@ std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, Sta
     for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
       if (!relief.inside(x, y) || !relief.known(x, y)) continue;
       const Vec3d p = relief.point(x, y), d = minus(p, tip);
-      if (dot(d, d) < kReachMm * kReachMm && d.z > -12 && points.size() < points.capacity()) points.push_back(p);
+      if (dot(d, d) < kReachMm * kReachMm && d.z > -12 && points.size() < points.capacity())
+        points.push_back(p);
     }
   return points;
 }
 
-// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares, three times: the later ones
-// without what the one before calls strange.
+// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares,
+// three times: the later ones without what the one before calls strange.
 struct FaceForm {
   double level = 0, slope = 0, bend = 0;
   bool known = false;
@@ -79,7 +80,8 @@ double nose_height(std::span<const Vec3d> points, const HeadSight& head) {
     count[right > 0 ? 1 : 0] += 1;
   }
   if (count[0] < 3 && count[1] < 3) return 0;
-  if (count[0] < 3 || count[1] < 3) return (sum[0] + sum[1]) / (count[0] + count[1]);  // the far cheek is out of sight
+  if (count[0] < 3 || count[1] < 3)
+    return (sum[0] + sum[1]) / (count[0] + count[1]);  // the far cheek is out of sight
   return (sum[0] / count[0] + sum[1] / count[1]) / 2;
 }
 
@@ -139,20 +141,25 @@ bool measure_about(const Relief& relief, StageContext& context, HeadSight& head,
     tried.relief_mm = nose_height(points, tried);
     tried.known = true;
     const bool has_nose = tried.relief_mm > kLeastNoseMm, best_has = best.relief_mm > kLeastNoseMm;
-    if (!best.known || (has_nose != best_has ? has_nose : plane.price < least)) best = tried, least = plane.price;
+    if (!best.known || (has_nose != best_has ? has_nose : plane.price < least))
+      best = tried, least = plane.price;
   }
   head = best;
   return fit_face(points, head, form);
 }
 
-// The tip out of the profile: where it has hardly moved, the mirror plane holds, else that is looked for again about the new one.
-void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& context, HeadSight& head, FaceForm& form) {
+// The tip out of the profile: where it has hardly moved, the mirror plane holds, else that is looked for
+// again about the new one.
+void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& context, HeadSight& head,
+                FaceForm& form) {
   for (int round = 0; round < kRounds; ++round) {
     HeadSight again = head;
     FaceForm form_again;
     if (!tip_of_profile(relief, hint, head, context, again.tip_mm)) return;
     const bool settled = length(minus(again.tip_mm, head.tip_mm)) < kSettledMm;
-    if (!(settled ? fit_face(points_about(relief, again.tip_mm, context), again, form_again) : measure_about(relief, context, again, form_again))) return;
+    if (!(settled ? fit_face(points_about(relief, again.tip_mm, context), again, form_again)
+                  : measure_about(relief, context, again, form_again)))
+      return;
     head = again;
     form = form_again;
     if (settled) return;
@@ -163,7 +170,8 @@ void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& contex
 
 HeadSight measure_head(const Relief& relief, const HeadHint& hint, StageContext& context) {
   HeadSight head;
-  if (!(hint.width_px > 0) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px)) return head;
+  if (!(hint.width_px > 0) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px))
+    return head;
   Arena::Mark mark(context.scratch);
   if (!rough_tip(relief, hint, context, head.tip_mm)) return head;
   FaceForm form;

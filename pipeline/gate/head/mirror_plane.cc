@@ -13,8 +13,10 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kUprightDeg = 7;    // heads are mostly upright: one leaning by so much must mirror itself better by a square millimetre
-// Of a turned head's own plane a fifth of the images falls where nothing is known, of one that sends the face away most.
+constexpr double kUprightDeg =
+    7;  // heads are mostly upright: one leaning by so much must mirror itself better by a square millimetre
+// Of a turned head's own plane a fifth of the images falls where nothing is known, of one that sends the face
+// away most.
 constexpr double kMostUnknown = 0.35, kPriceOfUnknown = 100;
 constexpr double kMostOffsetMm = 15;  // of a head's mirror plane from the tip of its nose
 
@@ -24,11 +26,12 @@ struct Search {
   const Vec3d& tip;
   const HeadAxes& axes;
   double limit_mm;
-  bool upright = true;                // whether leaning has a price
+  bool upright = true;  // whether leaning has a price
 
-  // Mean squared distance, in depth, between the points' mirror images and the relief behind them. An image that falls where
-  // nothing is known costs a third of the limit, and more where many do: else planes that send the face away would look good.
-  // Given up, and `least` returned, as soon as it cannot be less than that any more.
+  // Mean squared distance, in depth, between the points' mirror images and the relief behind them. An image
+  // that falls where nothing is known costs a third of the limit, and more where many do: else planes that
+  // send the face away would look good. Given up, and `least` returned, as soon as it cannot be less than
+  // that any more.
   double cost(const MirrorPlane& plane, std::size_t every, double least = 1e300) const {
     const Vec3d n = normal_of(plane, axes);
     const double lean = upright ? plane.roll_deg / kUprightDeg : 0;
@@ -42,7 +45,9 @@ struct Search {
       const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       double off = limit_mm / 3;
       if (!relief.inside(x, y) || !relief.known(x, y)) ++unknown;
-      else off = std::min(limit_mm, std::abs(image.z - static_cast<double>(relief.depth_mm[relief.index(x, y)])));
+      else
+        off =
+            std::min(limit_mm, std::abs(image.z - static_cast<double>(relief.depth_mm[relief.index(x, y)])));
       total += off * off;
       if (total > most) return least;
     }
@@ -89,7 +94,8 @@ Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes) {
   return along(scaled(turned, std::cos(roll)), -std::sin(roll), axes.down);
 }
 
-std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points, const Vec3d& tip, const HeadAxes& axes, double limit_mm) {
+std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points,
+                                              const Vec3d& tip, const HeadAxes& axes, double limit_mm) {
   const Search search{relief, points, tip, axes, limit_mm};
   const std::size_t every = std::max<std::size_t>(1, points.size() / 150);
   std::array<MirrorPlane, 3> best;

@@ -17,10 +17,11 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kStickOutMm = 60;         // nothing of a face is nearer than its middle by more
+constexpr double kStickOutMm = 60;  // nothing of a face is nearer than its middle by more
 constexpr std::size_t kLeastPoints = 60;
-// The face about the hint's middle, and where on it a nose can be, in widths of the hint (150 mm): heads bowed by 20 degrees either way have it at 0.03
-// and at 0.23; a tongue is at 0.3 or lower, a brow at -0.15 or higher.
+// The face about the hint's middle, and where on it a nose can be, in widths of the hint (150 mm): heads
+// bowed by 20 degrees either way have it at 0.03 and at 0.23; a tongue is at 0.3 or lower, a brow at -0.15 or
+// higher.
 constexpr double kFaceAside = 0.30, kFaceUp = 0.32, kFaceDown = 0.40;
 constexpr double kTipAside = 0.24, kTipUp = -0.05, kTipDown = 0.27;
 
@@ -40,11 +41,14 @@ struct PixelBox {
 };
 
 PixelBox box_about(const Relief& relief, const Vec2d& at, double left, double right, double up, double down) {
-  return {std::max(0, static_cast<int>(at.x - left)), std::min(relief.width_px - 1, static_cast<int>(at.x + right)), std::max(0, static_cast<int>(at.y - up)),
+  return {std::max(0, static_cast<int>(at.x - left)),
+          std::min(relief.width_px - 1, static_cast<int>(at.x + right)),
+          std::max(0, static_cast<int>(at.y - up)),
           std::min(relief.height_px - 1, static_cast<int>(at.y + down))};
 }
 
-// The nose along the mirror plane: how far it stands out (towards where the head faces) every kBinMm downwards.
+// The nose along the mirror plane: how far it stands out (towards where the head faces) every kBinMm
+// downwards.
 struct Profile {
   std::array<double, kBins> out{};
   std::array<bool, kBins> known{};
@@ -52,7 +56,9 @@ struct Profile {
 };
 
 // Points about the old tip, in the head's own axes made upright by its pitch.
-struct NosePoint { double right, down, out; };
+struct NosePoint {
+  double right, down, out;
+};
 
 struct HeldAxes {
   Vec3d right, down, out;
@@ -74,7 +80,7 @@ Profile profile_of(std::span<const NosePoint> points, double midline_mm) {
     count[static_cast<std::size_t>(bin)] += 1;
   }
   Profile profile;
-  for (std::size_t i = 0; i < kBins; ++i) {   // smoothed over three bins
+  for (std::size_t i = 0; i < kBins; ++i) {  // smoothed over three bins
     double s = 0, n = 0;
     for (std::size_t k = i == 0 ? 0 : i - 1; k <= std::min<std::size_t>(i + 1, kBins - 1); ++k) {
       const double weight = k == i ? 2 : 1;
@@ -90,19 +96,26 @@ Profile profile_of(std::span<const NosePoint> points, double midline_mm) {
 double corner_below(const Profile& profile, int bin) {
   double most = 0;
   for (int k = bin + 1; k < kBins && k <= bin + static_cast<int>(kCornerMm / kBinMm); ++k)
-    if (profile.known[static_cast<std::size_t>(k)]) most = std::max(most, profile.out[static_cast<std::size_t>(bin)] - profile.out[static_cast<std::size_t>(k)]);
+    if (profile.known[static_cast<std::size_t>(k)])
+      most = std::max(most,
+                      profile.out[static_cast<std::size_t>(bin)] - profile.out[static_cast<std::size_t>(k)]);
   return most;
 }
 
-// The foremost bin within the window; of several peaks, each with a corner below it, the uppermost: what is put out below the nose is a tongue.
+// The foremost bin within the window; of several peaks, each with a corner below it, the uppermost: what is
+// put out below the nose is a tongue.
 int peak_of(const Profile& profile, double from_mm, double to_mm) {
   int best = -1, upper = -1;
   const auto at = [&](int k) { return profile.out[static_cast<std::size_t>(k)]; };
   for (int k = 0; k < kBins; ++k)
-    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm && Profile::down(k) <= to_mm && (best < 0 || at(k) > at(best))) best = k;
+    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm &&
+        Profile::down(k) <= to_mm && (best < 0 || at(k) > at(best)))
+      best = k;
   if (best < 0) return best;
   for (int k = 0; k < best; ++k)
-    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm && (upper < 0 || at(k) > at(upper)) && corner_below(profile, k) > kNoseMm) upper = k;
+    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm &&
+        (upper < 0 || at(k) > at(upper)) && corner_below(profile, k) > kNoseMm)
+      upper = k;
   return upper >= 0 ? upper : best;
 }
 
@@ -111,22 +124,29 @@ double midline_at(std::span<const NosePoint> points, double midline_mm, double d
   ThreeTerms terms;
   for (const NosePoint& p : points) {
     const double right = p.right - midline_mm;
-    if (std::abs(right) < kNoseAsideMm && std::abs(p.down - down_mm) < kPeakMm) terms.add({1, right, right * right}, p.out);
+    if (std::abs(right) < kNoseAsideMm && std::abs(p.down - down_mm) < kPeakMm)
+      terms.add({1, right, right * right}, p.out);
   }
   const auto k = terms.solve();
   if (!k || (*k)[2] > -0.01) return midline_mm;
   return midline_mm + std::clamp(-(*k)[1] / (2 * (*k)[2]), -kRidgeHalfMm, kRidgeHalfMm);
 }
 
-struct NoseEnd { double down = 0, out = 0; };
+struct NoseEnd {
+  double down = 0, out = 0;
+};
 
-// About the peak: the mean of the foremost points, since that of all would lie under the skin. Nothing where there are none.
+// About the peak: the mean of the foremost points, since that of all would lie under the skin. Nothing where
+// there are none.
 std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, double down_mm) {
-  const auto about = [&](const NosePoint& p) { return std::hypot(p.right - midline_mm, p.down - down_mm) < kTipMm; };
+  const auto about = [&](const NosePoint& p) {
+    return std::hypot(p.right - midline_mm, p.down - down_mm) < kTipMm;
+  };
   const auto end = std::partition(points.begin(), points.end(), about);
   const auto count = std::min<std::ptrdiff_t>(kTipPoints, end - points.begin());
   if (count == 0) return std::nullopt;
-  std::nth_element(points.begin(), points.begin() + count - 1, end, [](const NosePoint& a, const NosePoint& b) { return a.out > b.out; });
+  std::nth_element(points.begin(), points.begin() + count - 1, end,
+                   [](const NosePoint& a, const NosePoint& b) { return a.out > b.out; });
   NoseEnd mean;
   for (const NosePoint& p : points.first(static_cast<std::size_t>(count))) {
     mean.down += p.down / static_cast<double>(count), mean.out += p.out / static_cast<double>(count);
@@ -134,7 +154,8 @@ std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, 
   return mean;
 }
 
-std::pmr::vector<NosePoint> points_about(const Relief& relief, const Vec3d& tip, const HeldAxes& axes, StageContext& context) {
+std::pmr::vector<NosePoint> points_about(const Relief& relief, const Vec3d& tip, const HeldAxes& axes,
+                                         StageContext& context) {
   std::pmr::vector<NosePoint> points(&context.scratch);
   const double reach = (kBins / 2 + 1) * kBinMm, px = reach * relief.focal_px / tip.z;
   const PixelBox box = box_about(relief, relief.pixel(tip), px, px, px, px);
@@ -144,7 +165,8 @@ std::pmr::vector<NosePoint> points_about(const Relief& relief, const Vec3d& tip,
     for (int x = box.x0; x <= box.x1; ++x) {
       if (!relief.known(x, y)) continue;
       const NosePoint p = axes.of(minus(relief.point(x, y), tip));
-      if (std::abs(p.right) < 2 * kNoseAsideMm && std::abs(p.down) < reach && std::abs(p.out) < kStickOutMm) points.push_back(p);
+      if (std::abs(p.right) < 2 * kNoseAsideMm && std::abs(p.down) < reach && std::abs(p.out) < kStickOutMm)
+        points.push_back(p);
     }
   return points;
 }
@@ -155,7 +177,8 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
   std::pmr::vector<Vec3d> points(&context.scratch);
   std::pmr::vector<float> depth(&context.scratch);
   const double w = hint.width_px;
-  const PixelBox box = box_about(relief, hint.centre_px, kFaceAside * w, kFaceAside * w, kFaceUp * w, kFaceDown * w);
+  const PixelBox box =
+      box_about(relief, hint.centre_px, kFaceAside * w, kFaceAside * w, kFaceUp * w, kFaceDown * w);
   if (box.empty()) return false;
   points.reserve(box.room());
   depth.reserve(box.room());
@@ -180,19 +203,22 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
     const double u = (at.x - hint.centre_px.x) / w, v = (at.y - hint.centre_px.y) / w;
     return std::abs(u) < kTipAside && v > kTipUp && v < kTipDown;
   };
-  const auto candidates = static_cast<std::size_t>(std::partition(points.begin(), points.end(), may_be_tip) - points.begin());
+  const auto candidates =
+      static_cast<std::size_t>(std::partition(points.begin(), points.end(), may_be_tip) - points.begin());
   if (candidates < kLeastPoints) return false;
   tip = outstanding_tip(points, candidates);
   return true;
 }
 
-bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadSight& head, StageContext& context, Vec3d& tip) {
+bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadSight& head, StageContext& context,
+                    Vec3d& tip) {
   Arena::Mark mark(context.scratch);
   const HeldAxes axes(head);
   std::pmr::vector<NosePoint> points = points_about(relief, head.tip_mm, axes, context);
   // The hint's middle, at the depth of the tip: from there the window is counted.
   const Vec3d middle = relief.point(hint.centre_px.x, hint.centre_px.y, head.tip_mm.z);
-  const double hint_mm = hint.width_px * head.tip_mm.z / relief.focal_px, centre = axes.of(minus(middle, head.tip_mm)).down;
+  const double hint_mm = hint.width_px * head.tip_mm.z / relief.focal_px,
+               centre = axes.of(minus(middle, head.tip_mm)).down;
   double midline = 0;
   int peak = -1;
   for (int round = 0; round < 2; ++round) {

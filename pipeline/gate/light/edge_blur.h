@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How blurred a face is, in millimetres on the face, whoever's it is: from how much its edges lose when they are blurred once more by a
-// known width (after Zhuo and Sim, Defocus map estimation from a single image, Pattern Recognition 44, 2011). Contrast cancels out; what
-// noise adds is measured on the flattest part of the face and taken off.
-// Memory: scratch. Thread: any; deterministic. Errors: none.
+// How blurred a face is, in millimetres on the face, whoever's it is: from how much its edges lose when they
+// are blurred once more by a known width (after Zhuo and Sim, Defocus map estimation from a single image,
+// Pattern Recognition 44, 2011). Contrast cancels out; what noise adds is measured on the flattest part of
+// the face and taken off. Memory: scratch. Thread: any; deterministic. Errors: none.
 #pragma once
 
 #include "pipeline/gate/head/head_sight.h"
@@ -14,9 +14,11 @@
 
 namespace relievo::pipeline {
 
-// Deviation of the bell that blurs the sharpest edges between brows and mouth, the more blurred direction of the more blurred camera, in the
-// pictures at full size: lens, focus, fog, motion, and the pixels themselves. At most kMostBlurMm, which is also said where no edge is left.
-double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief, const HeadSight& head, StageContext& context);
+// Deviation of the bell that blurs the sharpest edges between brows and mouth, the more blurred direction of
+// the more blurred camera, in the pictures at full size: lens, focus, fog, motion, and the pixels themselves.
+// At most kMostBlurMm, which is also said where no edge is left.
+double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief,
+                       const HeadSight& head, StageContext& context);
 
 inline constexpr double kMostBlurMm = 6;
 

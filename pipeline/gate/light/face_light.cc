@@ -12,11 +12,13 @@ namespace {
 
 using Histogram = std::array<int, 256>;
 constexpr double kHalfWidthMm = 50, kUpMm = 62, kDownMm = 50;  // about the tip of the nose
-// The two zones whose histograms are compared: squares of 0.3 eye distances outside of the pupils, half way down to the mouth (OFIQ).
+// The two zones whose histograms are compared: squares of 0.3 eye distances outside of the pupils, half way
+// down to the mouth (OFIQ).
 constexpr double kPupilMm = 31.5, kZoneMm = 19;
-constexpr double kDegree = std::numbers::pi / 180, kCheekDeg = 48;   // a cheek in these zones looks so far aside
+constexpr double kDegree = std::numbers::pi / 180,
+                 kCheekDeg = 48;  // a cheek in these zones looks so far aside
 constexpr double kMostTurnDeg = 20;
-constexpr int kGlossStep = 55;     // levels above the median of the face
+constexpr int kGlossStep = 55;  // levels above the median of the face
 
 Histogram zone(const Relief& relief, const HeadSight& head, double side) {
   Histogram counts{};
@@ -43,7 +45,8 @@ double mean_of(const Histogram& counts) {
   return all > 0 ? sum / all : 0;
 }
 
-// Of a cheek's light when the head faces the rig, and with it the lamps, to when it is turned away from that cheek by so much (Lambert).
+// Of a cheek's light when the head faces the rig, and with it the lamps, to when it is turned away from that
+// cheek by so much (Lambert).
 double turned_share(double away_deg) {
   const double turned = std::clamp(away_deg, -kMostTurnDeg, kMostTurnDeg) * kDegree;
   return std::cos(kCheekDeg * kDegree) / std::cos(kCheekDeg * kDegree + turned);
@@ -91,7 +94,8 @@ FaceLight measure_light(const Relief& relief, const HeadSight& head) {
   const Histogram left = zone(relief, head, -1), right = zone(relief, head, 1);
   light.uniformity = shared(left, right);
   const double a = mean_of(left), b = mean_of(right);
-  const double lit = b * turned_share(head.yaw_deg), other = a * turned_share(-head.yaw_deg);   // as on a head that is not turned
+  const double lit = b * turned_share(head.yaw_deg),
+               other = a * turned_share(-head.yaw_deg);  // as on a head that is not turned
   light.side_ratio = std::max(lit, other) > 0 ? std::min(lit, other) / std::max(lit, other) : 0;
   return light;
 }

@@ -48,7 +48,9 @@ int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext&
   order.reserve(found.size());
   for (std::uint32_t i = 1; i < found.size(); ++i)
     if (found[i].area_mm2 >= speck_mm2) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b; });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b;
+  });
   const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
   for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = static_cast<std::uint16_t>(i + 1);
   return static_cast<int>(kept);
@@ -57,11 +59,15 @@ int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext&
 }  // namespace
 
 Result<void> LiveReliefOptions::check() const {
-  if (reduction < 1 || reduction > 16) return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
+  if (reduction < 1 || reduction > 16)
+    return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
   if (!(near_mm > 50 && far_mm > near_mm + 10 && far_mm < 1e5))
-    return Error{Errc::InvalidInput, "the volume must begin beyond 50 mm and be 10 mm deep or more: near_mm < far_mm"}.at("live-relief");
+    return Error{Errc::InvalidInput,
+                 "the volume must begin beyond 50 mm and be 10 mm deep or more: near_mm < far_mm"}
+        .at("live-relief");
   if (!(cross_check_px > 0 && step_px > 0) || !(speck_mm2 >= 0))
-    return Error{Errc::InvalidInput, "cross_check_px and step_px must be positive, speck_mm2 not negative"}.at("live-relief");
+    return Error{Errc::InvalidInput, "cross_check_px and step_px must be positive, speck_mm2 not negative"}
+        .at("live-relief");
   return {};
 }
 
@@ -103,22 +109,32 @@ void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContex
   }
 }
 
-Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibration& calibration, StageContext& context) const {
+Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibration& calibration,
+                                StageContext& context) const {
   RELIEVO_TRY(options_.check());
-  if (frame.left.empty() || frame.right.empty()) return Error{Errc::InvalidInput, "a live picture has no pixels: is a camera unplugged?"}.at("live-relief");
-  if (frame.left.width_px != calibration.left.width_px || frame.left.height_px != calibration.left.height_px ||
-      frame.right.width_px != calibration.right.width_px || frame.right.height_px != calibration.right.height_px)
-    return Error{Errc::InvalidInput, "the live picture's size is not the calibration's: calibrate at this size"}.at("live-relief");
-  const StereoFrame small{reduced(frame.left, options_.reduction, context), reduced(frame.right, options_.reduction, context), frame.sequence, frame.skew_ns};
+  if (frame.left.empty() || frame.right.empty())
+    return Error{Errc::InvalidInput, "a live picture has no pixels: is a camera unplugged?"}.at(
+        "live-relief");
+  if (frame.left.width_px != calibration.left.width_px ||
+      frame.left.height_px != calibration.left.height_px ||
+      frame.right.width_px != calibration.right.width_px ||
+      frame.right.height_px != calibration.right.height_px)
+    return Error{Errc::InvalidInput,
+                 "the live picture's size is not the calibration's: calibrate at this size"}
+        .at("live-relief");
+  const StereoFrame small{reduced(frame.left, options_.reduction, context),
+                          reduced(frame.right, options_.reduction, context), frame.sequence, frame.skew_ns};
   // The rectified pair is needed no longer than the matching: it lives on the scratch.
   StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
   RectifierOptions volume;
   volume.near_mm = options_.near_mm;
   volume.far_mm = options_.far_mm;
-  RELIEVO_TRY_ASSIGN(const RectifiedPair pair, Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
+  RELIEVO_TRY_ASSIGN(const RectifiedPair pair,
+                     Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
   const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
   Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
-  RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px}, options_.costs, inner, 1, disparity));
+  RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px},
+                         options_.costs, inner, 1, disparity));
   Relief relief(&context.output);
   fill_depth(pair, disparity, relief);
   label_surfaces(relief, options_.step_px, options_.speck_mm2, context);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LiveRelief: metric depth of the whole scene from the live pair, more than ten times a second: both pictures made
-// smaller, rectified, matched by semi-global matching from a sixteenth of the size down to `reduction`
+// LiveRelief: metric depth of the whole scene from the live pair, more than ten times a second: both pictures
+// made smaller, rectified, matched by semi-global matching from a sixteenth of the size down to `reduction`
 // (match/coarse), freed of specks, and cut into connected surfaces.
 //
-// Promise: memory depends on the size of the pictures only and is the context's; results are bit-identical for any
-// number of threads. Depth is along the rectified z axis. One step of disparity is z^2 / (focal_px * baseline_mm): 3 mm at 560 mm on the
-// rig of hal/sim; what is read between steps is better.
-// Memory: the relief in context.output, everything else in context.scratch. Thread: worker.
-// Errors: InvalidInput (options, empty picture, size other than calibrated), OutOfMemory, Cancelled.
+// Promise: memory depends on the size of the pictures only and is the context's; results are bit-identical
+// for any number of threads. Depth is along the rectified z axis. One step of disparity is z^2 / (focal_px *
+// baseline_mm): 3 mm at 560 mm on the rig of hal/sim; what is read between steps is better. Memory: the
+// relief in context.output, everything else in context.scratch. Thread: worker. Errors: InvalidInput
+// (options, empty picture, size other than calibrated), OutOfMemory, Cancelled.
 #pragma once
 
 #include "pipeline/match/coarse/semi_global.h"
@@ -21,27 +21,29 @@
 namespace relievo::pipeline {
 
 struct LiveReliefOptions {
-  int reduction = 4;             // the pictures are made smaller so often; 1: they are small already
-  double near_mm = 280;          // the volume that is looked at
+  int reduction = 4;     // the pictures are made smaller so often; 1: they are small already
+  double near_mm = 280;  // the volume that is looked at
   double far_mm = 1100;
   SemiGlobalCosts costs;
-  float cross_check_px = 1.5F;   // how far the views may disagree, pixels of each size
-  float step_px = 1.5F;          // neighbours whose disparities differ by more belong to different surfaces
-  double speck_mm2 = 400;        // connected surfaces smaller than this are not believed
+  float cross_check_px = 1.5F;  // how far the views may disagree, pixels of each size
+  float step_px = 1.5F;         // neighbours whose disparities differ by more belong to different surfaces
+  double speck_mm2 = 400;       // connected surfaces smaller than this are not believed
   Result<void> check() const;
 };
 
 class LiveRelief {
  public:
   explicit LiveRelief(const LiveReliefOptions& options = {}) : options_(options) {}
-  Result<Relief> look(const StereoFrame& frame, const StereoCalibration& calibration, StageContext& context) const;
+  Result<Relief> look(const StereoFrame& frame, const StereoCalibration& calibration,
+                      StageContext& context) const;
 
  private:
   LiveReliefOptions options_;
 };
 
-// Labels connected pixels of one surface (4-neighbours whose disparities differ by at most `step_px`), the largest first, and takes
-// away what is smaller than `speck_mm2` as seen from the camera. Fills relief.surface and relief.surfaces. Memory: scratch.
+// Labels connected pixels of one surface (4-neighbours whose disparities differ by at most `step_px`), the
+// largest first, and takes away what is smaller than `speck_mm2` as seen from the camera. Fills
+// relief.surface and relief.surfaces. Memory: scratch.
 void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context);
 
 }  // namespace relievo::pipeline

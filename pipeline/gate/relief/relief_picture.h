@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The relief as grey values to look at: near is bright (255 at near_mm, 40 at far_mm, even steps of disparity), 0 is unknown.
-// Thread: any. Errors: none.
+// The relief as grey values to look at: near is bright (255 at near_mm, 40 at far_mm, even steps of
+// disparity), 0 is unknown. Thread: any. Errors: none.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,8 @@ void reduce_row(const ImageView& image, int y, int factor, int channels, std::ui
   const int width = image.width_px / factor;
   const int samples = width * factor * channels;
   std::fill(sums, sums + samples, 0U);
-  for (int j = 0; j < factor; ++j) add_row(reinterpret_cast<const Sample*>(image.row(y * factor + j)), samples, sums);
+  for (int j = 0; j < factor; ++j)
+    add_row(reinterpret_cast<const Sample*>(image.row(y * factor + j)), samples, sums);
   const auto area = static_cast<std::uint32_t>(factor * factor);
   for (int x = 0; x < width; ++x)
     for (int c = 0; c < channels; ++c) {
@@ -52,7 +53,8 @@ ImageView reduced(const ImageView& image, int factor, StageContext& context) {
   ImageView small{nullptr, image.width_px / factor, image.height_px / factor, 0, image.format};
   small.stride_bytes = small.width_px * bytes_per_pixel(image.format);
   const auto bytes = static_cast<std::size_t>(small.stride_bytes) * static_cast<std::size_t>(small.height_px);
-  auto* to = static_cast<std::byte*>(context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
+  auto* to = static_cast<std::byte*>(
+      context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
   const auto row_sums = static_cast<std::size_t>(image.width_px * channels);
   std::pmr::vector<std::uint32_t> sums(kBands * row_sums, 0, &context.scratch);
   context.pool.for_each_band(small.height_px, kBands, [&](int begin, int end, int band) {
@@ -61,8 +63,7 @@ ImageView reduced(const ImageView& image, int factor, StageContext& context) {
       std::byte* row = to + static_cast<std::ptrdiff_t>(y) * small.stride_bytes;
       if (image.format == PixelFormat::Grey16)
         reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
-      else
-        reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
+      else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
     }
   });
   small.bytes = to;

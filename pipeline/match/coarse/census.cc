@@ -32,7 +32,8 @@ RELIEVO_SIMD void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& ce
   }
 }
 
-RELIEVO_SIMD void census_costs(const CensusPair& pair, const std::int16_t* first, int y, int candidates, std::uint8_t* cost) {
+RELIEVO_SIMD void census_costs(const CensusPair& pair, const std::int16_t* first, int y, int candidates,
+                               std::uint8_t* cost) {
   const std::uint64_t* from = pair.from.row(y);
   const std::uint64_t* to = pair.to.row(y);
   const std::uint8_t* from_valid = pair.from_valid.row(y);

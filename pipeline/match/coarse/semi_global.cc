@@ -18,11 +18,13 @@ constexpr std::uint16_t kFar = 0x3FFF;
 constexpr int kLanes = 16;
 int lanes_for(int candidates) { return (candidates + kLanes - 1) / kLanes * kLanes; }
 
-// Path costs of one row of pixels. Between two pixels lie as many unreachable cells as there are lanes, so that a neighbour
-// whose band begins elsewhere is read where it is, without a branch.
+// Path costs of one row of pixels. Between two pixels lie as many unreachable cells as there are lanes, so
+// that a neighbour whose band begins elsewhere is read where it is, without a branch.
 struct PathRow {
   PathRow(std::pmr::memory_resource& memory, int width, int lanes)
-      : stride(2 * lanes), cost(static_cast<std::size_t>((width + 1) * stride), kFar, &memory), least(static_cast<std::size_t>(width), 0, &memory) {}
+      : stride(2 * lanes),
+        cost(static_cast<std::size_t>((width + 1) * stride), kFar, &memory),
+        least(static_cast<std::size_t>(width), 0, &memory) {}
   std::uint16_t* at(int x) { return cost.data() + static_cast<std::ptrdiff_t>(x) * stride + stride / 2; }
   int stride;
   std::pmr::vector<std::uint16_t> cost;
@@ -35,7 +37,9 @@ using Sums = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
 template <typename Vector, typename Cell>
-RELIEVO_INLINE void load(const Cell* from, Vector& to) { std::memcpy(&to, from, sizeof to); }
+RELIEVO_INLINE void load(const Cell* from, Vector& to) {
+  std::memcpy(&to, from, sizeof to);
+}
 RELIEVO_INLINE void least_of(Lanes& a, const Lanes& b) { a = a < b ? a : b; }
 // The least of all lanes, in every lane.
 RELIEVO_INLINE void spread_least(Lanes& v) {
@@ -45,7 +49,8 @@ RELIEVO_INLINE void spread_least(Lanes& v) {
   least_of(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
 }
 
-// The least of the lanes of each of four, in turn: their halves side by side, then their quarters, once for all of them instead of once for each.
+// The least of the lanes of each of four, in turn: their halves side by side, then their quarters, once for
+// all of them instead of once for each.
 RELIEVO_INLINE void halves(const Lanes& a, const Lanes& b, Lanes& to) {
   to = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
   least_of(to, __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
@@ -60,7 +65,7 @@ RELIEVO_INLINE void least_of_each(const std::array<Lanes, 4>& v, Lanes& all) {
   least_of(all, __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
   least_of(all, __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
 }
-constexpr std::array<int, 4> kLeastAt{0, 8, 4, 12};   // where least_of_each() puts them
+constexpr std::array<int, 4> kLeastAt{0, 8, 4, 12};  // where least_of_each() puts them
 
 // One of the four paths into a pixel: the neighbour it comes from, and where its own costs go.
 struct PathStep {
@@ -70,14 +75,16 @@ struct PathStep {
 };
 
 // Sixteen candidates of one path, added to the total; `beyond` is kFar in the lanes that are none.
-RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_penalty, const Lanes& cost, const Lanes& beyond, Sums& total, Lanes& least) {
+RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_penalty, const Lanes& cost,
+                            const Lanes& beyond, Sums& total, Lanes& least) {
   const std::uint16_t* p = step.previous + at;
   Lanes best, before, after;
   load(p, best);
   load(p - 1, before);
   load(p + 1, after);
   least_of(before, after);
-  before |= (best == static_cast<std::int16_t>(kFar)) & static_cast<std::int16_t>(kFar);  // a candidate the neighbour has not: only a jump leads there
+  before |= (best == static_cast<std::int16_t>(kFar)) &
+            static_cast<std::int16_t>(kFar);  // a candidate the neighbour has not: only a jump leads there
   least_of(best, before + static_cast<std::int16_t>(step_penalty));
   least_of(best, Lanes{} + static_cast<std::int16_t>(step.jump));
   best = (cost + best - static_cast<std::int16_t>(step.previous_least)) | beyond;
@@ -89,7 +96,12 @@ RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_pen
 struct Volume {
   // Every cell is written before it is read: nothing is cleared.
   Volume(std::pmr::memory_resource& memory, int w, int h, int many)
-      : scratch(&memory), width(w), height(h), candidates(many), cells(cell(0, h) + kLanes), cost(scratch.allocate_object<std::uint8_t>(cells)),
+      : scratch(&memory),
+        width(w),
+        height(h),
+        candidates(many),
+        cells(cell(0, h) + kLanes),
+        cost(scratch.allocate_object<std::uint8_t>(cells)),
         sum(scratch.allocate_object<std::uint16_t>(cells)) {}
   ~Volume() { scratch.deallocate_object(sum, cells), scratch.deallocate_object(cost, cells); }
   Volume(const Volume&) = delete;
@@ -97,7 +109,7 @@ struct Volume {
   std::pmr::polymorphic_allocator<> scratch;
   int width, height, candidates;
   std::size_t cells;
-  std::uint8_t* cost;    // both with room for the lanes behind the last pixel
+  std::uint8_t* cost;  // both with room for the lanes behind the last pixel
   std::uint16_t* sum;
   std::size_t cell(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
@@ -108,13 +120,22 @@ struct Volume {
 // Four paths in one sweep over the picture: along the row and from the three neighbours of the row
 // before; dir = +1 top to bottom, -1 the other way round.
 struct Sweep {
-  Sweep(const CensusPair& views, Volume& cells, const Plane<std::int16_t>& band, const SemiGlobalCosts& costs, int direction, std::pmr::memory_resource& scratch)
-      : pair(views), volume(cells), first(band), dir(direction), lanes(lanes_for(cells.candidates)),
-        step_penalty(static_cast<std::uint16_t>(costs.step_penalty)), jump_penalty(static_cast<std::uint16_t>(costs.jump_penalty)),
-        far(static_cast<std::size_t>(lanes + 2), kFar, &scratch), beyond(static_cast<std::size_t>(lanes), 0, &scratch), line(static_cast<std::size_t>(lanes), 0, &scratch),
-        along(scratch, 2, lanes), rows{{{PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
-                                        {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
-                                        {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)}}} {
+  Sweep(const CensusPair& views, Volume& cells, const Plane<std::int16_t>& band, const SemiGlobalCosts& costs,
+        int direction, std::pmr::memory_resource& scratch)
+      : pair(views),
+        volume(cells),
+        first(band),
+        dir(direction),
+        lanes(lanes_for(cells.candidates)),
+        step_penalty(static_cast<std::uint16_t>(costs.step_penalty)),
+        jump_penalty(static_cast<std::uint16_t>(costs.jump_penalty)),
+        far(static_cast<std::size_t>(lanes + 2), kFar, &scratch),
+        beyond(static_cast<std::size_t>(lanes), 0, &scratch),
+        line(static_cast<std::size_t>(lanes), 0, &scratch),
+        along(scratch, 2, lanes),
+        rows{{{PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
+              {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
+              {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)}}} {
     std::fill(beyond.begin() + cells.candidates, beyond.end(), kFar);
   }
   // A path that begins: as if from nowhere, at no cost.
@@ -125,15 +146,18 @@ struct Sweep {
     return {previous, least, static_cast<std::uint16_t>(least + jump_penalty), to.at(x)};
   }
 
-  // The paths into pixel x, the i-th of its row: from the three of the row before, then along the row. `above` is null in the first row.
-  RELIEVO_INLINE std::array<PathStep, 4> into(int x, int i, int now, const std::int16_t* base, const std::int16_t* above) {
+  // The paths into pixel x, the i-th of its row: from the three of the row before, then along the row.
+  // `above` is null in the first row.
+  RELIEVO_INLINE std::array<PathStep, 4> into(int x, int i, int now, const std::int16_t* base,
+                                              const std::int16_t* above) {
     std::array<PathStep, 4> steps{};
     for (int d = 0; d < 3; ++d) {
       auto& row = rows[static_cast<std::size_t>(d)];
       PathRow &target = row[static_cast<std::size_t>(now)], &source = row[static_cast<std::size_t>(now ^ 1)];
       const int at = x + d - 1;
-      steps[static_cast<std::size_t>(d)] =
-          above == nullptr || at < 0 || at >= volume.width ? beginning(target, x) : from(source, at, base[x] - above[at], target, x);
+      steps[static_cast<std::size_t>(d)] = above == nullptr || at < 0 || at >= volume.width
+                                               ? beginning(target, x)
+                                               : from(source, at, base[x] - above[at], target, x);
     }
     const int flip = i & 1;
     steps[3] = i == 0 ? beginning(along, flip) : from(along, flip ^ 1, base[x] - base[x - dir], along, flip);
@@ -179,8 +203,9 @@ RELIEVO_INLINE float between(const std::uint16_t* sum, int k, int candidates) {
   return static_cast<float>(k) + (slope > 0 ? 0.5F * (before - after) / slope : 0.0F);
 }
 
-// One row of a sweep. Downwards the sums are kept; a pixel's lanes reach into the next one's, which is written later. Upwards the
-// second four paths are added to them, and the best candidate is known at once: to[x], when `to` is there.
+// One row of a sweep. Downwards the sums are kept; a pixel's lanes reach into the next one's, which is
+// written later. Upwards the second four paths are added to them, and the best candidate is known at once:
+// to[x], when `to` is there.
 RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, float* to) {
   const int w = s.volume.width, n = s.volume.candidates;
   const std::int16_t* base = s.first.row(y);
@@ -212,7 +237,9 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
     Lanes each;
     least_of_each(least, each);
     s.along.least[static_cast<std::size_t>(flip)] = static_cast<std::uint16_t>(each[kLeastAt[3]]);
-    for (std::size_t d = 0; d < 3; ++d) s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(each[kLeastAt[d]]);
+    for (std::size_t d = 0; d < 3; ++d)
+      s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] =
+          static_cast<std::uint16_t>(each[kLeastAt[d]]);
     if (to == nullptr) continue;
     to[x] = kNoDisparity;
     if (valid[x] == 0) continue;
@@ -223,8 +250,12 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
 }
 
 // The common band fits into one set of lanes: then the compiler knows it.
-RELIEVO_SIMD void sweep_row_of_sixteen(Sweep& s, int y, int now, bool begins, float* to) { sweep_row(s, y, kLanes, now, begins, to); }
-RELIEVO_SIMD void sweep_row_of_any(Sweep& s, int y, int now, bool begins, float* to) { sweep_row(s, y, s.lanes, now, begins, to); }
+RELIEVO_SIMD void sweep_row_of_sixteen(Sweep& s, int y, int now, bool begins, float* to) {
+  sweep_row(s, y, kLanes, now, begins, to);
+}
+RELIEVO_SIMD void sweep_row_of_any(Sweep& s, int y, int now, bool begins, float* to) {
+  sweep_row(s, y, s.lanes, now, begins, to);
+}
 
 // Down: `disparity` null. False once cancelled.
 bool sweep(Sweep&& s, Plane<float>* disparity, const std::atomic<bool>* cancelled) {
@@ -241,12 +272,15 @@ bool sweep(Sweep&& s, Plane<float>* disparity, const std::atomic<bool>* cancelle
 }  // namespace
 
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
-                 const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity, const std::atomic<bool>* cancelled) {
+                 const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity,
+                 const std::atomic<bool>* cancelled) {
   const int h = first.height;
   Volume volume(scratch, first.width, h, candidates);
   std::memset(volume.cost + volume.cells - kLanes, 0, kLanes);
-  for (int y = 0; y < h; ++y) census_costs(pair, first.row(y), y, candidates, volume.cost + volume.cell(0, y));
-  if (sweep(Sweep(pair, volume, first, costs, +1, scratch), nullptr, cancelled)) sweep(Sweep(pair, volume, first, costs, -1, scratch), &disparity, cancelled);
+  for (int y = 0; y < h; ++y)
+    census_costs(pair, first.row(y), y, candidates, volume.cost + volume.cell(0, y));
+  if (sweep(Sweep(pair, volume, first, costs, +1, scratch), nullptr, cancelled))
+    sweep(Sweep(pair, volume, first, costs, -1, scratch), &disparity, cancelled);
 }
 
 void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px) {

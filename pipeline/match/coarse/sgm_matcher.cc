@@ -14,28 +14,31 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kCorrelationRadius = 4;
-constexpr float kFitPx = 1.0F / 6;     // of the equiangular fit, pixels of the finest size
+constexpr float kFitPx = 1.0F / 6;  // of the equiangular fit, pixels of the finest size
 constexpr int kBands = 32;
 
 }  // namespace
 
 Result<void> SgmMatcherOptions::check() const {
   if (finest < 0 || finest > 2 || coarsest < finest || coarsest > 4 || band < 4 || band > 64)
-    return Error{Errc::InvalidInput, "sgm: finest must lie in 0 .. 2, coarsest from there to 4, and band in 4 .. 64"};
+    return Error{Errc::InvalidInput,
+                 "sgm: finest must lie in 0 .. 2, coarsest from there to 4, and band in 4 .. 64"};
   if (costs.step_penalty < 0 || costs.jump_penalty < costs.step_penalty || costs.jump_penalty > 1000)
     return Error{Errc::InvalidInput, "sgm: jump_penalty must be at least step_penalty, and at most 1000"};
   if (!(cross_check_px > 0)) return Error{Errc::InvalidInput, "sgm: cross_check_px must be positive"};
   return {};
 }
 
-Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                   StageContext& context) const {
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
     return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
   const int scale = 1 << options_.finest;
-  Plane<float> field(&context.scratch, (pair.width_px + scale - 1) / scale, (pair.height_px + scale - 1) / scale);
+  Plane<float> field(&context.scratch, (pair.width_px + scale - 1) / scale,
+                     (pair.height_px + scale - 1) / scale);
   {
     Arena::Mark mark(context.scratch);
     const Pyramids pyramids = build_pyramids(pair, options_.coarsest + 1, context);
@@ -50,14 +53,16 @@ Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& k
       const FieldReading reading = read_disparity(field, {at.x / size, at.y / size}, kNoDisparity);
       if (!reading.known) continue;
       const float d = size * reading.disparity;
-      found[static_cast<std::size_t>(k)] = {at, d, window_cost(pair, at, d, kCorrelationRadius), size * std::hypot(kFitPx, reading.scatter), 0};
+      found[static_cast<std::size_t>(k)] = {at, d, window_cost(pair, at, d, kCorrelationRadius),
+                                            size * std::hypot(kFitPx, reading.scatter), 0};
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching"};
   for (const Match& match : found)
     if (match.sigma_px > 0 && match.cost < 1) set.matches.push_back(match);
   if (set.matches.empty())
-    return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
+    return Error{Errc::TooFewMatches,
+                 "hardly anything matches between the views: is the face in both, in focus and lit?"};
   return set;
 }
 

@@ -9,10 +9,13 @@
 
 namespace relievo::pipeline {
 
-DisparityRange whole_range(const RectifiedPair& pair) { return {pair.disparity_px(pair.far_mm), pair.disparity_px(pair.near_mm)}; }
+DisparityRange whole_range(const RectifiedPair& pair) {
+  return {pair.disparity_px(pair.far_mm), pair.disparity_px(pair.near_mm)};
+}
 
 Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, const SizeLadder& ladder,
-                        const SemiGlobalCosts& costs, StageContext& context, float progress_share, Plane<float>& finest) {
+                        const SemiGlobalCosts& costs, StageContext& context, float progress_share,
+                        Plane<float>& finest) {
   Arena::Mark all(context.scratch);
   const double scale = 1 << ladder.coarsest;
   int first = static_cast<int>(std::floor(range.least_px / scale)) - 1;
@@ -28,8 +31,10 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
     TwoWay both(&context.scratch, from.grey.width, from.grey.height);
     int candidates = last - first + 1;
     if (level == ladder.coarsest) {
-      std::fill(both.first_left.values.begin(), both.first_left.values.end(), static_cast<std::int16_t>(first));
-      std::fill(both.first_right.values.begin(), both.first_right.values.end(), static_cast<std::int16_t>(first));
+      std::fill(both.first_left.values.begin(), both.first_left.values.end(),
+                static_cast<std::int16_t>(first));
+      std::fill(both.first_right.values.begin(), both.first_right.values.end(),
+                static_cast<std::int16_t>(first));
     } else {
       candidates = ladder.band;
       predict(left, ladder.band, first, last, both.first_left);
@@ -39,7 +44,7 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
     cross_check(both.left, both.right, ladder.cross_check_px);
     median3(both.left, context);
     std::copy(both.left.values.begin(), both.left.values.end(), next_left.values.begin());
-    if (level > ladder.finest) {   // of the finest size only the left view's is asked for
+    if (level > ladder.finest) {  // of the finest size only the left view's is asked for
       median3(both.right, context);
       std::copy(both.right.values.begin(), both.right.values.end(), next_right.values.begin());
     }
@@ -48,7 +53,8 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
     first *= 2;
     last *= 2;
     context.progress.done.store(progress_share * static_cast<float>(ladder.coarsest + 1 - level) /
-                                    static_cast<float>(ladder.coarsest + 1 - ladder.finest), std::memory_order_relaxed);
+                                    static_cast<float>(ladder.coarsest + 1 - ladder.finest),
+                                std::memory_order_relaxed);
   }
   std::copy(left.values.begin(), left.values.end(), finest.values.begin());
   return {};

@@ -7,8 +7,8 @@
 
 namespace relievo::pipeline {
 
-Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step, Plane<int>& label,
-                        std::pmr::memory_resource& scratch) {
+Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step,
+                        Plane<int>& label, std::pmr::memory_resource& scratch) {
   Surfaces found(&scratch);
   int next = 0;
   std::pmr::vector<int> open(&scratch);
@@ -43,14 +43,17 @@ Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowe
   return found;
 }
 
-void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain, Plane<float>& disparity, std::pmr::memory_resource& scratch) {
+void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
+                  Plane<float>& disparity, std::pmr::memory_resource& scratch) {
   const int w = domain.width;
   const int h = domain.height;
   Plane<std::uint8_t> seen(&scratch, w, h);
   std::pmr::vector<int> hole(&scratch);
   hole.reserve(seen.values.size());
   for (int seed = 0; seed < w * h; ++seed) {
-    if (seen.values[static_cast<std::size_t>(seed)] != 0 || domain.values[static_cast<std::size_t>(seed)] != 0) continue;
+    if (seen.values[static_cast<std::size_t>(seed)] != 0 ||
+        domain.values[static_cast<std::size_t>(seed)] != 0)
+      continue;
     hole.clear();
     hole.push_back(seed);
     seen.values[static_cast<std::size_t>(seed)] = 1;

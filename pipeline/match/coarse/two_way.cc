@@ -13,8 +13,8 @@
 
 namespace relievo::pipeline {
 
-Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates, const SemiGlobalCosts& costs,
-                        StageContext& context, TwoWay& both) {
+Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates,
+                        const SemiGlobalCosts& costs, StageContext& context, TwoWay& both) {
   const int w = left.grey.width;
   const int h = left.grey.height;
   Plane<std::uint64_t> census_left(&context.scratch, w, h);
@@ -24,23 +24,29 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
     census_rows(right.grey, census_right, begin, end);
   });
   // One arena for two threads: each gets a block of its own, taken here.
-  const auto cells = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
-  const std::size_t share = 3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 16) + 65536;
-  const std::span<std::byte> blocks(static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
+  const auto cells =
+      static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
+  const std::size_t share =
+      3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 16) + 65536;
+  const std::span<std::byte> blocks(
+      static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
   context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
     for (int side = begin; side < end; ++side) {
       Arena own{blocks.subspan(static_cast<std::size_t>(side) * share, share)};
       if (side == 0)
-        semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates, costs, own, both.left, &context.cancelled);
+        semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates,
+                    costs, own, both.left, &context.cancelled);
       else
-        semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates, costs, own, both.right, &context.cancelled);
+        semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates,
+                    costs, own, both.right, &context.cancelled);
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching coarsely"};
   return {};
 }
 
-void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last, Plane<std::int16_t>& first) {
+void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last,
+             Plane<std::int16_t>& first) {
   for (int y = 0; y < first.height; ++y) {
     const float* from = coarse.row(std::min(y / 2, coarse.height - 1));
     float last = kNoDisparity;
@@ -50,7 +56,8 @@ void predict(const Plane<float>& coarse, int band, int whole_first, int whole_la
       const float d = from[std::min(x / 2, coarse.width - 1)];
       if (d != kNoDisparity) last = d;
       const int start = static_cast<int>(std::lround(2 * last)) - band / 2;
-      first.row(y)[x] = static_cast<std::int16_t>(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
+      first.row(y)[x] =
+          static_cast<std::int16_t>(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
     }
   }
 }
@@ -75,19 +82,24 @@ inline float median_of_nine(float* v) {
   return v[4];
 }
 
-// Nine in order by twenty-five exchanges (Dobbelaere's list of sorting networks); the least known one of `known` stands behind the unknown ones.
+// Nine in order by twenty-five exchanges (Dobbelaere's list of sorting networks); the least known one of
+// `known` stands behind the unknown ones.
 inline float median_of_known(float* v, int known) {
-  constexpr std::array<std::array<std::int8_t, 2>, 25> kExchanges{{{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8}, {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4},
-                                                                  {3, 6}, {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5}, {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
+  constexpr std::array<std::array<std::int8_t, 2>, 25> kExchanges{
+      {{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8}, {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4},
+       {3, 6}, {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5}, {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
 #pragma GCC unroll 25
   for (const auto& [a, b] : kExchanges) order(v[a], v[b]);
   return v[9 - known + known / 2];
 }
 
-// As if all nine were known, as they are nearly everywhere, without a branch; the least and the most of the nine tell whether they are.
-RELIEVO_SIMD void medians_of_nine(const float* above, const float* row, const float* below, int width, float* median, float* least, float* most) {
+// As if all nine were known, as they are nearly everywhere, without a branch; the least and the most of the
+// nine tell whether they are.
+RELIEVO_SIMD void medians_of_nine(const float* above, const float* row, const float* below, int width,
+                                  float* median, float* least, float* most) {
   for (int x = 1; x < width - 1; ++x) {
-    float v[9] = {above[x - 1], above[x], above[x + 1], row[x - 1], row[x], row[x + 1], below[x - 1], below[x], below[x + 1]};
+    float v[9] = {above[x - 1], above[x],     above[x + 1], row[x - 1],  row[x],
+                  row[x + 1],   below[x - 1], below[x],     below[x + 1]};
     float low = v[0], high = v[0];
     for (int i = 1; i < 9; ++i) low = std::min(low, v[i]), high = std::max(high, v[i]);
     least[x] = low;
@@ -125,7 +137,8 @@ void median3(Plane<float>& field, StageContext& context) {
   constexpr int kBands = 16;
   Plane<float> least(&context.scratch, field.width, kBands), most(&context.scratch, field.width, kBands);
   context.pool.for_each_band(field.height, kBands, [&](int begin, int end, int band) {
-    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y) median_row(copy, y, least.row(band), most.row(band), field.row(y));
+    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y)
+      median_row(copy, y, least.row(band), most.row(band), field.row(y));
   });
 }
 

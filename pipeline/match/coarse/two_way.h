@@ -14,19 +14,22 @@ namespace relievo::pipeline {
 
 struct TwoWay {
   TwoWay(std::pmr::memory_resource* memory, int w, int h)
-      : left(memory, w, h, kNoDisparity), right(memory, w, h, kNoDisparity), first_left(memory, w, h),
+      : left(memory, w, h, kNoDisparity),
+        right(memory, w, h, kNoDisparity),
+        first_left(memory, w, h),
         first_right(memory, w, h) {}
-  Plane<float> left, right;                      // disparities of the left and of the right view's pixels
-  Plane<std::int16_t> first_left, first_right;   // the band's first candidate at every pixel
+  Plane<float> left, right;                     // disparities of the left and of the right view's pixels
+  Plane<std::int16_t> first_left, first_right;  // the band's first candidate at every pixel
 };
 
 // Errors: Cancelled.
-Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates, const SemiGlobalCosts& costs,
-                        StageContext& context, TwoWay& both);
+Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates,
+                        const SemiGlobalCosts& costs, StageContext& context, TwoWay& both);
 
 // Bands for the finer size: every pixel takes its coarse parent's disparity; where that is unknown, the
 // last one known on the row stands in. Between whole_first and whole_last, disparities of the finer size.
-void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last, Plane<std::int16_t>& first);
+void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last,
+             Plane<std::int16_t>& first);
 
 // A 3 x 3 median over what is known; closes single holes.
 void median3(Plane<float>& field, StageContext& context);

@@ -10,7 +10,8 @@ namespace relievo::pipeline {
 
 Result<void> ContinuityConstraintOptions::check() const {
   if (!(max_step > 0) || least_support < 1 || least_support > 8)
-    return Error{Errc::InvalidInput, "continuity: max_step must be positive and least_support between 1 and 8"};
+    return Error{Errc::InvalidInput,
+                 "continuity: max_step must be positive and least_support between 1 and 8"};
   return {};
 }
 
@@ -22,7 +23,8 @@ void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   const int step = lattice_step_px;
   Plane<float> disparity(&context.scratch, pair.width_px / step + 3, pair.height_px / step + 3, kNothing);
   const auto cell = [&](const Match& match) {
-    return disparity.row(static_cast<int>(match.left_px.y) / step + 1) + static_cast<int>(match.left_px.x) / step + 1;
+    return disparity.row(static_cast<int>(match.left_px.y) / step + 1) +
+           static_cast<int>(match.left_px.x) / step + 1;
   };
   for (const Match& match : matches)
     if (match.rejected_by == 0) *cell(match) = match.disparity_px;
@@ -33,7 +35,8 @@ void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
     int support = 0;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
-        if ((i != 0 || j != 0) && std::abs(here[j * disparity.width + i] - match.disparity_px) <= limit) ++support;
+        if ((i != 0 || j != 0) && std::abs(here[j * disparity.width + i] - match.disparity_px) <= limit)
+          ++support;
     if (support < options_.least_support) match.rejected_by = bit;
   }
 }

@@ -12,14 +12,15 @@
 namespace relievo::pipeline {
 
 struct ContinuityConstraintOptions {
-  float max_step = 2.0F;    // disparity difference per pixel of distance: beyond 63 degrees of slant
-  int least_support = 3;    // of the eight neighbours
+  float max_step = 2.0F;  // disparity difference per pixel of distance: beyond 63 degrees of slant
+  int least_support = 3;  // of the eight neighbours
   Result<void> check() const;
 };
 
 template <typename Field>
 void describe(ContinuityConstraintOptions& o, Field&& field) {
-  field("max_step", o.max_step, OptionRange{0.01, 100}, "disparity difference to a neighbour, pixels per pixel of distance");
+  field("max_step", o.max_step, OptionRange{0.01, 100},
+        "disparity difference to a neighbour, pixels per pixel of distance");
   field("least_support", o.least_support, OptionRange{1, 8}, "how many of the eight neighbours must agree");
 }
 

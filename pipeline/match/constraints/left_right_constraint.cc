@@ -35,7 +35,9 @@ Answer ask_back(const Match& match, const LeftRightConstraintOptions& options, P
   const double bend = before - 2 * least + after;
   const double offset = std::isfinite(bend) && bend > 0 ? (before - after) / (2 * bend) : 0;
   const double found = static_cast<double>(right) + middle + options.search_px - best - offset;
-  return std::abs(found - static_cast<double>(match.left_px.x)) <= static_cast<double>(options.limit_px) ? Answer::Confirmed : Answer::Elsewhere;
+  return std::abs(found - static_cast<double>(match.left_px.x)) <= static_cast<double>(options.limit_px)
+             ? Answer::Confirmed
+             : Answer::Elsewhere;
 }
 
 }  // namespace
@@ -58,12 +60,14 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
   std::pmr::vector<PatchScores> scores(&context.scratch);
   scores.reserve(kBands);
   for (int band = 0; band < kBands; ++band)
-    scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * options_.search_px + 1, &context.scratch);
+    scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * options_.search_px + 1,
+                        &context.scratch);
   context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int band) {
     for (int k = begin; k < end && !context.stop(); ++k) {
       Match& match = matches[static_cast<std::size_t>(k)];
       if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-      if (ask_back(match, options_, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere) match.rejected_by = bit;
+      if (ask_back(match, options_, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
+        match.rejected_by = bit;
     }
   });
 }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LeftRightConstraint ("left-right"): a match must be found again from the other side (Fua 1993). It works for
-// every matcher: the window of the right view at the match is searched for along the left row, by zero-mean
-// correlation, at whole pixels within search_px of where the match says, with a parabola between them. Where
-// the best place is further from the keypoint than limit_px, or at the end of the search, the match is
-// rejected. Matches whose window leaves a picture cannot be asked back and stay.
+// LeftRightConstraint ("left-right"): a match must be found again from the other side (Fua 1993). It works
+// for every matcher: the window of the right view at the match is searched for along the left row, by
+// zero-mean correlation, at whole pixels within search_px of where the match says, with a parabola between
+// them. Where the best place is further from the keypoint than limit_px, or at the end of the search, the
+// match is rejected. Matches whose window leaves a picture cannot be asked back and stay.
 #pragma once
 
 #include "pipeline/match/match_constraint.h"
@@ -14,8 +14,8 @@
 namespace relievo::pipeline {
 
 struct LeftRightConstraintOptions {
-  int window_px = 15;      // odd
-  int search_px = 8;       // to each side
+  int window_px = 15;  // odd
+  int search_px = 8;   // to each side
   float limit_px = 1;
   Result<void> check() const;
 };

@@ -11,7 +11,7 @@ namespace {
 struct Entry {
   int row;
   float left;
-  float place;          // on the right row, with its slack
+  float place;  // on the right row, with its slack
   std::uint32_t match;
 };
 
@@ -20,7 +20,8 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 // Marks the largest subset of a row's entries (sorted by `left`) whose places do not fall.
 class RowJudge {
  public:
-  RowJudge(std::size_t most, std::pmr::memory_resource* memory) : tails_(memory), before_(memory), kept_(memory) {
+  RowJudge(std::size_t most, std::pmr::memory_resource* memory)
+      : tails_(memory), before_(memory), kept_(memory) {
     tails_.reserve(most);
     before_.reserve(most);
     kept_.reserve(most);
@@ -32,7 +33,9 @@ class RowJudge {
     kept_.assign(row.size(), std::uint8_t{0});
     for (std::uint32_t k = 0; k < row.size(); ++k) {
       // tails_[n]: the end of the ordered set of n + 1 whose last place is least.
-      const auto at = std::upper_bound(tails_.begin(), tails_.end(), k, [&](std::uint32_t a, std::uint32_t b) { return row[a].place < row[b].place; });
+      const auto at =
+          std::upper_bound(tails_.begin(), tails_.end(), k,
+                           [&](std::uint32_t a, std::uint32_t b) { return row[a].place < row[b].place; });
       before_[k] = at == tails_.begin() ? kNone : *(at - 1);
       if (at == tails_.end()) tails_.push_back(k);
       else *at = k;
@@ -53,14 +56,16 @@ Result<void> OrderingConstraintOptions::check() const {
   return {};
 }
 
-void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit, StageContext& context) const {
+void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
+                               StageContext& context) const {
   Arena::Mark mark(context.scratch);
   std::pmr::vector<Entry> entries(&context.scratch);
   entries.reserve(matches.size());
   for (std::uint32_t k = 0; k < matches.size(); ++k) {
     const Match& m = matches[k];
     if (m.rejected_by != 0 || !std::isfinite(m.disparity_px)) continue;
-    entries.push_back({static_cast<int>(std::lround(m.left_px.y)), m.left_px.x, m.left_px.x - m.disparity_px + options_.slack * m.left_px.x, k});
+    entries.push_back({static_cast<int>(std::lround(m.left_px.y)), m.left_px.x,
+                       m.left_px.x - m.disparity_px + options_.slack * m.left_px.x, k});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     if (a.row != b.row) return a.row < b.row;

@@ -20,7 +20,8 @@ struct OrderingConstraintOptions {
 
 template <typename Field>
 void describe(OrderingConstraintOptions& o, Field&& field) {
-  field("slack", o.slack, OptionRange{0, 1}, "how far right places may fall back, as a share of the left ones' distance");
+  field("slack", o.slack, OptionRange{0, 1},
+        "how far right places may fall back, as a share of the left ones' distance");
 }
 
 class OrderingConstraint final : public MatchConstraint {

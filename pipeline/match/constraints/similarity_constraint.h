@@ -3,8 +3,8 @@
 //
 // SimilarityConstraint ("similarity"): the two views must look alike around a match: its cost (one
 // minus zero-mean correlation) stays under a limit.
-// Its limit is loose by default, for the sake of plain skin. Behind a matcher with a threshold of its own it says something
-// only below that: behind zmncc below 1 - min_score, 0.4 in the suite of the dissertation.
+// Its limit is loose by default, for the sake of plain skin. Behind a matcher with a threshold of its own it
+// says something only below that: behind zmncc below 1 - min_score, 0.4 in the suite of the dissertation.
 #pragma once
 
 #include "pipeline/match/match_constraint.h"
@@ -13,7 +13,8 @@
 namespace relievo::pipeline {
 
 struct SimilarityConstraintOptions {
-  float max_cost = 0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
+  float max_cost =
+      0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
   Result<void> check() const;
 };
 

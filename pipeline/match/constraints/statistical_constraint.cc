@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBands = 32;
 constexpr int kFewest = 5;
-constexpr int kMostNeighbours = 256;   // of more, every second, third, ... votes
+constexpr int kMostNeighbours = 256;  // of more, every second, third, ... votes
 constexpr float kMadToSigma = 1.4826F;
 
 struct Spread {
@@ -30,7 +30,8 @@ Spread spread_of(std::span<float> values) {
 
 // Accepted matches in square cells of one radius.
 struct Cells {
-  Cells(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory) : size(radius), first(memory), members(memory) {
+  Cells(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory)
+      : size(radius), first(memory), members(memory) {
     float right = 0;
     float bottom = 0;
     std::size_t count = 0;
@@ -54,11 +55,13 @@ struct Cells {
   int column(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.x / size)); }
   int row(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.y / size)); }
   std::size_t cell(const Match& m) const {
-    return static_cast<std::size_t>(row(m)) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column(m));
+    return static_cast<std::size_t>(row(m)) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column(m));
   }
   std::span<const std::uint32_t> at(int c, int r) const {
     if (c < 0 || r < 0 || c >= columns || r >= rows) return {};
-    const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
+    const std::size_t k =
+        static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
     return {members.data() + first[k], first[k + 1] - first[k]};
   }
   float size;
@@ -66,7 +69,8 @@ struct Cells {
   std::pmr::vector<std::uint32_t> first, members;
 };
 
-bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& cells, const StatisticalConstraintOptions& options) {
+bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& cells,
+                const StatisticalConstraintOptions& options) {
   const Match& m = matches[k];
   const int c = cells.column(m);
   const int r = cells.row(m);
@@ -82,23 +86,28 @@ bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& ce
       for (const std::uint32_t other : cells.at(c + i, r + j)) {
         if (turn++ % stride != 0 || other == k || n == kMostNeighbours) continue;
         const Match& q = matches[other];
-        if (std::abs(q.left_px.x - m.left_px.x) <= options.radius_px && std::abs(q.left_px.y - m.left_px.y) <= options.radius_px)
+        if (std::abs(q.left_px.x - m.left_px.x) <= options.radius_px &&
+            std::abs(q.left_px.y - m.left_px.y) <= options.radius_px)
           near[n++] = q.disparity_px;
       }
   if (n < kFewest) return false;
   const Spread spread = spread_of({near, n});
-  return std::abs(m.disparity_px - spread.median) > options.local_sigmas * std::max(spread.sigma, options.floor_px);
+  return std::abs(m.disparity_px - spread.median) >
+         options.local_sigmas * std::max(spread.sigma, options.floor_px);
 }
 
 }  // namespace
 
 Result<void> StatisticalConstraintOptions::check() const {
-  if (!(global_sigmas >= 0 && local_sigmas >= 0)) return Error{Errc::InvalidInput, "statistical: sigmas must not be negative"};
-  if (!(radius_px >= 1 && floor_px > 0)) return Error{Errc::InvalidInput, "statistical: radius_px must be at least 1 and floor_px positive"};
+  if (!(global_sigmas >= 0 && local_sigmas >= 0))
+    return Error{Errc::InvalidInput, "statistical: sigmas must not be negative"};
+  if (!(radius_px >= 1 && floor_px > 0))
+    return Error{Errc::InvalidInput, "statistical: radius_px must be at least 1 and floor_px positive"};
   return {};
 }
 
-void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit, StageContext& context) const {
+void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
+                                  StageContext& context) const {
   Arena::Mark mark(context.scratch);
   std::pmr::vector<float> all(&context.scratch);
   all.reserve(matches.size());
@@ -109,7 +118,8 @@ void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches
   std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
   const Cells cells(matches, options_.radius_px, &context.scratch);
   context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int) {
-    for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop(); ++k) {
+    for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop();
+         ++k) {
       if (matches[k].rejected_by != 0) continue;
       const float limit = options_.global_sigmas * std::max(whole.sigma, options_.floor_px);
       const bool far = options_.global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;

@@ -7,7 +7,8 @@
 //   global  |d - median of all d|     <= global_sigmas * 1.4826 MAD of all
 //   local   |d - median of neighbours| <= local_sigmas * max(1.4826 MAD of the neighbours, floor_px)
 // Neighbours are the accepted matches no further than radius_px across and down, the match itself not; fewer
-// than five say nothing and the match stays. What earlier rules rejected has no vote; what this one rejects has.
+// than five say nothing and the match stays. What earlier rules rejected has no vote; what this one rejects
+// has.
 #pragma once
 
 #include "pipeline/match/match_constraint.h"
@@ -19,16 +20,19 @@ struct StatisticalConstraintOptions {
   float global_sigmas = 6;
   float local_sigmas = 4;
   float radius_px = 10;
-  float floor_px = 0.5F;   // neighbours that agree better than this do not make the rule stricter
+  float floor_px = 0.5F;  // neighbours that agree better than this do not make the rule stricter
   Result<void> check() const;
 };
 
 template <typename Field>
 void describe(StatisticalConstraintOptions& o, Field&& field) {
-  field("global_sigmas", o.global_sigmas, OptionRange{0, 100}, "distance from the median of all disparities, in their scatter; 0: any");
-  field("local_sigmas", o.local_sigmas, OptionRange{0, 100}, "distance from the median of the neighbours, in their scatter; 0: any");
+  field("global_sigmas", o.global_sigmas, OptionRange{0, 100},
+        "distance from the median of all disparities, in their scatter; 0: any");
+  field("local_sigmas", o.local_sigmas, OptionRange{0, 100},
+        "distance from the median of the neighbours, in their scatter; 0: any");
   field("radius_px", o.radius_px, OptionRange{1, 256}, "how far neighbours reach, pixels");
-  field("floor_px", o.floor_px, OptionRange{0.01, 64}, "least scatter the neighbours are taken to have, pixels");
+  field("floor_px", o.floor_px, OptionRange{0.01, 64},
+        "least scatter the neighbours are taken to have, pixels");
 }
 
 class StatisticalConstraint final : public MatchConstraint {

@@ -18,7 +18,8 @@ struct UniquenessConstraintOptions {
 
 template <typename Field>
 void describe(UniquenessConstraintOptions& o, Field&& field) {
-  field("margin_px", o.margin_px, OptionRange{0, 64}, "how far behind another surface a match counts as hidden, pixels");
+  field("margin_px", o.margin_px, OptionRange{0, 64},
+        "how far behind another surface a match counts as hidden, pixels");
 }
 
 class UniquenessConstraint final : public MatchConstraint {

@@ -7,9 +7,9 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kFaceWidthMm = 150;                        // a grown-up's, as in RectifiedPair::face_width_px
-constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;       // of that width: an ellipse of skin, no background
-constexpr int kEvery = 2;                                   // pixels looked at
+constexpr double kFaceWidthMm = 150;                   // a grown-up's, as in RectifiedPair::face_width_px
+constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;  // of that width: an ellipse of skin, no background
+constexpr int kEvery = 2;                              // pixels looked at
 
 struct Oval {
   double x, y, half_width, half_height;
@@ -19,13 +19,16 @@ struct Oval {
   }
 };
 
-Oval oval(double x, double y, double face_width) { return {x, y, kHalfWidth * face_width, kHalfHeight * face_width}; }
+Oval oval(double x, double y, double face_width) {
+  return {x, y, kHalfWidth * face_width, kHalfHeight * face_width};
+}
 
 double white_share(const RectifiedView& view, const RectifiedPair& pair, const Oval& face) {
   long seen = 0, white = 0;
   for (int y = 0; y < pair.height_px; y += kEvery)
     for (int x = 0; x < pair.width_px; x += kEvery) {
-      const std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+      const std::size_t k =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
       if (!view.valid[k] || !face.holds(x, y)) continue;
       ++seen;
       if (view.grey[k] >= kWhiteGrey) ++white;
@@ -41,7 +44,8 @@ Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& mat
   double sum = 0;
   long count = 0;
   for (const Match& m : matches.matches) {
-    if (m.rejected_by != 0 || !left.holds(static_cast<double>(m.left_px.x), static_cast<double>(m.left_px.y))) continue;
+    if (m.rejected_by != 0 || !left.holds(static_cast<double>(m.left_px.x), static_cast<double>(m.left_px.y)))
+      continue;
     sum += static_cast<double>(m.disparity_px);
     ++count;
   }

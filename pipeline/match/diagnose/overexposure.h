@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How much of the face is white in either picture. Such skin has no texture left: it comes back as a hole, or not at all.
-// Memory: none. Thread: any. Errors: none.
+// How much of the face is white in either picture. Such skin has no texture left: it comes back as a hole, or
+// not at all. Memory: none. Thread: any. Errors: none.
 #pragma once
 
 #include "pipeline/model/match_set.h"
@@ -18,7 +18,8 @@ struct Overexposure {
   double right = 0;
 };
 
-// Of the face that was found (RectifiedPair::face_centre_px), and in the right view where the matches say it is; 0 where none was looked for.
+// Of the face that was found (RectifiedPair::face_centre_px), and in the right view where the matches say it
+// is; 0 where none was looked for.
 Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches);
 
 // Of a face that nothing is known of: in the middle of the volume, in which the windows' middles lie.

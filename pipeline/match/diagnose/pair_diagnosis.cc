@@ -15,14 +15,14 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kEvery = 4;                // pixels looked at for light
-constexpr float kDark = 24;              // grey: the brightest thousandth of a lit face is far above it
-constexpr double kTooMuchWhite = 0.25;   // share of what is lit, and of a face
-constexpr float kLeastContrast = 8;      // grey, between the darkest and the brightest hundredth
-constexpr double kSame = 0.5;            // mean difference in grey: the noise of two pictures alone is more
-constexpr int kReducedWidth = 120;       // pixels: so few that a face's relief does not matter
-constexpr double kAlike = 0.75;          // correlation of the patch at its best place
-constexpr int kRowsApart = 1;            // reduced pixels; what is less matching copes with or judges itself
+constexpr int kEvery = 4;               // pixels looked at for light
+constexpr float kDark = 24;             // grey: the brightest thousandth of a lit face is far above it
+constexpr double kTooMuchWhite = 0.25;  // share of what is lit, and of a face
+constexpr float kLeastContrast = 8;     // grey, between the darkest and the brightest hundredth
+constexpr double kSame = 0.5;           // mean difference in grey: the noise of two pictures alone is more
+constexpr int kReducedWidth = 120;      // pixels: so few that a face's relief does not matter
+constexpr double kAlike = 0.75;         // correlation of the patch at its best place
+constexpr int kRowsApart = 1;           // reduced pixels; what is less matching copes with or judges itself
 
 enum class Light : std::uint8_t { Good, Dark, Overexposed, Blank };
 
@@ -40,12 +40,15 @@ Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
   long all = 0;
   for (int y = 0; y < picture.height_px; y += kEvery) {
     read_row(picture, y, row);
-    for (int x = 0; x < picture.width_px; x += kEvery, ++all) ++histogram[static_cast<std::size_t>(std::clamp(row[static_cast<std::size_t>(x)], 0.0F, 255.0F))];
+    for (int x = 0; x < picture.width_px; x += kEvery, ++all)
+      ++histogram[static_cast<std::size_t>(std::clamp(row[static_cast<std::size_t>(x)], 0.0F, 255.0F))];
   }
   const auto level = [&](double share) {
     long seen = 0;
     int grey = 0;
-    while (grey < 255 && static_cast<double>(seen + histogram[static_cast<std::size_t>(grey)]) < share * static_cast<double>(all)) seen += histogram[static_cast<std::size_t>(grey++)];
+    while (grey < 255 && static_cast<double>(seen + histogram[static_cast<std::size_t>(grey)]) <
+                             share * static_cast<double>(all))
+      seen += histogram[static_cast<std::size_t>(grey++)];
     return static_cast<float>(grey);
   };
   if (level(0.999) < kDark) return Light::Dark;
@@ -59,7 +62,8 @@ Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
 }
 
 bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
-  if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px) return false;
+  if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px)
+    return false;
   const auto width = static_cast<std::size_t>(frame.left.width_px);
   std::pmr::vector<float> left(width, memory), right(width, memory);
   double sum = 0;
@@ -74,16 +78,21 @@ bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
 
 int reduction(const RectifiedPair& pair) { return std::max(1, pair.width_px / kReducedWidth); }
 
-Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
+Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pair,
+                    std::pmr::memory_resource* memory) {
   const int by = reduction(pair);
   Plane<float> small(memory, pair.width_px / by, pair.height_px / by);
   for (int y = 0; y < small.height * by; ++y)
     for (int x = 0; x < small.width * by; ++x)
-      small.row(y / by)[x / by] += grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)];
+      small.row(y / by)[x / by] +=
+          grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+               static_cast<std::size_t>(x)];
   return small;
 }
 
-struct Box { int x, y, width, height; };
+struct Box {
+  int x, y, width, height;
+};
 
 double correlation(const Plane<float>& left, const Box& box, const Plane<float>& right, int dx, int dy) {
   double l = 0, r = 0, ll = 0, rr = 0, lr = 0;
@@ -100,7 +109,10 @@ double correlation(const Plane<float>& left, const Box& box, const Plane<float>&
   return spread > 0 ? (lr - l * r / n) / std::sqrt(spread) : 0;
 }
 
-struct Place { double alike = -1; int dx = 0, dy = 0; };
+struct Place {
+  double alike = -1;
+  int dx = 0, dy = 0;
+};
 
 // Where the middle of the left view lies in the right one.
 Place find_middle(const RectifiedPair& pair, std::pmr::memory_resource* memory) {
@@ -110,7 +122,8 @@ Place find_middle(const RectifiedPair& pair, std::pmr::memory_resource* memory) 
   Place best;
   for (int dy = -box.y; dy + box.y + box.height <= right.height; ++dy)
     for (int dx = -box.x; dx + box.x + box.width <= right.width; ++dx)
-      if (const double alike = correlation(left, box, right, dx, dy); alike > best.alike) best = {alike, dx, dy};
+      if (const double alike = correlation(left, box, right, dx, dy); alike > best.alike)
+        best = {alike, dx, dy};
   return best;
 }
 
@@ -121,8 +134,11 @@ std::optional<PairFault> fault_of_light(Light left, Light right) {
     if (right == light) return r;
     return std::nullopt;
   };
-  if (const auto dark = pick(Light::Dark, PairFault::LeftDark, PairFault::RightDark, PairFault::BothDark)) return dark;
-  if (const auto white = pick(Light::Overexposed, PairFault::LeftOverexposed, PairFault::RightOverexposed, PairFault::BothOverexposed)) return white;
+  if (const auto dark = pick(Light::Dark, PairFault::LeftDark, PairFault::RightDark, PairFault::BothDark))
+    return dark;
+  if (const auto white = pick(Light::Overexposed, PairFault::LeftOverexposed, PairFault::RightOverexposed,
+                              PairFault::BothOverexposed))
+    return white;
   return pick(Light::Blank, PairFault::LeftBlank, PairFault::RightBlank, PairFault::BothBlank);
 }
 
@@ -133,7 +149,9 @@ std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCal
   if (frame.left.empty() || frame.right.empty()) return std::nullopt;
   Arena::Mark products(context.output);
   Arena::Mark work(context.scratch);
-  if (const auto light = fault_of_light(judge_light(frame.left, &context.scratch), judge_light(frame.right, &context.scratch))) return light;
+  if (const auto light = fault_of_light(judge_light(frame.left, &context.scratch),
+                                        judge_light(frame.right, &context.scratch)))
+    return light;
   if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
   const auto pair = Rectifier(volume).rectify(frame, calibration, context);
   if (!pair) return std::nullopt;
@@ -142,23 +160,47 @@ std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCal
   const auto judge = [](double share) { return share > kTooMuchWhite ? Light::Overexposed : Light::Good; };
   if (const auto light = fault_of_light(judge(white.left), judge(white.right))) return light;
   const Place middle = find_middle(*pair, &context.scratch);
-  return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted) : std::nullopt;
+  return middle.alike > kAlike && std::abs(middle.dy) > kRowsApart ? std::optional(PairFault::Shifted)
+                                                                   : std::nullopt;
 }
 
 Error error_of(PairFault fault) {
   switch (fault) {
-    case PairFault::SamePicture: return Error{Errc::InvalidInput, "left and right are the same picture: give one of each camera"};
-    case PairFault::LeftDark: return Error{Errc::NoFace, "the left picture is black: is its lens covered, its light off or the exposure too short?"};
-    case PairFault::RightDark: return Error{Errc::NoFace, "the right picture is black: is its lens covered, its light off or the exposure too short?"};
-    case PairFault::BothDark: return Error{Errc::NoFace, "both pictures are black: put light on the face, or expose longer"};
-    case PairFault::LeftOverexposed: return Error{Errc::NoFace, "the left picture is over-exposed: less light, or a shorter exposure"};
-    case PairFault::RightOverexposed: return Error{Errc::NoFace, "the right picture is over-exposed: less light, or a shorter exposure"};
-    case PairFault::BothOverexposed: return Error{Errc::NoFace, "both pictures are over-exposed: less light, or a shorter exposure"};
-    case PairFault::LeftBlank: return Error{Errc::NoFace, "the left picture shows nothing but one grey: is its lens covered or far out of focus?"};
-    case PairFault::RightBlank: return Error{Errc::NoFace, "the right picture shows nothing but one grey: is its lens covered or far out of focus?"};
-    case PairFault::BothBlank: return Error{Errc::NoFace, "both pictures show nothing but one grey: are the lenses covered or far out of focus?"};
-    case PairFault::Swapped: return Error{Errc::InvalidInput, "left and right are swapped: give the left camera's picture first, or calibrate anew if the cameras changed places"};
-    case PairFault::Shifted: return Error{Errc::NotCalibrated, "one picture lies higher than the other: a camera has moved since it was calibrated, or the pictures are not a pair; calibrate again"};
+    case PairFault::SamePicture:
+      return Error{Errc::InvalidInput, "left and right are the same picture: give one of each camera"};
+    case PairFault::LeftDark:
+      return Error{
+          Errc::NoFace,
+          "the left picture is black: is its lens covered, its light off or the exposure too short?"};
+    case PairFault::RightDark:
+      return Error{
+          Errc::NoFace,
+          "the right picture is black: is its lens covered, its light off or the exposure too short?"};
+    case PairFault::BothDark:
+      return Error{Errc::NoFace, "both pictures are black: put light on the face, or expose longer"};
+    case PairFault::LeftOverexposed:
+      return Error{Errc::NoFace, "the left picture is over-exposed: less light, or a shorter exposure"};
+    case PairFault::RightOverexposed:
+      return Error{Errc::NoFace, "the right picture is over-exposed: less light, or a shorter exposure"};
+    case PairFault::BothOverexposed:
+      return Error{Errc::NoFace, "both pictures are over-exposed: less light, or a shorter exposure"};
+    case PairFault::LeftBlank:
+      return Error{Errc::NoFace,
+                   "the left picture shows nothing but one grey: is its lens covered or far out of focus?"};
+    case PairFault::RightBlank:
+      return Error{Errc::NoFace,
+                   "the right picture shows nothing but one grey: is its lens covered or far out of focus?"};
+    case PairFault::BothBlank:
+      return Error{Errc::NoFace,
+                   "both pictures show nothing but one grey: are the lenses covered or far out of focus?"};
+    case PairFault::Swapped:
+      return Error{
+          Errc::InvalidInput,
+          "left and right are swapped: give the left camera's picture first, or calibrate anew if the cameras changed places"};
+    case PairFault::Shifted:
+      return Error{
+          Errc::NotCalibrated,
+          "one picture lies higher than the other: a camera has moved since it was calibrated, or the pictures are not a pair; calibrate again"};
   }
   return Error{Errc::InvalidState, "is no fault"};
 }

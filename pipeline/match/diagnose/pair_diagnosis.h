@@ -16,10 +16,16 @@ namespace relievo::pipeline {
 
 enum class PairFault : std::uint8_t {
   SamePicture,
-  LeftDark, RightDark, BothDark,
-  LeftOverexposed, RightOverexposed, BothOverexposed,
-  LeftBlank, RightBlank, BothBlank,
-  Shifted,     // along the columns, by more than a nudge of a camera makes
+  LeftDark,
+  RightDark,
+  BothDark,
+  LeftOverexposed,
+  RightOverexposed,
+  BothOverexposed,
+  LeftBlank,
+  RightBlank,
+  BothBlank,
+  Shifted,  // along the columns, by more than a nudge of a camera makes
   Swapped,
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kFirstLevel = 3;
-constexpr int kLastLevel = 1;  // full size would add noise, hardly detail
+constexpr int kLastLevel = 1;     // full size would add noise, hardly detail
 constexpr int kSearchRounds = 3;  // at each level
 constexpr int kRefineRounds = 2;
 constexpr int kMotionRounds = 10;  // a chin may move by many pixels, a round by one of half the size
@@ -20,8 +20,9 @@ constexpr double kMotionSettledPx = 0.02;
 
 }  // namespace
 
-EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
-                                     EpipolarSearch search, StageContext& context) {
+EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids,
+                                     const SurfaceField& field, EpipolarSearch search,
+                                     StageContext& context) {
   const bool whole = search == EpipolarSearch::Search;
   const FaceEllipse face(pair);
   EpipolarShift shift;
@@ -30,7 +31,8 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
     LocalShifts locals(pyramids, level, field, face, context);
     for (int round = 0; round < (whole ? kSearchRounds : kRefineRounds); ++round) {
       // Small pictures have too few patches for slopes.
-      const EpipolarShift better = fit_shift_field(locals.measure({shift}), level == kLastLevel, context.scratch);
+      const EpipolarShift better =
+          fit_shift_field(locals.measure({shift}), level == kLastLevel, context.scratch);
       if (!better.measured()) break;
       shift = better;
     }

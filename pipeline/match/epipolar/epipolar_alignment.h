@@ -27,15 +27,16 @@ namespace relievo::pipeline {
 enum class EpipolarSearch : std::uint8_t { Search, Refine };
 
 // Without measured() where the face has too little texture to tell.
-EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
-                                     EpipolarSearch search, StageContext& context);
+EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids,
+                                     const SurfaceField& field, EpipolarSearch search, StageContext& context);
 
-// What moved beside the linear shift that the pictures still have, on a surface good to about a pixel of half the size.
+// What moved beside the linear shift that the pictures still have, on a surface good to about a pixel of half
+// the size.
 RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
                              const EpipolarShift& linear, StageContext& context);
 
-// to(x, y) = from(x, y + shift), full size, by cubic convolution along the columns; pixels that would need rows
-// outside are copied.
+// to(x, y) = from(x, y + shift), full size, by cubic convolution along the columns; pixels that would need
+// rows outside are copied.
 void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -7,8 +7,8 @@
 
 #include <Eigen/Dense>
 
-#include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/epipolar/column_sample.h"
+#include "pipeline/match/image/box_filter.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -48,7 +48,9 @@ struct Extent {
 }  // namespace
 
 FaceEllipse::FaceEllipse(const RectifiedPair& pair)
-    : x_(pair.face_centre_px.x), y_(pair.face_centre_px.y), half_width_(kHalfWidth * pair.face_width_px),
+    : x_(pair.face_centre_px.x),
+      y_(pair.face_centre_px.y),
+      half_width_(kHalfWidth * pair.face_width_px),
       half_height_(kHalfHeight * pair.face_width_px) {}
 
 bool FaceEllipse::holds(double x_px, double y_px) const {
@@ -57,13 +59,19 @@ bool FaceEllipse::holds(double x_px, double y_px) const {
   return u * u + v * v < 1;
 }
 
-LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const FaceEllipse& face,
-                         StageContext& context)
-    : left_(pyramids.left[static_cast<std::size_t>(level)]), right_(pyramids.right[static_cast<std::size_t>(level)]),
-      field_(field), face_(face), context_(context), level_(level), stride_(std::max(1, (1 << level) / field.step_px)),
+LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field,
+                         const FaceEllipse& face, StageContext& context)
+    : left_(pyramids.left[static_cast<std::size_t>(level)]),
+      right_(pyramids.right[static_cast<std::size_t>(level)]),
+      field_(field),
+      face_(face),
+      context_(context),
+      level_(level),
+      stride_(std::max(1, (1 << level) / field.step_px)),
       left_detail_(&context.scratch, left_.grey.width, left_.grey.height),
       right_detail_(&context.scratch, right_.grey.width, right_.grey.height),
-      patches_(&context.scratch, patches_over(field.domain.width, stride_), patches_over(field.domain.height, stride_)),
+      patches_(&context.scratch, patches_over(field.domain.width, stride_),
+               patches_over(field.domain.height, stride_)),
       locals_(patches_.values.size(), &context.scratch) {
   high_pass(left_.grey, context, left_detail_);
   high_pass(right_.grey, context, right_detail_);
@@ -85,7 +93,8 @@ void LocalShifts::add_node(const RowShift& from, int x, int y, double disparity_
   const auto tx = static_cast<float>(xr - ix);
   const ColumnWeights column(static_cast<float>(yr - iy));
   const float* at = r.row(iy) + ix;
-  const double seen = static_cast<double>((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
+  const double seen =
+      static_cast<double>((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
   const auto here = static_cast<double>(l.row(y)[x]);
   const double values[5] = {0.5 * (l.row(y)[x + 1] - l.row(y)[x - 1]), here, 1,
                             0.5 * (l.row(y + 1)[x] - l.row(y - 1)[x]), seen / gain_ - here};
@@ -109,7 +118,8 @@ void LocalShifts::gather(const RowShift& from) {
         for (int j = q * reach; j < j_end; j += stride_)
           for (int i = p * reach; i < i_end; i += stride_)
             if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
-              add_node(from, i / stride_, j / stride_, static_cast<double>(field_.disparity_px.row(j)[i]), patch);
+              add_node(from, i / stride_, j / stride_, static_cast<double>(field_.disparity_px.row(j)[i]),
+                       patch);
       }
   });
 }

@@ -52,8 +52,8 @@ class LocalShifts {
   const FaceEllipse& face_;
   StageContext& context_;
   int level_;
-  int stride_;        // every so many nodes of the field are a pixel of this level
-  double gain_ = 1;   // of the right view over the left
+  int stride_;       // every so many nodes of the field are a pixel of this level
+  double gain_ = 1;  // of the right view over the left
   Plane<float> left_detail_;
   Plane<float> right_detail_;
   Plane<Patch> patches_;

@@ -9,8 +9,12 @@
 
 namespace relievo::pipeline {
 
-RowAligner::RowAligner(const RectifiedPair& pair, Pyramids& pyramids, const RowAlignerLimits& limits, StageContext& context)
-    : pair_(pair), pyramids_(pyramids), context_(context), limits_(limits),
+RowAligner::RowAligner(const RectifiedPair& pair, Pyramids& pyramids, const RowAlignerLimits& limits,
+                       StageContext& context)
+    : pair_(pair),
+      pyramids_(pyramids),
+      context_(context),
+      limits_(limits),
       motion_(&context.scratch, pair.width_px, pair.height_px) {}
 
 double RowAligner::align(const SurfaceField& field) {
@@ -37,7 +41,8 @@ RowMotion RowAligner::measure_motion(const SurfaceField& field, const EpipolarSh
 void RowAligner::apply(const EpipolarShift* linear, const RowMotion& motion) {
   if (linear != nullptr) applied_ = applied_.measured() ? sum_of(applied_, *linear) : *linear;
   if (motion.seen) {
-    for (std::size_t k = 0; k < motion.shift_px.values.size(); ++k) motion_.shift_px.values[k] += motion.shift_px.values[k];
+    for (std::size_t k = 0; k < motion.shift_px.values.size(); ++k)
+      motion_.shift_px.values[k] += motion.shift_px.values[k];
     motion_.seen = true;
     motion_.rms_px = std::hypot(motion_.rms_px, motion.rms_px);
   }
@@ -55,7 +60,8 @@ double RowAligner::largest(const RowShift& shift) const {
 }
 
 EpipolarShift RowAligner::measure_linear(const SurfaceField& field) const {
-  const EpipolarShift rest = measure_epipolar_shift(pair_, pyramids_, field, EpipolarSearch::Refine, context_);
+  const EpipolarShift rest =
+      measure_epipolar_shift(pair_, pyramids_, field, EpipolarSearch::Refine, context_);
   if (!rest.measured()) return applied_.measured() ? applied_ : measured_;
   return applied_.measured() ? sum_of(applied_, rest) : rest;
 }

@@ -13,14 +13,15 @@
 namespace relievo::pipeline {
 
 struct RowAlignerLimits {
-  double beyond_px = 0.03;    // a linear shift of less is left alone, rms over the face
+  double beyond_px = 0.03;  // a linear shift of less is left alone, rms over the face
   bool follow_motion = true;
 };
 
 class RowAligner {
  public:
   // Borrows all; resamples pyramids.right.
-  RowAligner(const RectifiedPair& pair, Pyramids& pyramids, const RowAlignerLimits& limits, StageContext& context);
+  RowAligner(const RectifiedPair& pair, Pyramids& pyramids, const RowAlignerLimits& limits,
+             StageContext& context);
 
   // Measures on a surface good to about a pixel of half the size and resamples every level of the right
   // view. Returns the largest shift it made, full-size pixels.
@@ -41,7 +42,7 @@ class RowAligner {
   Pyramids& pyramids_;
   StageContext& context_;
   RowAlignerLimits limits_;
-  EpipolarShift measured_;   // the last one, where nothing was applied
+  EpipolarShift measured_;  // the last one, where nothing was applied
   EpipolarShift applied_;
   RowMotion motion_;
 };

@@ -10,7 +10,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kNeighbours = 2;          // nodes: patches up to here are a patch's surroundings
+constexpr int kNeighbours = 2;  // nodes: patches up to here are a patch's surroundings
 constexpr std::size_t kLeastAround = 8;
 constexpr std::size_t kLeastLocals = 40;
 constexpr int kReweightings = 4;
@@ -21,7 +21,7 @@ constexpr double kMedianVariance = 1.57;  // of a median over that of a mean
 // Patches that err together (an edge of the lips, a highlight) look like motion of a few tenths of their
 // scatter: less than this share of it is not believed.
 constexpr double kLeastShare = 0.5;
-constexpr double kReach = 1.0 / 6;       // of the face's width
+constexpr double kReach = 1.0 / 6;  // of the face's width
 
 using Numbers = std::pmr::vector<double>;
 
@@ -36,14 +36,20 @@ struct Node {
 };
 
 Node node_of(const LocalShift& local) {
-  return {static_cast<int>(std::lround(local.x_px / kMotionStepPx)), static_cast<int>(std::lround(local.y_px / kMotionStepPx))};
+  return {static_cast<int>(std::lround(local.x_px / kMotionStepPx)),
+          static_cast<int>(std::lround(local.y_px / kMotionStepPx))};
 }
 
 // The locals beyond the linear shift, which of them stand at which node, and how sure they are.
 struct Beyond {
-  Beyond(std::span<const LocalShift> all, const EpipolarShift& linear, const RowMotion& motion, Arena& scratch)
-      : shift(&scratch), prior(&scratch), around(&scratch), at(&scratch, motion.shift_px.width, motion.shift_px.height, -1),
-        next(all.size(), -1, &scratch), locals(all) {
+  Beyond(std::span<const LocalShift> all, const EpipolarShift& linear, const RowMotion& motion,
+         Arena& scratch)
+      : shift(&scratch),
+        prior(&scratch),
+        around(&scratch),
+        at(&scratch, motion.shift_px.width, motion.shift_px.height, -1),
+        next(all.size(), -1, &scratch),
+        locals(all) {
     Numbers room(&scratch);
     for (const LocalShift& local : all) room.push_back(local.information);
     const double usual = median(room);
@@ -62,12 +68,13 @@ struct Beyond {
   void neighbours(const Node& node, Visit&& visit) const {
     for (int y = std::max(0, node.y - kNeighbours); y <= std::min(at.height - 1, node.y + kNeighbours); ++y)
       for (int x = std::max(0, node.x - kNeighbours); x <= std::min(at.width - 1, node.x + kNeighbours); ++x)
-        for (int k = at.row(y)[x]; k >= 0; k = next[static_cast<std::size_t>(k)]) visit(static_cast<std::size_t>(k));
+        for (int k = at.row(y)[x]; k >= 0; k = next[static_cast<std::size_t>(k)])
+          visit(static_cast<std::size_t>(k));
   }
 
   Numbers shift, prior, around;
-  Plane<int> at;                // the first local at a node, -1: none
-  std::pmr::vector<int> next;   // the next local at the same node
+  Plane<int> at;               // the first local at a node, -1: none
+  std::pmr::vector<int> next;  // the next local at the same node
   std::span<const LocalShift> locals;
 };
 
@@ -137,7 +144,8 @@ void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& lin
   // The variance of a field with the energy ridge v^2 + bend |second differences|^2 a node is
   // 1 / (8 sqrt(ridge bend)), its reach (bend / ridge)^(1/4).
   Plane<float>& field = motion.shift_px;
-  const double reach = kReach * (face_width_px > 0 ? face_width_px : field.width * kMotionStepPx / 2.0) / kMotionStepPx;
+  const double reach =
+      kReach * (face_width_px > 0 ? face_width_px : field.width * kMotionStepPx / 2.0) / kMotionStepPx;
   const double ridge = 1 / (8 * reach * reach * around.amplitude2);
   const auto bend = static_cast<float>(ridge * reach * reach * reach * reach);
   BendingSystem system(&context.scratch, field.width, field.height);

@@ -27,7 +27,8 @@ struct RowMotion {
   // Nothing moves.
   RowMotion(std::pmr::memory_resource* memory, int width_px, int height_px);
 
-  double at(double x_px, double y_px) const;  // beyond the linear shift; bilinear, constant outside the lattice
+  double at(double x_px,
+            double y_px) const;  // beyond the linear shift; bilinear, constant outside the lattice
 
   Plane<float> shift_px;  // node (i, j) stands on pixel kMotionStepPx * (i, j)
   bool seen = false;      // false: shift_px is 0 everywhere
@@ -43,7 +44,8 @@ struct RowShift {
   }
 };
 
-// `face_width_px` 0: unknown, half the picture is taken. `motion` is the surroundings the patches were warped by; it is replaced.
+// `face_width_px` 0: unknown, half the picture is taken. `motion` is the surroundings the patches were warped
+// by; it is replaced.
 void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& linear, double face_width_px,
                     StageContext& context, RowMotion& motion);
 

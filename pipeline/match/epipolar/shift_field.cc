@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLeastLocals = 12;
 constexpr int kLeastBlocks = 8;
 constexpr int kReweightings = 8;
-constexpr double kTukey = 4.685;        // 95 % efficient where errors are normal
+constexpr double kTukey = 4.685;  // 95 % efficient where errors are normal
 constexpr double kMedianOfAbsolute = 0.6745;
 constexpr double kLeastScalePx = 1e-6;  // perfect measurements divide nothing by zero
 
@@ -51,7 +51,8 @@ void describe_face(std::span<const LocalShift> locals, const Numbers& weight, Ep
 
 Eigen::Vector3d basis(const EpipolarShift& face, const LocalShift& at, bool slopes) {
   if (!slopes) return {1, 0, 0};
-  return {1, (at.x_px - face.middle_x_px) / face.spread_x_px, (at.y_px - face.middle_y_px) / face.spread_y_px};
+  return {1, (at.x_px - face.middle_x_px) / face.spread_x_px,
+          (at.y_px - face.middle_y_px) / face.spread_y_px};
 }
 
 Eigen::Matrix3d moments(const EpipolarShift& face) {
@@ -62,15 +63,17 @@ Eigen::Matrix3d moments(const EpipolarShift& face) {
 
 struct Fit {
   Eigen::Vector3d field;
-  Eigen::Matrix3d slope;  // of the equations that the field solves: what an error of a measurement moves it by
+  Eigen::Matrix3d
+      slope;  // of the equations that the field solves: what an error of a measurement moves it by
 };
 
-Fit reweighted(std::span<const LocalShift> locals, bool slopes, const EpipolarShift& face, const Numbers& prior,
-               Numbers& weight, Numbers& room) {
+Fit reweighted(std::span<const LocalShift> locals, bool slopes, const EpipolarShift& face,
+               const Numbers& prior, Numbers& weight, Numbers& room) {
   // The median starts it: least squares could be pulled out of the reach of the biweight.
   for (std::size_t k = 0; k < locals.size(); ++k) room[k] = locals[k].shift_px;
   Fit fit{{median(room), 0, 0}, {}};
-  const Eigen::Matrix3d unused = slopes ? Eigen::Matrix3d::Zero() : Eigen::Matrix3d(Eigen::Vector3d(0, 1, 1).asDiagonal());
+  const Eigen::Matrix3d unused =
+      slopes ? Eigen::Matrix3d::Zero() : Eigen::Matrix3d(Eigen::Vector3d(0, 1, 1).asDiagonal());
   for (int round = 0; round < kReweightings; ++round) {
     const auto off = [&](std::size_t k) {
       return (locals[k].shift_px - fit.field.dot(basis(face, locals[k], slopes))) * std::sqrt(prior[k]);

@@ -21,14 +21,17 @@ constexpr int kCorrelationRadius = 4;
 
 Result<std::pmr::vector<char>> read_text(const std::string& path, std::pmr::memory_resource* memory) {
   std::error_code failure;
-  if (!std::filesystem::exists(path, failure)) return Error{Errc::NotFound, "no such file: --set file-matches.path=FILE names it"}.at(path);
-  if (!std::filesystem::is_regular_file(path, failure)) return Error{Errc::InvalidInput, "not a file of matches"}.at(path);
+  if (!std::filesystem::exists(path, failure))
+    return Error{Errc::NotFound, "no such file: --set file-matches.path=FILE names it"}.at(path);
+  if (!std::filesystem::is_regular_file(path, failure))
+    return Error{Errc::InvalidInput, "not a file of matches"}.at(path);
   const auto size = std::filesystem::file_size(path, failure);
   if (failure) return Error{Errc::IoFailed, "its size cannot be read"}.at(path);
   if (size > kMostBytes) return Error{Errc::InvalidInput, "more than 4 MiB is no file of matches"}.at(path);
   std::pmr::vector<char> text(static_cast<std::size_t>(size), '\0', memory);
   std::ifstream in(path, std::ios::binary);
-  if (!in || (size > 0 && !in.read(text.data(), static_cast<std::streamsize>(size)))) return Error{Errc::IoFailed, "it cannot be read"}.at(path);
+  if (!in || (size > 0 && !in.read(text.data(), static_cast<std::streamsize>(size))))
+    return Error{Errc::IoFailed, "it cannot be read"}.at(path);
   return text;
 }
 
@@ -76,11 +79,15 @@ struct Reader {
   }
 
   Result<Match> read(const Numbers& n) const {
-    if (n.count < 3) return Error{Errc::InvalidInput, "a match is x y disparity [sigma], numbers with blanks or commas between"};
+    if (n.count < 3)
+      return Error{Errc::InvalidInput,
+                   "a match is x y disparity [sigma], numbers with blanks or commas between"};
     const auto [x, y, d, sigma] = n.value;
     if (!inside(x, y)) return Error{Errc::InvalidInput, "the place lies outside the left picture"};
-    if (!inside(x - d, y)) return Error{Errc::InvalidInput, "with this disparity the partner lies outside the right picture"};
-    if (n.count == 4 && !(sigma > 0 && sigma <= 1000)) return Error{Errc::InvalidInput, "sigma must be positive, at most 1000 pixels"};
+    if (!inside(x - d, y))
+      return Error{Errc::InvalidInput, "with this disparity the partner lies outside the right picture"};
+    if (n.count == 4 && !(sigma > 0 && sigma <= 1000))
+      return Error{Errc::InvalidInput, "sigma must be positive, at most 1000 pixels"};
     const Vec2f at{static_cast<float>(x), static_cast<float>(y)};
     const auto disparity = static_cast<float>(d);
     return Match{at, disparity, window_cost(pair, at, disparity, kCorrelationRadius),
@@ -97,10 +104,13 @@ Result<void> FileMatcherOptions::check() const {
   return {};
 }
 
-Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&, StageContext& context) const {
+Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
+                                    StageContext& context) const {
   if (pair.width_px <= 0 || pair.height_px <= 0 || pair.left.grey.empty() || pair.right.grey.empty())
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  if (options_.path.empty()) return Error{Errc::NotFound, "no file of matches is named: --set file-matches.path=FILE"}.at("file-matches.path");
+  if (options_.path.empty())
+    return Error{Errc::NotFound, "no file of matches is named: --set file-matches.path=FILE"}.at(
+        "file-matches.path");
   RELIEVO_TRY_ASSIGN(const std::pmr::vector<char> text, read_text(options_.path, &context.scratch));
   std::string_view rest(text.data(), text.size());
   MatchSet set(&context.output);
@@ -113,7 +123,9 @@ Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     const auto numbers = read_numbers(one.substr(0, one.find('#')));
     if (!numbers)
-      return Error{Errc::InvalidInput, "a match is x y disparity [sigma], numbers with blanks or commas between"}.at(line_name(options_.path, line));
+      return Error{Errc::InvalidInput,
+                   "a match is x y disparity [sigma], numbers with blanks or commas between"}
+          .at(line_name(options_.path, line));
     if (numbers->count == 0) continue;
     const auto match = reader.read(*numbers);
     if (!match) return match.error().at(line_name(options_.path, line));

@@ -19,7 +19,9 @@ constexpr std::size_t kBytesPerRow = 128;  // more on the average is no table of
 
 constexpr std::string_view kBetween = ",; \t\r";
 
-std::string line_of(const std::string& path, std::uint32_t line) { return path + ", line " + std::to_string(line); }
+std::string line_of(const std::string& path, std::uint32_t line) {
+  return path + ", line " + std::to_string(line);
+}
 
 // The next number of the line, taken off its front; false where there is none.
 bool take_number(std::string_view& line, double& value) {
@@ -39,13 +41,16 @@ bool take_number(std::string_view& line, double& value) {
 
 bool is_title(std::string_view line) {
   return std::all_of(line.begin(), line.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || kBetween.find(static_cast<char>(c)) != std::string_view::npos;
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           kBetween.find(static_cast<char>(c)) != std::string_view::npos;
   });
 }
 
 struct File {
   int descriptor;
-  ~File() { if (descriptor >= 0) ::close(descriptor); }
+  ~File() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
 };
 
 Error failed(Literal what, const std::string& path) {
@@ -58,8 +63,8 @@ Error failed(Literal what, const std::string& path) {
 
 std::string NumberTable::place(std::size_t row) const { return line_of(path_, lines_[row]); }
 
-Result<NumberTable> parse_number_table(std::string_view text, std::string path, std::size_t columns, std::size_t most_rows,
-                                       std::pmr::memory_resource* memory) {
+Result<NumberTable> parse_number_table(std::string_view text, std::string path, std::size_t columns,
+                                       std::size_t most_rows, std::pmr::memory_resource* memory) {
   NumberTable table(std::move(path), columns, memory);
   const auto most_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   const std::size_t room = std::min(most_lines, most_rows);
@@ -75,11 +80,13 @@ Result<NumberTable> parse_number_table(std::string_view text, std::string path, 
     if (begin == std::string_view::npos || line[begin] == '#') continue;
     if (table.lines_.empty() && is_title(line)) continue;
     if (table.rows() == most_rows)
-      return Error{Errc::InvalidInput, "there are more lines than can be used; give fewer"}.at(line_of(table.path_, number));
+      return Error{Errc::InvalidInput, "there are more lines than can be used; give fewer"}.at(
+          line_of(table.path_, number));
     for (std::size_t k = 0; k < columns; ++k) {
       double value = 0;
       if (!take_number(line, value))
-        return Error{Errc::InvalidInput, "is not a line of numbers with commas or blanks between them"}.at(line_of(table.path_, number));
+        return Error{Errc::InvalidInput, "is not a line of numbers with commas or blanks between them"}.at(
+            line_of(table.path_, number));
       table.values_.push_back(value);
     }
     table.lines_.push_back(number);
@@ -88,12 +95,14 @@ Result<NumberTable> parse_number_table(std::string_view text, std::string path, 
   return table;
 }
 
-Result<NumberTable> read_number_table(const std::string& path, std::size_t columns, std::size_t most_rows, Arena& memory) {
+Result<NumberTable> read_number_table(const std::string& path, std::size_t columns, std::size_t most_rows,
+                                      Arena& memory) {
   const File in{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (in.descriptor < 0) return failed("cannot be opened; check the name", path);
   struct stat status {};
   if (::fstat(in.descriptor, &status) != 0) return failed("cannot be read", path);
-  if (!S_ISREG(status.st_mode)) return Error{Errc::InvalidInput, "is no file; give a text file of numbers"}.at(path);
+  if (!S_ISREG(status.st_mode))
+    return Error{Errc::InvalidInput, "is no file; give a text file of numbers"}.at(path);
   if (static_cast<std::size_t>(status.st_size) > most_rows * kBytesPerRow)
     return Error{Errc::InvalidInput, "is too large for a table of numbers"}.at(path);
   std::pmr::vector<char> text(static_cast<std::size_t>(status.st_size), &memory);

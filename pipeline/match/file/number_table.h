@@ -38,9 +38,10 @@ class NumberTable {
   std::pmr::vector<std::uint32_t> lines_;  // from 1
 };
 
-Result<NumberTable> read_number_table(const std::string& path, std::size_t columns, std::size_t most_rows, Arena& memory);
+Result<NumberTable> read_number_table(const std::string& path, std::size_t columns, std::size_t most_rows,
+                                      Arena& memory);
 // `path` is only for the errors.
-Result<NumberTable> parse_number_table(std::string_view text, std::string path, std::size_t columns, std::size_t most_rows,
-                                       std::pmr::memory_resource* memory);
+Result<NumberTable> parse_number_table(std::string_view text, std::string path, std::size_t columns,
+                                       std::size_t most_rows, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -34,8 +34,8 @@ void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float
   };
   for (int x = 0; x < std::min(radius, w); ++x)
     for (int k = 0; k < kTogether; ++k) sum[k] += in[k][x];
-  const int full = std::min(radius + 1, w);        // from here a pixel leaves the window
-  const int last = std::max(w - radius, 0);        // from here none enters
+  const int full = std::min(radius + 1, w);  // from here a pixel leaves the window
+  const int last = std::max(w - radius, 0);  // from here none enters
   slide(0, std::min(full, last), true, false);
   slide(std::min(full, last), full, false, false);
   slide(full, std::max(full, last), true, true);
@@ -45,7 +45,8 @@ void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float
 RELIEVO_SIMD void add_row(const float* from, int begin, int end, float* to) {
   for (int x = begin; x < end; ++x) to[x] += from[x];
 }
-RELIEVO_SIMD void slide_row(const float* above, const float* in, const float* out, int begin, int end, float* to) {
+RELIEVO_SIMD void slide_row(const float* above, const float* in, const float* out, int begin, int end,
+                            float* to) {
   for (int x = begin; x < end; ++x) to[x] = above[x] + (in[x] - out[x]);
 }
 
@@ -55,13 +56,15 @@ void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float
   const int w = from.width;
   const int h = from.height;
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; y += kTogether) sum_rows(from, y, std::min(kTogether, end - y), radius, across);
+    for (int y = begin; y < end; y += kTogether)
+      sum_rows(from, y, std::min(kTogether, end - y), radius, across);
   });
   // Bands of rows, each started afresh: rounding does not travel down the whole picture.
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     float* top = to.row(begin);
     std::fill(top, top + w, 0.0F);
-    for (int y = std::max(0, begin - radius); y <= std::min(h - 1, begin + radius); ++y) add_row(across.row(y), 0, w, top);
+    for (int y = std::max(0, begin - radius); y <= std::min(h - 1, begin + radius); ++y)
+      add_row(across.row(y), 0, w, top);
     for (int y = begin + 1; y < end; ++y) {
       const float* in = y + radius < h ? across.row(y + radius) : nullptr;
       const float* out = y - radius - 1 >= 0 ? across.row(y - radius - 1) : nullptr;
@@ -69,7 +72,8 @@ void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float
       const float* above = to.row(y - 1);
       if (in != nullptr && out != nullptr) slide_row(above, in, out, 0, w, here);
       else {
-        for (int x = 0; x < w; ++x) here[x] = above[x] + (in != nullptr ? in[x] : 0.0F) - (out != nullptr ? out[x] : 0.0F);
+        for (int x = 0; x < w; ++x)
+          here[x] = above[x] + (in != nullptr ? in[x] : 0.0F) - (out != nullptr ? out[x] : 0.0F);
       }
     }
   });

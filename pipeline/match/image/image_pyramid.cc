@@ -14,8 +14,8 @@ float across(const float* row, int x, int width) {
 
 }  // namespace
 
-void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height,
-                PyramidLevel& half, int begin, int end) {
+void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height, PyramidLevel& half,
+                int begin, int end) {
   constexpr float kWeight[5] = {1, 4, 6, 4, 1};
   for (int j = begin; j < end; ++j) {
     float* to = half.grey.row(j);
@@ -44,7 +44,8 @@ void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool) {
     const PyramidLevel& from = levels[level - 1];
     PyramidLevel& to = levels[level];
     pool.for_each_band(to.grey.height, kBands, [&](int begin, int end, int) {
-      halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, to, begin, end);
+      halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, to,
+                 begin, end);
     });
   }
 }

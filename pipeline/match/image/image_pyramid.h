@@ -20,8 +20,8 @@ struct PyramidLevel {
 };
 
 // `rows` of scratch: a band of the smaller picture, [begin, end).
-void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height,
-                PyramidLevel& half, int begin, int end);
+void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height, PyramidLevel& half,
+                int begin, int end);
 
 // Fills every level from the one before; the first must be filled.
 void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool);

@@ -13,7 +13,8 @@ namespace relievo::pipeline {
 template <typename T>
 struct Plane {
   Plane(std::pmr::memory_resource* memory, int width_px, int height_px, T value = T{})
-      : width(width_px), height(height_px),
+      : width(width_px),
+        height(height_px),
         values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), value, memory) {}
 
   int width;

@@ -13,7 +13,7 @@
 namespace relievo::pipeline {
 
 struct Pyramids {
-  std::pmr::vector<PyramidLevel> left;   // [level]; level 0 full size
+  std::pmr::vector<PyramidLevel> left;  // [level]; level 0 full size
   std::pmr::vector<PyramidLevel> right;
 };
 

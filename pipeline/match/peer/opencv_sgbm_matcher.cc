@@ -43,23 +43,28 @@ Crop crop_for(const RectifiedPair& pair, const Keypoints& keypoints, int first, 
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-cv::Mat grey_of(const RectifiedPair& pair, const RectifiedView& view, const Crop& crop, std::pmr::vector<std::uint8_t>& bytes) {
+cv::Mat grey_of(const RectifiedPair& pair, const RectifiedView& view, const Crop& crop,
+                std::pmr::vector<std::uint8_t>& bytes) {
   bytes.resize(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height));
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x) {
-      const auto from = static_cast<std::size_t>(crop.y0 + y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(crop.x0 + x);
-      bytes[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) + static_cast<std::size_t>(x)] =
+      const auto from = static_cast<std::size_t>(crop.y0 + y) * static_cast<std::size_t>(pair.width_px) +
+                        static_cast<std::size_t>(crop.x0 + x);
+      bytes[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
+            static_cast<std::size_t>(x)] =
           static_cast<std::uint8_t>(std::clamp(view.grey[from] + 0.5F, 0.0F, 255.0F));
     }
   return {crop.height, crop.width, CV_8UC1, bytes.data()};
 }
 
-cv::Mat compute(const RectifiedPair& pair, const SgbmMatcherOptions& options, const Crop& crop, int first, int count, StageContext& context) {
+cv::Mat compute(const RectifiedPair& pair, const SgbmMatcherOptions& options, const Crop& crop, int first,
+                int count, StageContext& context) {
   std::pmr::vector<std::uint8_t> left(&context.scratch);
   std::pmr::vector<std::uint8_t> right(&context.scratch);
   const int area = options.window_px * options.window_px;
-  const auto sgbm = cv::StereoSGBM::create(first, count, options.window_px, 8 * area, 32 * area, options.max_lr_px, 63, options.uniqueness,
-                                           options.speckle_px, 2, options.mode == 1 ? cv::StereoSGBM::MODE_SGBM_3WAY : cv::StereoSGBM::MODE_HH);
+  const auto sgbm = cv::StereoSGBM::create(
+      first, count, options.window_px, 8 * area, 32 * area, options.max_lr_px, 63, options.uniqueness,
+      options.speckle_px, 2, options.mode == 1 ? cv::StereoSGBM::MODE_SGBM_3WAY : cv::StereoSGBM::MODE_HH);
   cv::Mat disparity;
   sgbm->compute(grey_of(pair, pair.left, crop, left), grey_of(pair, pair.right, crop, right), disparity);
   return disparity;
@@ -70,28 +75,37 @@ cv::Mat compute(const RectifiedPair& pair, const SgbmMatcherOptions& options, co
 Result<void> SgbmMatcherOptions::check() const {
   if (window_px < 1 || window_px > 31 || window_px % 2 == 0)
     return Error{Errc::InvalidInput, "window_px must be odd, 1 to 31"}.at("opencv-sgbm");
-  if (mode != 1 && mode != 2) return Error{Errc::InvalidInput, "mode must be 1 (3way) or 2 (hh)"}.at("opencv-sgbm");
+  if (mode != 1 && mode != 2)
+    return Error{Errc::InvalidInput, "mode must be 1 (3way) or 2 (hh)"}.at("opencv-sgbm");
   if (uniqueness < 0 || uniqueness > 100 || max_lr_px < 0 || speckle_px < 0)
-    return Error{Errc::InvalidInput, "uniqueness must lie in 0 .. 100, max_lr_px and speckle_px not be negative"}.at("opencv-sgbm");
+    return Error{Errc::InvalidInput,
+                 "uniqueness must lie in 0 .. 100, max_lr_px and speckle_px not be negative"}
+        .at("opencv-sgbm");
   return {};
 }
 
-Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                    StageContext& context) const {
   const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  const Error nothing{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
+  const Error nothing{Errc::TooFewMatches,
+                      "hardly anything matches between the views: is the face in both, in focus and lit?"};
   if (keypoints.points.empty()) return nothing;
   const int first = static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
   const int needed = static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1 - first;
   const int count = (needed + 15) / 16 * 16;
   const Crop crop = crop_for(pair, keypoints, first, count);
   if (crop.width <= count + options_.window_px || crop.height <= options_.window_px)
-    return Error{Errc::InvalidInput, "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)"};
+    return Error{
+        Errc::InvalidInput,
+        "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)"};
   // Its own volumes: two of 16 bits.
   const double bytes = 4.0 * crop.width * crop.height * count;
   if (options_.mode == 2 && bytes > kMostBytes)
-    return Error{Errc::OutOfMemory, "opencv-sgbm: hh would need more than 2 GiB here: choose mode 1 or narrow the volume (--near, --far)"};
+    return Error{
+        Errc::OutOfMemory,
+        "opencv-sgbm: hh would need more than 2 GiB here: choose mode 1 or narrow the volume (--near, --far)"};
   if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
@@ -100,14 +114,17 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   const cv::Mat disparity = compute(pair, options_, crop, first, count, context);
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x)
-      if (const int value = disparity.at<std::int16_t>(y, x); value >= 16 * first) field.row(y)[x] = static_cast<float>(value) / 16;
+      if (const int value = disparity.at<std::int16_t>(y, x); value >= 16 * first)
+        field.row(y)[x] = static_cast<float>(value) / 16;
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   context.pool.for_each_band(static_cast<int>(found.size()), kBands, [&](int begin, int end, int) {
     for (int k = begin; k < end && !context.stop(); ++k) {
       const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
-      const FieldReading reading = read_disparity(field, {at.x - static_cast<float>(crop.x0), at.y - static_cast<float>(crop.y0)}, kNothing);
+      const FieldReading reading = read_disparity(
+          field, {at.x - static_cast<float>(crop.x0), at.y - static_cast<float>(crop.y0)}, kNothing);
       if (!reading.known) continue;
-      found[static_cast<std::size_t>(k)] = {at, reading.disparity, window_cost(pair, at, reading.disparity, kCorrelationRadius),
+      found[static_cast<std::size_t>(k)] = {at, reading.disparity,
+                                            window_cost(pair, at, reading.disparity, kCorrelationRadius),
                                             std::hypot(kFitPx, reading.scatter), 0};
     }
   });

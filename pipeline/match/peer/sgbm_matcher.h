@@ -18,11 +18,11 @@
 namespace relievo::pipeline {
 
 struct SgbmMatcherOptions {
-  int window_px = 5;      // odd
-  int mode = 1;           // 1: MODE_SGBM_3WAY, 2: MODE_HH
-  int uniqueness = 10;    // per cent by which the best candidate must win
-  int max_lr_px = 1;      // left-right check
-  int speckle_px = 100;   // smaller patches of one disparity go; 0 keeps them
+  int window_px = 5;     // odd
+  int mode = 1;          // 1: MODE_SGBM_3WAY, 2: MODE_HH
+  int uniqueness = 10;   // per cent by which the best candidate must win
+  int max_lr_px = 1;     // left-right check
+  int speckle_px = 100;  // smaller patches of one disparity go; 0 keeps them
   Result<void> check() const;
 };
 
@@ -32,14 +32,16 @@ void describe(SgbmMatcherOptions& o, Field&& field) {
   field("mode", o.mode, OptionRange{1, 2}, "1: three paths (MODE_SGBM_3WAY), 2: eight paths (MODE_HH)");
   field("uniqueness", o.uniqueness, OptionRange{0, 100}, "per cent by which the best candidate must win");
   field("max_lr_px", o.max_lr_px, OptionRange{0, 64}, "how far the two views may disagree, pixels");
-  field("speckle_px", o.speckle_px, OptionRange{0, 100000}, "patches of one disparity smaller than this go, pixels");
+  field("speckle_px", o.speckle_px, OptionRange{0, 100000},
+        "patches of one disparity smaller than this go, pixels");
 }
 
 class SgbmMatcher final : public Matcher {
  public:
   explicit SgbmMatcher(const SgbmMatcherOptions& options) : options_(options) {}
   std::string_view name() const override { return "opencv-sgbm"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const override;
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
+                         StageContext& context) const override;
 
  private:
   SgbmMatcherOptions options_;

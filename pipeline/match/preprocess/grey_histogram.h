@@ -23,7 +23,8 @@ class GreyHistogram {
 
   // `wanted` says which pixels count. Values beyond 0..255 count as the end levels.
   using Wanted = std::function<bool(int x, int y)>;
-  static GreyHistogram of(const std::pmr::vector<float>& grey, int width_px, int height_px, const Wanted& wanted, ThreadPool& pool);
+  static GreyHistogram of(const std::pmr::vector<float>& grey, int width_px, int height_px,
+                          const Wanted& wanted, ThreadPool& pool);
 
   std::uint64_t count() const { return below_[kLevels]; }
   // Share of the counted pixels darker than `grey`, 0 to 1. Needs count() > 0.

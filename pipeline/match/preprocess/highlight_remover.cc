@@ -14,37 +14,47 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kCell = 2;  // pixels of a cell's side: what is looked for is smooth, a quarter of the work finds it
+constexpr int kCell =
+    2;  // pixels of a cell's side: what is looked for is smooth, a quarter of the work finds it
 constexpr int kRowsOfABand = 16;
 // A place says something about the skin's colour where it is lit at all (shares of full light).
 constexpr float kLit = 0.05F, kColoured = 0.01F;
 // Below this share of the brightness there is no colour to go by: a grey camera, a coloured lamp.
 constexpr float kLeastColour = 0.05F;
-constexpr float kWhite = 0.2F;  // less of the light than this is skin's: no highlight but a white of the eye, teeth, a beard
-constexpr std::uint8_t kClipped = 252;  // of a channel that has reached its end nobody knows the colour: red ends first, and skin would pass for white
+constexpr float kWhite =
+    0.2F;  // less of the light than this is skin's: no highlight but a white of the eye, teeth, a beard
+constexpr std::uint8_t kClipped = 252;  // of a channel that has reached its end nobody knows the colour: red
+                                        // ends first, and skin would pass for white
 constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder than lips is paint
-constexpr double kLampReach = 0.03;     // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
+constexpr double kLampReach =
+    0.03;  // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
 constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
-constexpr double kSkinShare = 0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
+constexpr double kSkinShare =
+    0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
 
 double linear_of(double grey) {
   const double v = grey / 255;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-double grey_of(double linear) { return 255 * (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055); }
+double grey_of(double linear) {
+  return 255 * (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+}
 
 struct Curves {
   static constexpr int kSteps = 4096;  // of the way back: a twentieth of a grey level where it is steepest
   std::array<float, 256> linear{};
   std::array<float, kSteps + 1> grey{};
   Curves() {
-    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = static_cast<float>(linear_of(static_cast<double>(i)));
+    for (std::size_t i = 0; i < linear.size(); ++i)
+      linear[i] = static_cast<float>(linear_of(static_cast<double>(i)));
     // By the root of the light, which spreads the dark end.
-    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<float>(grey_of(std::pow(static_cast<double>(i) / kSteps, 2)));
+    for (std::size_t i = 0; i < grey.size(); ++i)
+      grey[i] = static_cast<float>(grey_of(std::pow(static_cast<double>(i) / kSteps, 2)));
   }
   float to_grey(float light) const {
-    return grey[static_cast<std::size_t>(std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * static_cast<float>(kSteps)))];
+    return grey[static_cast<std::size_t>(
+        std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * static_cast<float>(kSteps)))];
   }
 };
 
@@ -98,7 +108,8 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
       float red = 0, rest = 0;
       bool valid = true;
       for (int i = 0; i < kCell * kCell; ++i) {
-        const std::size_t k = static_cast<std::size_t>((part.top + cy) * kCell + i / kCell) * static_cast<std::size_t>(width_px) +
+        const std::size_t k = static_cast<std::size_t>((part.top + cy) * kCell + i / kCell) *
+                                  static_cast<std::size_t>(width_px) +
                               static_cast<std::size_t>((part.left + cx) * kCell + i % kCell);
         const std::uint8_t* rgb = &view.rgb[3 * k];
         red += linear[rgb[0]];
@@ -111,13 +122,17 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
   }
 }
 
-// Which cells say what colour the skin has: about the middle of a face that was found, all of the part else. In the right
-// view it stands where the middle of the searched depths puts it.
+// Which cells say what colour the skin has: about the middle of a face that was found, all of the part else.
+// In the right view it stands where the middle of the searched depths puts it.
 Part skin_of(const RectifiedPair& pair, bool right, const Part& part) {
   if (!(pair.face_width_px > 0)) return {0, 0, part.width, part.height};
-  const double shift = right && pair.near_mm > 0 ? 0.5 * (pair.disparity_px(pair.near_mm) + pair.disparity_px(pair.far_mm)) : 0;
+  const double shift = right && pair.near_mm > 0
+                           ? 0.5 * (pair.disparity_px(pair.near_mm) + pair.disparity_px(pair.far_mm))
+                           : 0;
   const double half = kSkinShare * pair.face_width_px;
-  const auto cell = [](double at, int first, int most) { return std::clamp(static_cast<int>(at / kCell) - first, 0, most); };
+  const auto cell = [](double at, int first, int most) {
+    return std::clamp(static_cast<int>(at / kCell) - first, 0, most);
+  };
   Part skin;
   skin.left = cell(pair.face_centre_px.x - shift - half, part.left, part.width);
   skin.top = cell(pair.face_centre_px.y - half, part.top, part.height);
@@ -141,24 +156,30 @@ float dull_ratio(const Part& skin, const Light& light, double dull, std::pmr::me
   return *at * kLeastColour < 1 ? *at : 0;
 }
 
-// Lips, blemishes and many a nose are redder than the rest of a face, so that a lamp upon them would pass for dull skin:
-// there the ratio is that of the least white nearby. A grey opening keeps what is redder and cuts off what is whiter, where
-// that is finer than `reach`.
-void find_local_ratio(const Light& light, float ratio, int reach, const Gaussian& gaussian, ThreadPool& pool, Plane<float>& local, Plane<float>& room) {
+// Lips, blemishes and many a nose are redder than the rest of a face, so that a lamp upon them would pass for
+// dull skin: there the ratio is that of the least white nearby. A grey opening keeps what is redder and cuts
+// off what is whiter, where that is finer than `reach`.
+void find_local_ratio(const Light& light, float ratio, int reach, const Gaussian& gaussian, ThreadPool& pool,
+                      Plane<float>& local, Plane<float>& room) {
   for (int y = 0; y < local.height; ++y)
     for (int x = 0; x < local.width; ++x) {
       const float all = light.all.row(y)[x], colour = light.colour.row(y)[x];
-      local.row(y)[x] = all >= kLit && colour >= kColoured ? std::clamp(all / colour, kReddest * ratio, ratio) : ratio;
+      local.row(y)[x] =
+          all >= kLit && colour >= kColoured ? std::clamp(all / colour, kReddest * ratio, ratio) : ratio;
     }
   erode(local, reach, pool, room);
   dilate(local, reach, pool, room);
   gaussian.smooth(local, pool, room);
 }
 
-// Nothing of what is little, for that may be noise; all of what is much; smooth between, for an edge would be matched.
-float doubted(float excess, float least) { return excess * excess * excess / (excess * excess + least * least + 1e-6F); }
+// Nothing of what is little, for that may be noise; all of what is much; smooth between, for an edge would be
+// matched.
+float doubted(float excess, float least) {
+  return excess * excess * excess / (excess * excess + least * least + 1e-6F);
+}
 
-// What is to be taken away, in grey levels, into light.all, and how far it is to be believed, into light.colour.
+// What is to be taken away, in grey levels, into light.all, and how far it is to be believed, into
+// light.colour.
 void find_excess(const Plane<float>& ratio, float least, Light& light, int begin, int end) {
   const Curves& c = curves();
   for (int y = begin; y < end; ++y) {
@@ -179,17 +200,21 @@ void weigh(Light& light, int reach, ThreadPool& pool, Plane<float>& room) {
   for (std::size_t i = 0; i < light.all.values.size(); ++i) light.all.values[i] *= light.colour.values[i];
 }
 
-void subtract(const Plane<float>& excess, const Part& part, int width_px, std::pmr::vector<float>& grey, int begin, int end) {
+void subtract(const Plane<float>& excess, const Part& part, int width_px, std::pmr::vector<float>& grey,
+              int begin, int end) {
   for (int y = begin; y < end; ++y) {
     // A cell's value stands in its middle.
-    const float cy = std::clamp((static_cast<float>(y) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.height - 1));
+    const float cy =
+        std::clamp((static_cast<float>(y) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.height - 1));
     const int y0 = static_cast<int>(cy);
     const float ty = cy - static_cast<float>(y0);
     const float* upper = excess.row(y0);
     const float* lower = excess.row(std::min(y0 + 1, part.height - 1));
-    float* to = grey.data() + static_cast<std::ptrdiff_t>(part.top * kCell + y) * width_px + static_cast<std::ptrdiff_t>(part.left) * kCell;
+    float* to = grey.data() + static_cast<std::ptrdiff_t>(part.top * kCell + y) * width_px +
+                static_cast<std::ptrdiff_t>(part.left) * kCell;
     for (int x = 0; x < part.width * kCell; ++x) {
-      const float cx = std::clamp((static_cast<float>(x) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.width - 1));
+      const float cx =
+          std::clamp((static_cast<float>(x) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.width - 1));
       const int x0 = static_cast<int>(cx), x1 = std::min(x0 + 1, part.width - 1);
       const float tx = cx - static_cast<float>(x0);
       const float a = upper[x0] + tx * (upper[x1] - upper[x0]), b = lower[x0] + tx * (lower[x1] - lower[x0]);
@@ -198,20 +223,24 @@ void subtract(const Plane<float>& excess, const Part& part, int width_px, std::p
   }
 }
 
-void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& options, const Gaussian& gaussian, StageContext& context) {
+void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& options, const Gaussian& gaussian,
+           StageContext& context) {
   RectifiedView& view = right ? pair.right : pair.left;
   const Part part = part_of(pair, right, kCell * gaussian.reach());
   if (part.width == 0 || part.height == 0) return;
   Light light{{&context.scratch, part.width, part.height}, {&context.scratch, part.width, part.height}};
   Plane<float> room(&context.scratch, part.width + 2 * gaussian.reach(), part.height);
-  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) { gather(view, pair.width_px, part, light, begin, end); });
+  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
+    gather(view, pair.width_px, part, light, begin, end);
+  });
   gaussian.smooth(light.all, context.pool, room);
   gaussian.smooth(light.colour, context.pool, room);
   const float ratio = dull_ratio(skin_of(pair, right, part), light, options.dull, &context.scratch);
   if (!(ratio > 0)) return;
   Plane<float> local(&context.scratch, part.width, part.height);
   const double face = pair.face_width_px > 0 ? pair.face_width_px : kFaceOfPicture * pair.width_px;
-  find_local_ratio(light, ratio, std::max(1, static_cast<int>(std::lround(kLampReach * face / kCell))), gaussian, context.pool, local, room);
+  find_local_ratio(light, ratio, std::max(1, static_cast<int>(std::lround(kLampReach * face / kCell))),
+                   gaussian, context.pool, local, room);
   context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
     find_excess(local, static_cast<float>(options.least), light, begin, end);
   });
@@ -224,8 +253,11 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& optio
 }  // namespace
 
 Result<void> HighlightRemoverOptions::check() const {
-  if (!(radius_px >= 0.5 && radius_px <= 10) || !(dull >= 0.05 && dull <= 0.95) || !(least >= 0 && least <= 64))
-    return Error{Errc::InvalidInput, "remove-highlights: radius_px must lie in 0.5 .. 10, dull in 0.05 .. 0.95, least in 0 .. 64"};
+  if (!(radius_px >= 0.5 && radius_px <= 10) || !(dull >= 0.05 && dull <= 0.95) ||
+      !(least >= 0 && least <= 64))
+    return Error{
+        Errc::InvalidInput,
+        "remove-highlights: radius_px must lie in 0.5 .. 10, dull in 0.05 .. 0.95, least in 0 .. 64"};
   return {};
 }
 

@@ -20,12 +20,15 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
   for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
     const auto valid = [&](int x, int y) {
-      return view->valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)] != 0;
+      return view->valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+                         static_cast<std::size_t>(x)] != 0;
     };
-    const GreyHistogram histogram = GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
+    const GreyHistogram histogram =
+        GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
     if (histogram.count() == 0) continue;
     const double dark = histogram.grey_at(options_.tail);
-    const double range = std::max(1.0, histogram.grey_at(1 - options_.tail) - dark);  // noise of one level is no picture
+    const double range =
+        std::max(1.0, histogram.grey_at(1 - options_.tail) - dark);  // noise of one level is no picture
     GreyMap([&](double grey) {
       const double stretched = std::clamp((grey - dark) / range, 0.0, 1.0);
       return 255 * (stretched + options_.equalise * (histogram.share_below(grey) - stretched));

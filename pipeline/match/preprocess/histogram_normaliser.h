@@ -23,8 +23,10 @@ struct HistogramNormaliserOptions {
 
 template <typename Field>
 void describe(HistogramNormaliserOptions& o, Field&& field) {
-  field("equalise", o.equalise, OptionRange{0, 1}, "1: equalised by the cumulative histogram, 0: stretched linearly, between: a mixture");
-  field("tail", o.tail, OptionRange{0, 0.2}, "share of the pixels that the stretch sends to black, and to white");
+  field("equalise", o.equalise, OptionRange{0, 1},
+        "1: equalised by the cumulative histogram, 0: stretched linearly, between: a mixture");
+  field("tail", o.tail, OptionRange{0, 0.2},
+        "share of the pixels that the stretch sends to black, and to white");
 }
 
 class HistogramNormaliser final : public Preprocessor {

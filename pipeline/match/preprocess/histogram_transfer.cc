@@ -17,7 +17,8 @@ struct Overlap {
   explicit Overlap(const RectifiedPair& of) : pair(of), shift_px(0) {
     // Harmonic middle of the volume: half of its disparities on either side.
     const double middle = 0.5 * (of.disparity_px(of.near_mm) + of.disparity_px(of.far_mm));
-    if (of.near_mm > 0 && of.far_mm > 0 && std::abs(middle) < of.width_px) shift_px = static_cast<int>(std::lround(middle));
+    if (of.near_mm > 0 && of.far_mm > 0 && std::abs(middle) < of.width_px)
+      shift_px = static_cast<int>(std::lround(middle));
   }
   bool holds(int left_x, int y) const {
     const int right_x = left_x - shift_px;
@@ -32,7 +33,8 @@ struct Overlap {
 }  // namespace
 
 Result<void> HistogramTransferOptions::check() const {
-  if (!(strength >= 0 && strength <= 1)) return Error{Errc::InvalidInput, "histogram-match: strength must lie in 0 .. 1"};
+  if (!(strength >= 0 && strength <= 1))
+    return Error{Errc::InvalidInput, "histogram-match: strength must lie in 0 .. 1"};
   return {};
 }
 
@@ -43,12 +45,15 @@ Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& conte
   const Overlap overlap(pair);
   const auto in_left = [&](int x, int y) { return overlap.holds(x, y); };
   const auto in_right = [&](int x, int y) { return overlap.holds(x + overlap.shift_px, y); };
-  const GreyHistogram left = GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, in_left, context.pool);
-  const GreyHistogram right = GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
+  const GreyHistogram left =
+      GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, in_left, context.pool);
+  const GreyHistogram right =
+      GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
   if (left.count() == 0) return {};
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-  GreyMap([&](double grey) { return grey + options_.strength * (left.grey_at(right.share_below(grey)) - grey); })
-      .apply(pair.right.grey, context.pool);
+  GreyMap([&](double grey) {
+    return grey + options_.strength * (left.grey_at(right.share_below(grey)) - grey);
+  }).apply(pair.right.grey, context.pool);
   return {};
 }
 

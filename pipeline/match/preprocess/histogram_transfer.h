@@ -22,7 +22,8 @@ struct HistogramTransferOptions {
 
 template <typename Field>
 void describe(HistogramTransferOptions& o, Field&& field) {
-  field("strength", o.strength, OptionRange{0, 1}, "1: the right view takes the left one's histogram, 0: it stays, between: a mixture");
+  field("strength", o.strength, OptionRange{0, 1},
+        "1: the right view takes the left one's histogram, 0: it stays, between: a mixture");
 }
 
 class HistogramTransfer final : public Preprocessor {

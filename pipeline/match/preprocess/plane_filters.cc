@@ -34,7 +34,8 @@ void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& po
     for (int y = begin; y < end; ++y) {
       float* to = room.row(y);
       std::copy_n(plane.row(y), width, to);
-      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) towards(plane.row(v), width, to);
+      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
+        towards(plane.row(v), width, to);
     }
   });
   pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
@@ -71,7 +72,8 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
       float* to = wide + reach;
       std::fill_n(to, plane.width, 0.0F);
       for (int i = 0; i <= reach; ++i)
-        add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)), weight_[static_cast<std::size_t>(i)], plane.width, to);
+        add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)),
+                     weight_[static_cast<std::size_t>(i)], plane.width, to);
       std::fill_n(wide, reach, to[0]);
       std::fill_n(to + plane.width, reach, to[plane.width - 1]);
     }
@@ -81,17 +83,20 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
       const float* from = room.row(y) + reach;
       float* to = plane.row(y);
       std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i) add_weighted(from - i, from + i, weight_[static_cast<std::size_t>(i)], plane.width, to);
+      for (int i = 0; i <= reach; ++i)
+        add_weighted(from - i, from + i, weight_[static_cast<std::size_t>(i)], plane.width, to);
     }
   });
 }
 
 void erode(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(plane, reach, [](const float* from, int count, float* to) { lower(from, count, to); }, pool, room);
+  over_square(
+      plane, reach, [](const float* from, int count, float* to) { lower(from, count, to); }, pool, room);
 }
 
 void dilate(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(plane, reach, [](const float* from, int count, float* to) { raise(from, count, to); }, pool, room);
+  over_square(
+      plane, reach, [](const float* from, int count, float* to) { raise(from, count, to); }, pool, room);
 }
 
 }  // namespace relievo::pipeline

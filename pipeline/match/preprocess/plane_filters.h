@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Separable filters of a plane of numbers: Gaussian, erosion and dilation by a square. In place; the plane's edge goes on
-// outwards. `room` is theirs to overwrite: as high as the plane, wider by twice Gaussian::reach, or as wide.
-// Thread: one caller; uses the pool's. Bit for bit the same for any number of threads.
+// Separable filters of a plane of numbers: Gaussian, erosion and dilation by a square. In place; the plane's
+// edge goes on outwards. `room` is theirs to overwrite: as high as the plane, wider by twice Gaussian::reach,
+// or as wide. Thread: one caller; uses the pool's. Bit for bit the same for any number of threads.
 #pragma once
 
 #include <array>

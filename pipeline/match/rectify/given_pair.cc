@@ -12,7 +12,8 @@ namespace {
 constexpr double kBaselineMm = 110;  // of the recommended rig; the focal length is the picture's width
 
 void take_view(const ImageView& image, RectifiedView& view, StageContext& context) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  const std::size_t pixels =
+      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
   view.grey.resize(pixels);
   view.rgb.resize(3 * pixels);
   view.valid.assign(pixels, 1);
@@ -23,7 +24,8 @@ void take_view(const ImageView& image, RectifiedView& view, StageContext& contex
       const float* grey = view.grey.data() + static_cast<std::ptrdiff_t>(y) * image.width_px;
       if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
       else
-        for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, static_cast<std::uint8_t>(grey[x]));
+        for (int x = 0; x < image.width_px; ++x)
+          std::fill_n(to + 3 * x, 3, static_cast<std::uint8_t>(grey[x]));
     }
   });
 }
@@ -32,10 +34,12 @@ void take_view(const ImageView& image, RectifiedView& view, StageContext& contex
 
 Result<void> DisparityRange::check() const {
   if (least_px >= -4096 && most_px <= 4096 && least_px < most_px) return {};
-  return Error{Errc::InvalidInput, "disparities: two whole numbers of pixels are wanted, the smaller first, within 4096"};
+  return Error{Errc::InvalidInput,
+               "disparities: two whole numbers of pixels are wanted, the smaller first, within 4096"};
 }
 
-Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range, StageContext& context) {
+Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range,
+                                     StageContext& context) {
   RELIEVO_TRY(range.check());
   if (frame.left.empty() || frame.right.empty()) return Error{Errc::InvalidInput, "the picture is empty"};
   if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px)

@@ -19,6 +19,7 @@ struct DisparityRange {
   Result<void> check() const;
 };
 
-Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range, StageContext& context);
+Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range,
+                                     StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -44,8 +44,10 @@ Box border_box(const CameraIntrinsics& camera, const Rotation& rectified_from_ca
       const double t = static_cast<double>(i) / kSteps;
       const double w = camera.width_px - 1.0;
       const double h = camera.height_px - 1.0;
-      const Vec2d pixel = side == 0 ? Vec2d{t * w, 0} : side == 1 ? Vec2d{t * w, h}
-                        : side == 2 ? Vec2d{0, t * h} : Vec2d{w, t * h};
+      const Vec2d pixel = side == 0   ? Vec2d{t * w, 0}
+                          : side == 1 ? Vec2d{t * w, h}
+                          : side == 2 ? Vec2d{0, t * h}
+                                      : Vec2d{w, t * h};
       const Vec2d ideal = undistorted(camera, pixel);
       const Vec3d ray = apply(rectified_from_camera, {ideal.x, ideal.y, 1});
       if (ray.z < 0.2) continue;  // beyond 78 degrees: lay_windows refuses by size
@@ -56,8 +58,8 @@ Box border_box(const CameraIntrinsics& camera, const Rotation& rectified_from_ca
 
 }  // namespace
 
-Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera,
-                   double focal_px, Vec2d centre_px, Vec2d at) {
+Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera, double focal_px,
+                   Vec2d centre_px, Vec2d at) {
   const Vec3d ray = apply(transposed(rectified_from_camera),
                           {(at.x - centre_px.x) / focal_px, (at.y - centre_px.y) / focal_px, 1});
   const double x = ray.x / ray.z;
@@ -81,7 +83,8 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   if (!(baseline_mm > 1) || sideways < 0.5 * baseline_mm)
     return Error{Errc::InvalidInput, "the cameras must stand beside each other, not behind"};
   if (baseline.x <= 0 && -baseline.x >= std::abs(baseline.y))
-    return Error{Errc::InvalidInput, "the right camera must stand to the right of the left one: are the cameras swapped?"};
+    return Error{Errc::InvalidInput,
+                 "the right camera must stand to the right of the left one: are the cameras swapped?"};
   const Vec3d x = scaled(baseline, 1 / baseline_mm);
   const Vec3d right_axis = apply(left_from_right.rotation, {0, 0, 1});
   Vec3d z = {right_axis.x, right_axis.y, right_axis.z + 1};
@@ -102,8 +105,9 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   pair.baseline_mm = baseline_mm;
   pair.near_mm = options.near_mm;
   pair.far_mm = options.far_mm;
-  pair.focal_px = (calibration.left.focal_px.x + calibration.left.focal_px.y +
-                   calibration.right.focal_px.x + calibration.right.focal_px.y) / 4;
+  pair.focal_px = (calibration.left.focal_px.x + calibration.left.focal_px.y + calibration.right.focal_px.x +
+                   calibration.right.focal_px.y) /
+                  4;
 
   const Box left = border_box(calibration.left, pair.rectified_from_left, pair.focal_px);
   const Box right = border_box(calibration.right, pair.rectified_from_right, pair.focal_px);

@@ -17,7 +17,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
                          RectifiedPair& pair);
 
 // The picture pixel that sees what the window pixel `at` of this view shows.
-Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera,
-                   double focal_px, Vec2d centre_px, Vec2d at);
+Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera, double focal_px,
+                   Vec2d centre_px, Vec2d at);
 
 }  // namespace relievo::pipeline

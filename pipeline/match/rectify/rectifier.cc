@@ -26,7 +26,9 @@ struct Span {
 };
 
 // Cubic convolution (Keys 1981, a = -1/2).
-inline float cubic(const float* p, const float* w) { return w[0] * p[0] + w[1] * p[1] + w[2] * p[2] + w[3] * p[3]; }
+inline float cubic(const float* p, const float* w) {
+  return w[0] * p[0] + w[1] * p[1] + w[2] * p[2] + w[3] * p[3];
+}
 inline void cubic_weights(float t, float* w) {
   const float t2 = t * t;
   const float t3 = t2 * t;
@@ -64,7 +66,8 @@ void sample_rgb(const ImageView& image, int ix, int iy, float tx, float ty, std:
     const auto d = static_cast<float>(lower[3 * ix + c]);
     const auto e = static_cast<float>(lower[3 * ix + 3 + c]);
     const float top = a + tx * (b - a);
-    to[c] = static_cast<std::uint8_t>(top + ty * (d + tx * (e - d) - top) + 0.5F);  // NOLINT(bugprone-incorrect-roundings): never negative
+    to[c] = static_cast<std::uint8_t>(top + ty * (d + tx * (e - d) - top) +
+                                      0.5F);  // NOLINT(bugprone-incorrect-roundings): never negative
   }
 }
 
@@ -79,8 +82,8 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
               const Plane<float>& grey, RectifiedView& view, int begin, int end) {
   const int width = pair.width_px;
   const auto knot = [&](int x, int y) {
-    return source_pixel(geometry.camera, geometry.rectified_from_camera, pair.focal_px,
-                        geometry.centre_px, {static_cast<double>(x), static_cast<double>(y)});
+    return source_pixel(geometry.camera, geometry.rectified_from_camera, pair.focal_px, geometry.centre_px,
+                        {static_cast<double>(x), static_cast<double>(y)});
   };
   Span span{};
   for (int y = begin; y < end; ++y) {
@@ -126,7 +129,10 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
 Result<void> check_picture(const ImageView& image, const CameraIntrinsics& camera, const char* side) {
   if (image.empty()) return Error{Errc::InvalidInput, "the picture is empty: capture again"}.at(side);
   if (image.width_px != camera.width_px || image.height_px != camera.height_px)
-    return Error{Errc::InvalidInput, "the picture's size is not the calibration's: use pictures of the calibrated size, or calibrate at this one"}.at(side);
+    return Error{
+        Errc::InvalidInput,
+        "the picture's size is not the calibration's: use pictures of the calibrated size, or calibrate at this one"}
+        .at(side);
   return {};
 }
 
@@ -144,7 +150,8 @@ Result<RectifiedPair> Rectifier::rectify(const StereoFrame& frame, const StereoC
   RELIEVO_TRY(check_picture(frame.right, calibration.right, "right picture"));
   RectifiedPair pair(&context.output);
   RELIEVO_TRY(lay_windows(calibration, options_, pair));
-  const std::size_t pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const std::size_t pixels =
+      static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
   Plane<float> grey(&context.scratch, std::max(frame.left.width_px, frame.right.width_px),
                     std::max(frame.left.height_px, frame.right.height_px));
   const std::array views{&pair.left, &pair.right};
@@ -158,7 +165,9 @@ Result<RectifiedPair> Rectifier::rectify(const StereoFrame& frame, const StereoC
     const ViewGeometry geometry{side == 0 ? calibration.left : calibration.right,
                                 side == 0 ? pair.rectified_from_left : pair.rectified_from_right,
                                 side == 0 ? pair.left_centre_px : pair.right_centre_px};
-    context.pool.for_each_band(image.height_px, 16, [&](int begin, int end, int) { grey_rows(image, grey.row(0), grey.width, begin, end); });
+    context.pool.for_each_band(image.height_px, 16, [&](int begin, int end, int) {
+      grey_rows(image, grey.row(0), grey.width, begin, end);
+    });
     context.pool.for_each_band(pair.height_px, 16, [&](int begin, int end, int) {
       resample(pair, geometry, image, grey, view, begin, end);
     });

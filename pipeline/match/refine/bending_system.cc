@@ -16,19 +16,24 @@ namespace {
 
 constexpr int kBands = 8;  // fixed, so that sums do not depend on the number of threads
 
-ColumnSpan join(const ColumnSpan& a, const ColumnSpan& b) { return {std::min(a.begin, b.begin), std::max(a.end, b.end)}; }
+ColumnSpan join(const ColumnSpan& a, const ColumnSpan& b) {
+  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
 
 // What of every row may differ from 0: a face is no rectangle, and this work is bound by memory.
 // `out`: where a row's result may; `bent`: where its second differences are asked for by the rows around it.
 struct Spans {
   Spans(const BendingSystem& s, std::pmr::memory_resource* memory)
-      : out(static_cast<std::size_t>(s.height()), memory), bent(static_cast<std::size_t>(s.height()), memory) {
+      : out(static_cast<std::size_t>(s.height()), memory),
+        bent(static_cast<std::size_t>(s.height()), memory) {
     const int w = s.width();
     const int h = s.height();
     std::pmr::vector<ColumnSpan> weights(static_cast<std::size_t>(h), ColumnSpan{w, 0}, memory);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
-        if (s.data.row(y)[x] == 0 && s.bend_xx.row(y)[x] == 0 && s.bend_yy.row(y)[x] == 0 && s.bend_xy.row(y)[x] == 0) continue;
+        if (s.data.row(y)[x] == 0 && s.bend_xx.row(y)[x] == 0 && s.bend_yy.row(y)[x] == 0 &&
+            s.bend_xy.row(y)[x] == 0)
+          continue;
         weights[static_cast<std::size_t>(y)] = join(weights[static_cast<std::size_t>(y)], {x, x + 1});
       }
     widen(weights, 2, w, out);
@@ -37,18 +42,23 @@ struct Spans {
   std::pmr::vector<ColumnSpan> out, bent;
 
  private:
-  static void widen(const std::pmr::vector<ColumnSpan>& from, int by, int w, std::pmr::vector<ColumnSpan>& to) {
+  static void widen(const std::pmr::vector<ColumnSpan>& from, int by, int w,
+                    std::pmr::vector<ColumnSpan>& to) {
     const int h = static_cast<int>(from.size());
     for (int y = 0; y < h; ++y) {
       ColumnSpan all{w, 0};
-      for (int k = std::max(0, y - by); k <= std::min(h - 1, y + by); ++k) all = join(all, from[static_cast<std::size_t>(k)]);
-      to[static_cast<std::size_t>(y)] = all.begin < all.end ? ColumnSpan{std::max(0, all.begin - by), std::min(w, all.end + by)} : ColumnSpan{0, 0};
+      for (int k = std::max(0, y - by); k <= std::min(h - 1, y + by); ++k)
+        all = join(all, from[static_cast<std::size_t>(k)]);
+      to[static_cast<std::size_t>(y)] =
+          all.begin < all.end ? ColumnSpan{std::max(0, all.begin - by), std::min(w, all.end + by)}
+                              : ColumnSpan{0, 0};
     }
   }
 };
 
 RELIEVO_SIMD void bend_rows(const float* above, const float* here, const float* below, const float* wxx,
-                            const float* wyy, const float* wxy, int w, ColumnSpan span, float* qxx, float* qyy, float* qxy) {
+                            const float* wyy, const float* wxy, int w, ColumnSpan span, float* qxx,
+                            float* qyy, float* qxy) {
   const int end = std::min(span.end, w - 1);
   for (int x = std::max(span.begin, 1); x < end; ++x) {
     qxx[x] = wxx[x] * (here[x - 1] - 2 * here[x] + here[x + 1]);
@@ -64,8 +74,8 @@ RELIEVO_SIMD void gather_rows(const float* a, const float* x_row, const float* q
                               const float* qxy, int w, ColumnSpan span, float* out) {
   const int end = std::min(span.end, w - 1);
   for (int x = std::max(span.begin, 1); x < end; ++x)
-    out[x] = a[x] * x_row[x] + qxx[x - 1] - 2 * qxx[x] + qxx[x + 1] + qyy_above[x] - 2 * qyy[x] + qyy_below[x] +
-             qxy[x] - qxy[x - 1] - qxy_above[x] + qxy_above[x - 1];
+    out[x] = a[x] * x_row[x] + qxx[x - 1] - 2 * qxx[x] + qxx[x + 1] + qyy_above[x] - 2 * qyy[x] +
+             qyy_below[x] + qxy[x] - qxy[x - 1] - qxy_above[x] + qxy_above[x - 1];
   out[0] = out[w - 1] = 0;
 }
 
@@ -85,7 +95,8 @@ RELIEVO_SIMD void follow_row(const float* z, float beta, float* p, ColumnSpan sp
   for (int x = span.begin; x < span.end; ++x) p[x] = z[x] + beta * p[x];
 }
 
-RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnSpan span, float* x, float* r) {
+RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnSpan span, float* x,
+                           float* r) {
   for (int i = span.begin; i < span.end; ++i) {
     x[i] += alpha * p[i];
     r[i] -= alpha * ap[i];
@@ -96,7 +107,9 @@ RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnS
 template <typename Rows>
 double sum_over_bands(ThreadPool& pool, int height, Rows&& rows) {
   std::array<double, kBands> parts{};
-  pool.for_each_band(height, kBands, [&](int begin, int end, int band) { parts[static_cast<std::size_t>(band)] = rows(begin, end); });
+  pool.for_each_band(height, kBands, [&](int begin, int end, int band) {
+    parts[static_cast<std::size_t>(band)] = rows(begin, end);
+  });
   double sum = 0;
   for (const double part : parts) sum += part;
   return sum;
@@ -110,7 +123,9 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
   // Three rows of weighted second differences roll along with the row being written.
   float* zero = rolling + 9 * count;
   std::fill(zero, zero + count, 0.0F);
-  const auto slot = [&](int y, int kind) { return rolling + (static_cast<std::size_t>((y + 3) % 3) * 3 + static_cast<std::size_t>(kind)) * count; };
+  const auto slot = [&](int y, int kind) {
+    return rolling + (static_cast<std::size_t>((y + 3) % 3) * 3 + static_cast<std::size_t>(kind)) * count;
+  };
   const auto bend = [&](int y) {
     float* q[3] = {slot(y, 0), slot(y, 1), slot(y, 2)};
     if (y < 1 || y >= h - 1) {
@@ -121,7 +136,8 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
       return;
     }
     bend_rows(x.row(y - 1), x.row(y), x.row(y + 1), s.bend_xx.row(y), s.bend_yy.row(y), s.bend_xy.row(y), w,
-              spans != nullptr ? spans->bent[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, q[0], q[1], q[2]);
+              spans != nullptr ? spans->bent[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, q[0], q[1],
+              q[2]);
   };
   const int first = begin < 1 ? 1 : begin;
   const int last = end > h - 1 ? h - 1 : end;
@@ -129,8 +145,9 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
   bend(first);
   for (int y = first; y < last; ++y) {
     bend(y + 1);
-    gather_rows(with_data ? s.data.row(y) : zero, x.row(y), slot(y, 0), slot(y - 1, 1), slot(y, 1), slot(y + 1, 1),
-                slot(y - 1, 2), slot(y, 2), w, spans != nullptr ? spans->out[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, out.row(y));
+    gather_rows(with_data ? s.data.row(y) : zero, x.row(y), slot(y, 0), slot(y - 1, 1), slot(y, 1),
+                slot(y + 1, 1), slot(y - 1, 2), slot(y, 2), w,
+                spans != nullptr ? spans->out[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, out.row(y));
   }
 }
 
@@ -141,8 +158,8 @@ void apply_system(const BendingSystem& s, const Plane<float>& x, bool with_data,
   apply_rows(s, x, with_data, out, begin, end, rolling, nullptr);
 }
 
-void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool, std::pmr::memory_resource& scratch,
-           Plane<float>& x) {
+void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool,
+           std::pmr::memory_resource& scratch, Plane<float>& x) {
   const int w = s.width();
   const int h = s.height();
   Plane<float> r(&scratch, w, h);
@@ -155,7 +172,9 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
   MultilevelPreconditioner preconditioner(s, pool, &scratch);
   std::fill(x.values.begin(), x.values.end(), 0.0F);
   r.values = s.rhs.values;
-  const auto band_of = [h](int begin) { return static_cast<int>((static_cast<long>(begin) * kBands + h - 1) / h); };
+  const auto band_of = [h](int begin) {
+    return static_cast<int>((static_cast<long>(begin) * kBands + h - 1) / h);
+  };
   const auto each = [&](auto&& rows) { return sum_over_bands(pool, h, rows); };
   const auto precondition = [&] {
     preconditioner.apply(r, spans.out, z);

@@ -14,8 +14,8 @@ constexpr int kPatch = 8;  // radius, nodes
 constexpr float kPatchNodes = (2 * kPatch + 1) * (2 * kPatch + 1);
 
 struct Bends {
-  float squared = 0;                                // of all second differences
-  bool row = false, column = false, cell = false;   // which of them have their neighbours
+  float squared = 0;                               // of all second differences
+  bool row = false, column = false, cell = false;  // which of them have their neighbours
 };
 
 Bends bends_at(const Plane<float>& d, const Plane<std::uint8_t>& domain, int x, int y) {
@@ -36,13 +36,14 @@ Bends bends_at(const Plane<float>& d, const Plane<std::uint8_t>& domain, int x, 
   return bends;
 }
 
-void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, double wrinkle, ThreadPool& pool,
-                      Plane<float>& across, Plane<float>& wrinkled) {
+void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, double wrinkle,
+                      ThreadPool& pool, Plane<float>& across, Plane<float>& wrinkled) {
   if (!(wrinkle > 0)) return std::fill(wrinkled.values.begin(), wrinkled.values.end(), 0.0F);
   const auto wrinkle2 = static_cast<float>(1 / (wrinkle * wrinkle));
   pool.for_each_band(d.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < d.width; ++x) wrinkled.row(y)[x] = std::min(kSharpest, wrinkle2 * bends_at(d, domain, x, y).squared) / kPatchNodes;
+      for (int x = 0; x < d.width; ++x)
+        wrinkled.row(y)[x] = std::min(kSharpest, wrinkle2 * bends_at(d, domain, x, y).squared) / kPatchNodes;
   });
   box_sum(wrinkled, kPatch, pool, across, wrinkled);
   for (float& value : wrinkled.values) value = std::clamp(value - kPlain, 0.0F, kMostWrinkled);
@@ -50,8 +51,9 @@ void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, 
 
 }  // namespace
 
-void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain, const BendingExpectation& expected,
-                   ThreadPool& pool, Plane<float>& across, Plane<float>& wrinkled, BendingSystem& system) {
+void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
+                   const BendingExpectation& expected, ThreadPool& pool, Plane<float>& across,
+                   Plane<float>& wrinkled, BendingSystem& system) {
   measure_wrinkles(d, domain, expected.wrinkle, pool, across, wrinkled);
   const auto lambda = static_cast<float>(expected.lambda);
   const auto crease2 = static_cast<float>(1 / (expected.crease * expected.crease));

@@ -6,6 +6,8 @@
 
 namespace relievo::pipeline {
 
-struct ColumnSpan { int begin, end; };
+struct ColumnSpan {
+  int begin, end;
+};
 
 }  // namespace relievo::pipeline

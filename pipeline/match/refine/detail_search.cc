@@ -17,14 +17,21 @@ constexpr int kTile = 4;          // pixels a side; scores stand for tiles
 constexpr int kWindowRadius = 2;  // tiles: a window of 20 pixels
 constexpr float kMargin = 0.2F;   // by which the correlation must be better; of noise alone it strays by 0.08
 constexpr float kLeast = 0.3F;    // and what it must reach
-constexpr float kFilled = 0.85F;  // share of the window that both views must show: along an outline chance finds much
-constexpr float kNoise = 0.05F;   // squared grey levels: less detail than this is none
+constexpr float kFilled =
+    0.85F;  // share of the window that both views must show: along an outline chance finds much
+constexpr float kNoise = 0.05F;          // squared grey levels: less detail than this is none
 constexpr std::size_t kLeastTiles = 48;  // half the tip of a nose; what is smaller refinement settles
 
 struct Tiles {
   Tiles(std::pmr::memory_resource* memory, int w, int h)
-      : across(memory, w, h), pixels(memory, w, h), left(memory, w, h), right(memory, w, h), both(memory, w, h), score(memory, w, h, -1),
-        shift(memory, w, h), here(memory, w, h) {}
+      : across(memory, w, h),
+        pixels(memory, w, h),
+        left(memory, w, h),
+        right(memory, w, h),
+        both(memory, w, h),
+        score(memory, w, h, -1),
+        shift(memory, w, h),
+        here(memory, w, h) {}
   Plane<float> across;
   Plane<float> pixels;             // that both views show
   Plane<float> left, right, both;  // sums of squares and of products
@@ -33,7 +40,8 @@ struct Tiles {
 };
 
 // The picture less what two passes of a box leave of its broad shading: even a bent slope is gone.
-void keep_detail(const Plane<float>& from, ThreadPool& pool, Plane<float>& sums, Plane<float>& across, Plane<float>& to) {
+void keep_detail(const Plane<float>& from, ThreadPool& pool, Plane<float>& sums, Plane<float>& across,
+                 Plane<float>& to) {
   constexpr float kCells = (2 * kDetailRadius + 1) * (2 * kDetailRadius + 1);
   to.values = from.values;
   for (int pass = 0; pass < 2; ++pass) {
@@ -73,15 +81,19 @@ void add_row(const Views& v, int y, float shift, Tiles& tiles) {
 void try_shift(const Views& views, int shift, ThreadPool& pool, Tiles& tiles) {
   pool.for_each_band(tiles.score.height, tiles.score.height, [&](int begin, int end, int) {
     for (int t = begin; t < end; ++t) {
-      for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both}) std::fill_n(plane->row(t), plane->width, 0.0F);
-      for (int y = t * kTile; y < std::min((t + 1) * kTile, views.left.height); ++y) add_row(views, y, static_cast<float>(shift), tiles);
+      for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
+        std::fill_n(plane->row(t), plane->width, 0.0F);
+      for (int y = t * kTile; y < std::min((t + 1) * kTile, views.left.height); ++y)
+        add_row(views, y, static_cast<float>(shift), tiles);
     }
   });
-  for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both}) box_sum(*plane, kWindowRadius, pool, tiles.across, *plane);
+  for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
+    box_sum(*plane, kWindowRadius, pool, tiles.across, *plane);
   constexpr float kWindowPixels = (2 * kWindowRadius + 1) * (2 * kWindowRadius + 1) * kTile * kTile;
   constexpr float kFloor = kNoise * kWindowPixels;
   for (std::size_t k = 0; k < tiles.score.values.size(); ++k) {
-    const float score = tiles.both.values[k] / std::sqrt((tiles.left.values[k] + kFloor) * (tiles.right.values[k] + kFloor));
+    const float score =
+        tiles.both.values[k] / std::sqrt((tiles.left.values[k] + kFloor) * (tiles.right.values[k] + kFloor));
     if (shift == 0) tiles.here.values[k] = score;
     if (score <= tiles.score.values[k] || tiles.pixels.values[k] < kFilled * kWindowPixels) continue;
     tiles.score.values[k] = score;
@@ -91,8 +103,10 @@ void try_shift(const Views& views, int shift, ThreadPool& pool, Tiles& tiles) {
 
 // Bilinear between the tiles' middles: no steps, which refinement would take for creases.
 float between_tiles(const Plane<float>& tiles, int x, int y) {
-  const float fx = std::clamp((static_cast<float>(x) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.width - 1));
-  const float fy = std::clamp((static_cast<float>(y) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.height - 1));
+  const float fx =
+      std::clamp((static_cast<float>(x) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.width - 1));
+  const float fy =
+      std::clamp((static_cast<float>(y) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.height - 1));
   const int i = std::min(static_cast<int>(fx), tiles.width - 2);
   const int j = std::min(static_cast<int>(fy), tiles.height - 2);
   const float tx = fx - static_cast<float>(i);
@@ -106,7 +120,8 @@ float between_tiles(const Plane<float>& tiles, int x, int y) {
 std::size_t keep_clear_shifts(Tiles& tiles) {
   std::size_t moved = 0;
   for (std::size_t k = 0; k < tiles.shift.values.size(); ++k) {
-    const bool clear = tiles.score.values[k] > kLeast && tiles.score.values[k] > tiles.here.values[k] + kMargin;
+    const bool clear =
+        tiles.score.values[k] > kLeast && tiles.score.values[k] > tiles.here.values[k] + kMargin;
     if (!clear) tiles.shift.values[k] = 0;
     moved += tiles.shift.values[k] != 0 ? 1U : 0U;
   }
@@ -130,12 +145,14 @@ bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceF
     keep_detail(scene.right, context.pool, sums, across, right);
   }
   const Views views{scene, field, left, right};
-  for (int shift = -kReach; shift <= kReach && !context.stop(); ++shift) try_shift(views, shift, context.pool, tiles);
+  for (int shift = -kReach; shift <= kReach && !context.stop(); ++shift)
+    try_shift(views, shift, context.pool, tiles);
   if (keep_clear_shifts(tiles) < kLeastTiles) return false;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
       if (field.domain.row(y)[x] != 0)
-        field.disparity_px.row(y)[x] += between_tiles(tiles.shift, x, y) * static_cast<float>(1 << scene.level);
+        field.disparity_px.row(y)[x] +=
+            between_tiles(tiles.shift, x, y) * static_cast<float>(1 << scene.level);
   return true;
 }
 

@@ -9,14 +9,18 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr long kMostPixels = 1'000'000;  // four times as many are matched in the memory there is for any picture
-constexpr std::array<float, 4> kCubic{-0.0703125F, 0.8671875F, 0.2265625F, -0.0234375F};  // at a quarter of a pixel beyond the second
+constexpr long kMostPixels =
+    1'000'000;  // four times as many are matched in the memory there is for any picture
+constexpr std::array<float, 4> kCubic{-0.0703125F, 0.8671875F, 0.2265625F,
+                                      -0.0234375F};  // at a quarter of a pixel beyond the second
 
-// Of what the fit to the enlarged pair holds for certain: half of it for the size, times root two because pixels that were put
-// between others say nothing of their own (of four rendered heads, 0.66 to 0.71 and 0.93 to 0.95 then lie within one and 1.96 sigma).
+// Of what the fit to the enlarged pair holds for certain: half of it for the size, times root two because
+// pixels that were put between others say nothing of their own (of four rendered heads, 0.66 to 0.71 and 0.93
+// to 0.95 then lie within one and 1.96 sigma).
 constexpr float kSigma = 0.70710678F;
 
-// The old pixel `step` pixels (-1 .. 2, away from the nearest one) from new pixel `at`, at the border the last.
+// The old pixel `step` pixels (-1 .. 2, away from the nearest one) from new pixel `at`, at the border the
+// last.
 int tap(int at, int step, int size) {
   const int nearest = at / 2;
   return std::clamp((at & 1) != 0 ? nearest + step : nearest - step, 0, size - 1);
@@ -39,7 +43,8 @@ void enlarge_view(const RectifiedView& from, int width, int height, RectifiedVie
     const std::uint8_t* was_valid = &from.valid[static_cast<std::size_t>(y / 2) * w];
     for (int x = 0; x < 2 * width; ++x) {
       float sum = 0;
-      for (std::size_t k = 0; k < kCubic.size(); ++k) sum += kCubic[k] * row[static_cast<std::size_t>(tap(x, static_cast<int>(k) - 1, width))];
+      for (std::size_t k = 0; k < kCubic.size(); ++k)
+        sum += kCubic[k] * row[static_cast<std::size_t>(tap(x, static_cast<int>(k) - 1, width))];
       grey[x] = std::clamp(sum, 0.0F, 255.0F);
       valid[x] = was_valid[x / 2];
     }
@@ -91,7 +96,9 @@ void shrink(MatchSet& matches, int lattice_step_px) {
   EpipolarShift& shift = matches.epipolar_shift;
   shift.middle_x_px = smaller(shift.middle_x_px);
   shift.middle_y_px = smaller(shift.middle_y_px);
-  for (double* length : {&shift.offset_px, &shift.spread_x_px, &shift.spread_y_px, &shift.residual_px, &shift.sigma_px}) *length /= 2;
+  for (double* length :
+       {&shift.offset_px, &shift.spread_x_px, &shift.spread_y_px, &shift.residual_px, &shift.sigma_px})
+    *length /= 2;
   for (double& v : shift.covariance_px2) v /= 4;
   matches.motion_px /= 2;
   matches.lattice_step_px = lattice_step_px;

@@ -8,11 +8,15 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kLoud = 12;  // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
+constexpr float kLoud =
+    12;  // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
 constexpr int kFurthest = 2;  // shift in pixels over which hanging noise is looked for
 
-// Mean products of the residuals, and of the gradients, with themselves some pixels further; 0 where none meet.
-struct Alike { double residual = 0, gradient = 0; };
+// Mean products of the residuals, and of the gradients, with themselves some pixels further; 0 where none
+// meet.
+struct Alike {
+  double residual = 0, gradient = 0;
+};
 
 Alike likeness(const WarpTerms& terms, int dx, int dy) {
   constexpr int kEvery = 3;  // rows looked at
@@ -38,7 +42,8 @@ Alike likeness(const WarpTerms& terms, int dx, int dy) {
 }  // namespace
 
 float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
-  constexpr float kWhite = 1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
+  constexpr float kWhite =
+      1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
   constexpr float kMost = 6;
   // A shift and its opposite say the same: half of them, after none at all.
   constexpr int kShifts = kFurthest * (2 * kFurthest + 2) + 1;

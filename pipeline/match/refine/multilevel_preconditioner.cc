@@ -11,16 +11,18 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 8;
-constexpr int kSmallest = 6;   // nodes across the coarsest lattice, its border included
+constexpr int kSmallest = 6;  // nodes across the coarsest lattice, its border included
 constexpr int kMostLevels = 6;
-constexpr int kMargin = 4;     // of zeros before and after a line, for coarse nodes that reach past its ends
-// A node of a coarse lattice lies between nodes 2 J - 2 and 2 J - 1 of the finer one (one node of border goes before), and reaches one further.
+constexpr int kMargin = 4;  // of zeros before and after a line, for coarse nodes that reach past its ends
+// A node of a coarse lattice lies between nodes 2 J - 2 and 2 J - 1 of the finer one (one node of border goes
+// before), and reaches one further.
 constexpr float kNear = 0.75F, kFar = 0.25F;
 
 int coarse_size(int fine) { return (fine + 1) / 2 + 2; }
 
 // The finer lattice's four rows under a coarse one, weighed.
-RELIEVO_SIMD void weigh_rows(const float* a, const float* b, const float* c, const float* d, int width, float* line) {
+RELIEVO_SIMD void weigh_rows(const float* a, const float* b, const float* c, const float* d, int width,
+                             float* line) {
   for (int x = 0; x < width; ++x) line[x] = kNear * (b[x] + c[x]) + kFar * (a[x] + d[x]);
 }
 
@@ -52,7 +54,8 @@ RELIEVO_SIMD void add_columns(const float* line, int begin, int end, const float
 }
 
 // Prolongs row y of the finer lattice.
-void prolong_row(const Plane<float>& coarse, int y, ColumnSpan span, const float* mask, float* line, float* z) {
+void prolong_row(const Plane<float>& coarse, int y, ColumnSpan span, const float* mask, float* line,
+                 float* z) {
   const int near = y / 2 + 1;
   const int far = y % 2 == 0 ? near - 1 : near + 1;
   mix_rows(coarse.row(near), coarse.row(far), coarse.width, line);
@@ -61,9 +64,13 @@ void prolong_row(const Plane<float>& coarse, int y, ColumnSpan span, const float
 
 }  // namespace
 
-MultilevelPreconditioner::MultilevelPreconditioner(const BendingSystem& system, ThreadPool& pool, std::pmr::memory_resource* memory)
-    : pool_(pool), inverse_diagonal_(memory, system.width(), system.height()), levels_(memory),
-      lines_(memory, system.width() + 2 * kMargin, kBands), zeros_(memory, system.width(), 1) {
+MultilevelPreconditioner::MultilevelPreconditioner(const BendingSystem& system, ThreadPool& pool,
+                                                   std::pmr::memory_resource* memory)
+    : pool_(pool),
+      inverse_diagonal_(memory, system.width(), system.height()),
+      levels_(memory),
+      lines_(memory, system.width() + 2 * kMargin, kBands),
+      zeros_(memory, system.width(), 1) {
   levels_.reserve(kMostLevels);
   add_levels(system, memory);
 }
@@ -74,16 +81,18 @@ void MultilevelPreconditioner::add_levels(const BendingSystem& s, std::pmr::memo
   for (int y = 1; y < s.height() - 1; ++y)
     for (int x = 1; x < s.width() - 1; ++x) {
       const float* xx = s.bend_xx.row(y) + x;
-      const float d = xx[-1] + 4 * xx[0] + xx[1] + s.bend_yy.row(y - 1)[x] + 4 * s.bend_yy.row(y)[x] + s.bend_yy.row(y + 1)[x] +
-                      s.bend_xy.row(y)[x] + s.bend_xy.row(y)[x - 1] + s.bend_xy.row(y - 1)[x] + s.bend_xy.row(y - 1)[x - 1];
+      const float d = xx[-1] + 4 * xx[0] + xx[1] + s.bend_yy.row(y - 1)[x] + 4 * s.bend_yy.row(y)[x] +
+                      s.bend_yy.row(y + 1)[x] + s.bend_xy.row(y)[x] + s.bend_xy.row(y)[x - 1] +
+                      s.bend_xy.row(y - 1)[x] + s.bend_xy.row(y - 1)[x - 1];
       bend.row(y)[x] = d;
       data.row(y)[x] = s.data.row(y)[x];
       if (d + data.row(y)[x] > 0) inverse_diagonal_.row(y)[x] = 1 / (d + data.row(y)[x]);
     }
-  // What a coarse node stands for: all the data under it, and second differences over twice the distance: a quarter of
-  // the finer ones', squared, over as many nodes as it covers.
+  // What a coarse node stands for: all the data under it, and second differences over twice the distance: a
+  // quarter of the finer ones', squared, over as many nodes as it covers.
   constexpr float kCoarserBend = 1.0F / 16;
-  while (static_cast<int>(levels_.size()) < kMostLevels && std::min(coarse_size(bend.width), coarse_size(bend.height)) >= kSmallest) {
+  while (static_cast<int>(levels_.size()) < kMostLevels &&
+         std::min(coarse_size(bend.width), coarse_size(bend.height)) >= kSmallest) {
     const int w = coarse_size(bend.width);
     const int h = coarse_size(bend.height);
     Plane<float> coarse_bend(memory, w, h);
@@ -122,19 +131,23 @@ void MultilevelPreconditioner::finish_level(std::size_t level) {
     for (int y = begin; y < end; ++y) {
       scale_row(here.value.row(y), here.inverse_diagonal.row(y), all, here.value.row(y));
       if (level + 1 < levels_.size())
-        prolong_row(levels_[level + 1].value, y, all, here.inverse_diagonal.row(y), lines_.row(band), here.value.row(y));
+        prolong_row(levels_[level + 1].value, y, all, here.inverse_diagonal.row(y), lines_.row(band),
+                    here.value.row(y));
     }
   });
 }
 
-void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vector<ColumnSpan>& spans, Plane<float>& z) {
-  for (std::size_t l = 0; l < levels_.size(); ++l) restrict_to(l == 0 ? r : levels_[l - 1].value, levels_[l].value);
+void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vector<ColumnSpan>& spans,
+                                     Plane<float>& z) {
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+    restrict_to(l == 0 ? r : levels_[l - 1].value, levels_[l].value);
   for (std::size_t l = levels_.size(); l-- > 0;) finish_level(l);
   pool_.for_each_band(z.height, kBands, [&](int begin, int end, int band) {
     for (int y = begin; y < end; ++y) {
       const ColumnSpan span = spans[static_cast<std::size_t>(y)];
       scale_row(r.row(y), inverse_diagonal_.row(y), span, z.row(y));
-      if (!levels_.empty()) prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));
+      if (!levels_.empty())
+        prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));
     }
   });
 }

@@ -13,13 +13,13 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kSteep = 0.7F;     // disparity a pixel: skin so foreshortened says little
-constexpr int kGap = 3;            // nodes less steep that do not end a curtain
-constexpr int kBeside = 2;         // nodes beside a curtain that it still bends
-constexpr int kSlope = 5;          // nodes over which the slope of the surface beside it is taken
-constexpr int kMargin = 2;         // nodes beyond those beside it in which the cut is looked for
-constexpr int kWindow = 3;         // radius over which disagreement is added up
-constexpr int kReach = 4;          // full-size pixels by which a continued surface may be off
+constexpr float kSteep = 0.7F;  // disparity a pixel: skin so foreshortened says little
+constexpr int kGap = 3;         // nodes less steep that do not end a curtain
+constexpr int kBeside = 2;      // nodes beside a curtain that it still bends
+constexpr int kSlope = 5;       // nodes over which the slope of the surface beside it is taken
+constexpr int kMargin = 2;      // nodes beyond those beside it in which the cut is looked for
+constexpr int kWindow = 3;      // radius over which disagreement is added up
+constexpr int kReach = 4;       // full-size pixels by which a continued surface may be off
 constexpr int kStride = 2;
 constexpr int kOffsetWindow = 10;  // radius over which one view is brighter than the other by a constant
 constexpr float kLoud = 20;        // grey levels: what disagrees by more is as wrong as can be
@@ -43,9 +43,11 @@ struct Surfaces {
   Plane<float> asked;           // 1 where a curtain hangs
 };
 
-// What the views disagree by, on average over a window: at best near the continued surfaces, and as the field is now.
+// What the views disagree by, on average over a window: at best near the continued surfaces, and as the field
+// is now.
 struct Disagreement {
-  Disagreement(std::pmr::memory_resource* memory, int w, int h) : before(memory, w, h, kLoud), behind(memory, w, h, kLoud), now(memory, w, h, kLoud) {}
+  Disagreement(std::pmr::memory_resource* memory, int w, int h)
+      : before(memory, w, h, kLoud), behind(memory, w, h, kLoud), now(memory, w, h, kLoud) {}
   Plane<float> before, behind, now;
 };
 
@@ -56,13 +58,14 @@ float steepness_across(const SurfaceField& field, std::size_t k) {
   for (const int side : {-1, 1}) {
     if (x + side < 0 || x + side >= field.domain.width) continue;
     const auto beside = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + side);
-    if (field.domain.values[beside] != 0) most = std::max(most, std::abs(field.disparity_px.values[beside] - field.disparity_px.values[k]));
+    if (field.domain.values[beside] != 0)
+      most = std::max(most, std::abs(field.disparity_px.values[beside] - field.disparity_px.values[k]));
   }
   return most;
 }
 
-// The next run of steep nodes from i on, [from, to]; none: from > to. Along a row they fall; along a column either way,
-// and more steeply than along the row: what stands upright is the rows' own.
+// The next run of steep nodes from i on, [from, to]; none: from > to. Along a row they fall; along a column
+// either way, and more steeply than along the row: what stands upright is the rows' own.
 struct Steep {
   int from = 1, to = 0;
 };
@@ -84,7 +87,8 @@ Steep next_steep(const SurfaceField& field, const Line& line, int i) {
 }
 
 // Continues what lies on both sides of steep nodes; not where the field ends beside them.
-std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const Steep& steep, Surfaces& surfaces) {
+std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const Steep& steep,
+                            Surfaces& surfaces) {
   const auto d = [&](int i) { return field.disparity_px.values[line.at(i)]; };
   const int before = steep.from - kBeside;
   const int behind = steep.to + kBeside;
@@ -103,7 +107,8 @@ std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const S
   return curtain;
 }
 
-std::pmr::vector<Curtain> find_curtains(const SurfaceField& field, bool rows, Surfaces& surfaces, std::pmr::memory_resource* memory) {
+std::pmr::vector<Curtain> find_curtains(const SurfaceField& field, bool rows, Surfaces& surfaces,
+                                        std::pmr::memory_resource* memory) {
   std::pmr::vector<Curtain> curtains(memory);
   const int w = field.domain.width, h = field.domain.height;
   for (int k = 0; k < (rows ? h : w); ++k) {
@@ -130,8 +135,8 @@ std::optional<float> seen_at(const RefinerScene& scene, int x, int y, float d) {
 }
 
 // By how much the left view is brighter around each node, off the curtains.
-void measure_offset(const RefinerScene& scene, const SurfaceField& field, const Surfaces& surfaces, StageContext& context,
-                    Plane<float>& offset) {
+void measure_offset(const RefinerScene& scene, const SurfaceField& field, const Surfaces& surfaces,
+                    StageContext& context, Plane<float>& offset) {
   const int w = offset.width;
   Plane<float> across(&context.scratch, w, offset.height), count(&context.scratch, w, offset.height);
   for (int y = 0; y < offset.height; ++y)
@@ -155,17 +160,21 @@ struct Views {
 };
 
 // The mean disagreement over a window of the curtain, the surface being d + shift.
-void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool& pool, Plane<float>& across, Plane<float>& mean) {
+void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool& pool, Plane<float>& across,
+              Plane<float>& mean) {
   std::fill(mean.values.begin(), mean.values.end(), 0.0F);
   for (const auto& [line, from, to] : views.curtains)
     for (int i = from; i <= to; ++i) {
       const std::size_t k = line.at(i);
       const int x = static_cast<int>(k) % d.width, y = static_cast<int>(k) / d.width;
       const auto seen = seen_at(views.scene, x, y, d.values[k] + shift);
-      mean.values[k] = seen ? std::min(kLoud, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k])) : kLoud;
+      mean.values[k] =
+          seen ? std::min(kLoud, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k]))
+               : kLoud;
     }
   box_sum(mean, kWindow, pool, across, mean);
-  for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] /= std::max(views.asked.values[k], 1.0F);
+  for (std::size_t k = 0; k < mean.values.size(); ++k)
+    mean.values[k] /= std::max(views.asked.values[k], 1.0F);
 }
 
 // The least for a surface continued as `d`, which may well have bent on its way under the curtain.
@@ -173,12 +182,14 @@ void disagree_least(const Views& views, const Plane<float>& d, StageContext& con
   Plane<float> across(&context.scratch, d.width, d.height), mean(&context.scratch, d.width, d.height);
   for (int shift = -kReach; shift <= kReach; shift += kStride) {
     disagree(views, d, static_cast<float>(shift), context.pool, across, mean);
-    for (std::size_t k = 0; k < mean.values.size(); ++k) least.values[k] = std::min(least.values[k], mean.values[k]);
+    for (std::size_t k = 0; k < mean.values.size(); ++k)
+      least.values[k] = std::min(least.values[k], mean.values[k]);
   }
 }
 
-void measure_disagreement(const RefinerScene& scene, const SurfaceField& field, const std::pmr::vector<Curtain>& curtains,
-                          const Surfaces& surfaces, StageContext& context, Disagreement& sums) {
+void measure_disagreement(const RefinerScene& scene, const SurfaceField& field,
+                          const std::pmr::vector<Curtain>& curtains, const Surfaces& surfaces,
+                          StageContext& context, Disagreement& sums) {
   const int w = field.domain.width, h = field.domain.height;
   Plane<float> offset(&context.scratch, w, h), across(&context.scratch, w, h), asked(&context.scratch, w, h);
   measure_offset(scene, field, surfaces, context, offset);

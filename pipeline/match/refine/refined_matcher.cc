@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kLevels = 4;
 constexpr int kNodeStepPx = 2;  // the final lattice
-// Rows further apart than half a pixel of a quarter of the size mislead the coarse surface: it is looked for again.
+// Rows further apart than half a pixel of a quarter of the size mislead the coarse surface: it is looked for
+// again.
 constexpr double kSearchAgainPx = 2;
 constexpr int kPasses = 2;
 constexpr int kLooks = 4;  // for what lies further off than one search reaches
@@ -32,10 +33,13 @@ void densify(const SurfaceField& from, SurfaceField& to) {
       if (to.domain.row(y)[x] == 0) continue;
       const int right = std::min(i + (x & 1), from.domain.width - 1);
       const int below = std::min(j + (y & 1), from.domain.height - 1);
-      const bool whole = (from.domain.row(j)[right] & from.domain.row(below)[i] & from.domain.row(below)[right]) != 0;
+      const bool whole =
+          (from.domain.row(j)[right] & from.domain.row(below)[i] & from.domain.row(below)[right]) != 0;
       const float here = from.disparity_px.row(j)[i];
-      to.disparity_px.row(y)[x] = !whole ? here
-          : 0.25F * (here + from.disparity_px.row(j)[right] + from.disparity_px.row(below)[i] + from.disparity_px.row(below)[right]);
+      to.disparity_px.row(y)[x] =
+          !whole ? here
+                 : 0.25F * (here + from.disparity_px.row(j)[right] + from.disparity_px.row(below)[i] +
+                            from.disparity_px.row(below)[right]);
     }
 }
 
@@ -66,28 +70,33 @@ bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
   if (x + 1 >= field.domain.width || y + 1 >= field.domain.height) return true;
   const float* upper = field.disparity_px.row(y) + x;
   const float* lower = field.disparity_px.row(y + 1) + x;
-  if ((field.domain.row(y)[x] & field.domain.row(y)[x + 1] & field.domain.row(y + 1)[x] & field.domain.row(y + 1)[x + 1]) == 0) return true;
+  if ((field.domain.row(y)[x] & field.domain.row(y)[x + 1] & field.domain.row(y + 1)[x] &
+       field.domain.row(y + 1)[x + 1]) == 0)
+    return true;
   const float top = upper[0] + tx * (upper[1] - upper[0]);
   match.disparity_px = top + ty * (lower[0] + tx * (lower[1] - lower[0]) - top);
   return true;
 }
 
 // What the field says at the keypoints.
-void read_matches(const SurfaceField& field, const Keypoints& keypoints, const RowMotion& motion, float sigma_limit_px, MatchSet& set) {
+void read_matches(const SurfaceField& field, const Keypoints& keypoints, const RowMotion& motion,
+                  float sigma_limit_px, MatchSet& set) {
   const auto read = [&](const Keypoint& keypoint, Match& match) {
     match.left_px = keypoint.at_px;
     return read_field(field, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= sigma_limit_px;
   };
   // Counted first: hardly half the keypoints of a region lie on the face.
-  set.matches.reserve(static_cast<std::size_t>(std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
-    Match match;
-    return read(keypoint, match);
-  })));
+  set.matches.reserve(static_cast<std::size_t>(
+      std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
+        Match match;
+        return read(keypoint, match);
+      })));
   for (const Keypoint& keypoint : keypoints.points) {
     Match match;
     if (!read(keypoint, match)) continue;
     // What moved across the rows moved along them as well, for all we know.
-    const double moved = motion.at(static_cast<double>(match.left_px.x - match.disparity_px), static_cast<double>(match.left_px.y));
+    const double moved = motion.at(static_cast<double>(match.left_px.x - match.disparity_px),
+                                   static_cast<double>(match.left_px.y));
     match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));
     set.matches.push_back(match);
   }
@@ -107,25 +116,31 @@ Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoint
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
     return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
   if (!is_small_scene(pair)) return match_at_size(pair, keypoints, context);
-  RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(enlarge(pair, &context.scratch), enlarge(keypoints, &context.scratch), context));
+  RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(enlarge(pair, &context.scratch),
+                                                   enlarge(keypoints, &context.scratch), context));
   shrink(found, keypoints.lattice_step_px);
   return found;
 }
 
-Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const Keypoints& keypoints,
+                                               StageContext& context) const {
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
   const double lambda = bending_weight(pair, options_.refiner.bending);
   const auto scene_at = [&](int level) {
-    return RefinerScene{pyramids.left[static_cast<std::size_t>(level)].grey, pyramids.right[static_cast<std::size_t>(level)].grey,
+    return RefinerScene{pyramids.left[static_cast<std::size_t>(level)].grey,
+                        pyramids.right[static_cast<std::size_t>(level)].grey,
                         pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
   };
-  const auto refine = [&](int level, SurfaceField& field) { return refine_surface(scene_at(level), options_.refiner, context, field); };
+  const auto refine = [&](int level, SurfaceField& field) {
+    return refine_surface(scene_at(level), options_.refiner, context, field);
+  };
   const auto& half = pyramids.left[1].grey;
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
-  RowAligner rows(pair, pyramids, {static_cast<double>(options_.align_beyond_px), options_.follow_motion != 0}, context);
+  RowAligner rows(pair, pyramids,
+                  {static_cast<double>(options_.align_beyond_px), options_.follow_motion != 0}, context);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (is_scene(pair)) {
       Arena::Mark mark(context.scratch);
@@ -146,7 +161,8 @@ Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const 
     keep_within_reach(pair, context, field2);
   }
   RELIEVO_TRY(refine(1, field2));
-  for (int look = 0; look < kLooks && search_by_detail(scene_at(1), context, field2); ++look) RELIEVO_TRY(refine(1, field2));
+  for (int look = 0; look < kLooks && search_by_detail(scene_at(1), context, field2); ++look)
+    RELIEVO_TRY(refine(1, field2));
   cut_at_occluding_contours(scene_at(1), context, field2);
   if (rows.motion().seen) rows.align_motion(field2);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
@@ -156,7 +172,8 @@ Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const 
   read_matches(field2, keypoints, rows.motion(), options_.sigma_limit_px, set);
   // Of a whole face 100 are hardly any; where few places were asked for, a tenth of them.
   if (set.matches.size() < std::clamp<std::size_t>(keypoints.points.size() / 10, 1, 100))
-    return Error{Errc::TooFewMatches, "hardly anything matches between the views: is the face in both, in focus and lit?"};
+    return Error{Errc::TooFewMatches,
+                 "hardly anything matches between the views: is the face in both, in focus and lit?"};
   return set;
 }
 

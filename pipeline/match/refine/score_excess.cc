@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBlockRadius = 3;  // nodes: about the reach of the fit on skin
 constexpr int kBlock = 2 * kBlockRadius + 1;
-constexpr int kMeanRadius = 6;   // over which the blocks' variance is taken
+constexpr int kMeanRadius = 6;  // over which the blocks' variance is taken
 
 // What independent residuals leave of their own variance in the sum of a block, after the fit: it answers
 // to waves longer than 1 / reach, reach = (data / bending)^(1/4) a node. The ratio of the integrals of
@@ -30,8 +30,9 @@ float tent_share(int step) {
 
 }  // namespace
 
-void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real, int step, ThreadPool& pool,
-                          std::pmr::memory_resource& scratch, Plane<float>& excess) {
+void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
+                          int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                          Plane<float>& excess) {
   const int w = system.width();
   const int h = system.height();
   Plane<float> across(&scratch, w, h), told(&scratch, w, h), answers(&scratch, w, h), bend(&scratch, w, h);
@@ -50,7 +51,8 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
       excess.values[k] = 1;
       continue;
     }
-    const float reach = std::sqrt(std::sqrt(std::max(answers.values[k], kLeastReal * told.values[k]) / kCells / bend.values[k]));
+    const float reach = std::sqrt(
+        std::sqrt(std::max(answers.values[k], kLeastReal * told.values[k]) / kCells / bend.values[k]));
     const float expected = told.values[k] * share * left_by_the_fit(reach);
     excess.values[k] = std::max(kLeastExcess, excess.values[k] / expected);
   }

@@ -16,10 +16,12 @@ namespace relievo::pipeline {
 // Share of what seems to be information that at least is: a smaller estimate is lost in its own noise.
 inline constexpr float kLeastReal = 0.06F;
 
-// `pull` is the weighted gradient times residual gathered at every node, from tents of `step` pixels (1 or 2) on
-// each side. Writes the factor of the variance, 1 where the residuals look independent and where nothing
-// was measured; never below a half. `real` is the part of system.data that holds no noise. `excess` has the system's shape.
-void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real, int step, ThreadPool& pool,
-                          std::pmr::memory_resource& scratch, Plane<float>& excess);
+// `pull` is the weighted gradient times residual gathered at every node, from tents of `step` pixels (1 or 2)
+// on each side. Writes the factor of the variance, 1 where the residuals look independent and where nothing
+// was measured; never below a half. `real` is the part of system.data that holds no noise. `excess` has the
+// system's shape.
+void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
+                          int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                          Plane<float>& excess);
 
 }  // namespace relievo::pipeline

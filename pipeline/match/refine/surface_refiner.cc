@@ -52,11 +52,16 @@ Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
 
 struct Work {
   Work(std::pmr::memory_resource* memory, int w, int h)
-      : system(memory, w, h), pull(memory, w, h), agreed(memory, w, h), d(memory, w, h), delta(memory, w, h),
-        wrinkled(memory, w, h), domain(memory, w, h) {}
+      : system(memory, w, h),
+        pull(memory, w, h),
+        agreed(memory, w, h),
+        d(memory, w, h),
+        delta(memory, w, h),
+        wrinkled(memory, w, h),
+        domain(memory, w, h) {}
   BendingSystem system;
-  Plane<float> pull;   // weight * gradient * residual, gathered
-  Plane<float> agreed; // weight * agreed, gathered by judge()
+  Plane<float> pull;    // weight * gradient * residual, gathered
+  Plane<float> agreed;  // weight * agreed, gathered by judge()
   Plane<float> d, delta;
   Plane<float> wrinkled;
   Plane<std::uint8_t> domain;
@@ -76,7 +81,8 @@ void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, W
             const int x = i * step + dx;
             const int y = j * step + dy;
             if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
-            const float tent = (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);  // of step 1 only the middle
+            const float tent =
+                (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);  // of step 1 only the middle
             const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
             a += wg * terms.gradient.row(y)[x];
             b += wg * terms.residual.row(y)[x];
@@ -98,10 +104,11 @@ void load(const SurfaceField& field, const Window& nodes, Work& work) {
     }
 }
 
-// The prior expects bends of every length alike; of skin the short ones are less (relief and pores apart, it is smooth), so that
-// the less far the fit reaches down, the more the posterior overstates. Errors of rendered heads of two makers, from half the
-// contrast to twice and up to twice the noise, come to this share of it for a reach of a node, and go with its fourth root. Where hardly
-// anything is seen the prior is all there is, and it is believed.
+// The prior expects bends of every length alike; of skin the short ones are less (relief and pores apart, it
+// is smooth), so that the less far the fit reaches down, the more the posterior overstates. Errors of
+// rendered heads of two makers, from half the contrast to twice and up to twice the noise, come to this share
+// of it for a reach of a node, and go with its fourth root. Where hardly anything is seen the prior is all
+// there is, and it is believed.
 constexpr float kShareAtANode = 1.2F;
 constexpr float kShareOfReach = 0.25F;
 constexpr float kLeastReach = 0.15F;
@@ -109,17 +116,19 @@ constexpr float kLeastReach = 0.15F;
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
 // with A the information that the gradients seem to carry, noise in them included, and a what both views'
-// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A. reach = (a / lambda)^(1/4) a node.
+// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A. reach = (a /
+// lambda)^(1/4) a node.
 float posterior_sigma(double seeming, double agreed, double bend) {
   const double real = std::clamp(agreed, static_cast<double>(kLeastReal) * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
   const float reach = std::sqrt(std::sqrt(static_cast<float>(real / bend)));
-  return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) * static_cast<float>(std::sqrt(variance));
+  return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) *
+         static_cast<float>(std::sqrt(variance));
 }
 
 // sigma and cost of every node.
-void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
-           const Work& work, std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
+void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes, const Work& work,
+           std::pmr::memory_resource& scratch, ThreadPool& pool, SurfaceField& field) {
   Plane<float> mean(&scratch, nodes.width, nodes.height);
   Plane<float> noise(&scratch, nodes.width, nodes.height);
   Plane<float> area(&scratch, nodes.width, nodes.height);
@@ -129,11 +138,14 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
   constexpr int kRadius = 6;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
   box_sum(work.system.data, kRadius, pool, across, mean);
-  // What is not agreed on is noise, as much of it on one patch of skin as on the next: a wide mean knows it best.
+  // What is not agreed on is noise, as much of it on one patch of skin as on the next: a wide mean knows it
+  // best.
   constexpr int kNoiseRadius = 12;
-  for (std::size_t k = 0; k < noise.values.size(); ++k) noise.values[k] = work.system.data.values[k] - work.agreed.values[k];
+  for (std::size_t k = 0; k < noise.values.size(); ++k)
+    noise.values[k] = work.system.data.values[k] - work.agreed.values[k];
   box_sum(noise, kNoiseRadius, pool, across, noise);
-  for (std::size_t k = 0; k < area.values.size(); ++k) area.values[k] = work.system.data.values[k] > 0 ? 1 : 0;
+  for (std::size_t k = 0; k < area.values.size(); ++k)
+    area.values[k] = work.system.data.values[k] > 0 ? 1 : 0;
   box_sum(area, kNoiseRadius, pool, across, area);
   for (int y = 1; y < nodes.height - 1; ++y)
     for (int x = 1; x < nodes.width - 1; ++x) {
@@ -142,7 +154,8 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
       const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
       const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
+          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) *
+          std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
@@ -160,12 +173,14 @@ int steps_at(int level, int steps) {
 
 Result<void> SurfaceRefinerOptions::check() const {
   if (!(bending > 0 && crease > 0 && wrinkle >= 0 && local_window_px >= 5 && steps >= 1 && solver_steps >= 1))
-    return Error{Errc::InvalidInput, "refined: bending, crease, steps and solver_steps must be positive, wrinkle not negative, local_window_px at least 5"};
+    return Error{
+        Errc::InvalidInput,
+        "refined: bending, crease, steps and solver_steps must be positive, wrinkle not negative, local_window_px at least 5"};
   return {};
 }
 
-Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options, StageContext& context,
-                            SurfaceField& field) {
+Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
+                            StageContext& context, SurfaceField& field) {
   const Extent extent = extent_of(field, scene);
   if (extent.nodes.width < 5 || extent.nodes.height < 5) return {};
   const Window& nodes = extent.nodes;
@@ -175,7 +190,8 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   const double lambda = scene.lambda_px / (spacing * spacing);
   const double expected_bend = 1 / std::sqrt(lambda);
   // Only the finest size can tell relief from what a smaller one blurs together.
-  const BendingExpectation expected{lambda, options.crease * expected_bend, scene.level == 0 ? options.wrinkle * expected_bend : 0};
+  const BendingExpectation expected{lambda, options.crease * expected_bend,
+                                    scene.level == 0 ? options.wrinkle * expected_bend : 0};
   const int steps = steps_at(scene.level, options.steps);
   float hanging = 1;
   for (int k = 0; k < steps; ++k) {
@@ -197,13 +213,16 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
     Plane<float> rolling(&context.scratch, rolling_floats(nodes.width), 1);
     apply_system(work.system, work.d, false, work.system.rhs, 0, nodes.height, rolling.row(0));
     for (std::size_t n = 0; n < work.pull.values.size(); ++n)
-      work.system.rhs.values[n] = work.domain.values[n] != 0 ? -work.pull.values[n] - work.system.rhs.values[n] : 0.0F;
+      work.system.rhs.values[n] =
+          work.domain.values[n] != 0 ? -work.pull.values[n] - work.system.rhs.values[n] : 0.0F;
     solve(work.system, options.solver_steps, kSolved, context.pool, context.scratch, work.delta);
-    const float limit = 1.0F * static_cast<float>(1 << scene.level);  // the linear model holds for about a pixel
+    const float limit =
+        1.0F * static_cast<float>(1 << scene.level);  // the linear model holds for about a pixel
     for (int y = 1; y < nodes.height - 1; ++y)
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)
-          field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] += std::clamp(work.delta.row(y)[x], -limit, limit);
+          field.disparity_px.row(nodes.y0 + y)[nodes.x0 + x] +=
+              std::clamp(work.delta.row(y)[x], -limit, limit);
     if (last) judge(terms, step, lambda, nodes, work, context.scratch, context.pool, field);
   }
   return {};

@@ -11,9 +11,9 @@
 //
 // so the effective window grows where the skin is plain and shrinks where it is rich, and a curved
 // surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
-// sharply (iteratively reweighted, bending_weights.h), so that eyelids and nostrils keep their creases, lips their wrinkles.
-// sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed form of
-// the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds
+// sharply (iteratively reweighted, bending_weights.h), so that eyelids and nostrils keep their creases, lips
+// their wrinkles. sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed
+// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds
 // (score_excess.h).
 // Memory: scratch only. Results do not depend on the number of threads.
 #pragma once
@@ -30,23 +30,28 @@ namespace relievo::pipeline {
 // A field over the nodes of a lattice; node (i, j) stands on full-size pixel (step_px * i, step_px * j).
 struct SurfaceField {
   SurfaceField(std::pmr::memory_resource* memory, int width, int height, int step)
-      : step_px(step), disparity_px(memory, width, height), domain(memory, width, height),
-        sigma_px(memory, width, height), cost(memory, width, height) {}
+      : step_px(step),
+        disparity_px(memory, width, height),
+        domain(memory, width, height),
+        sigma_px(memory, width, height),
+        cost(memory, width, height) {}
   int step_px;
-  Plane<float> disparity_px;        // full-size pixels
-  Plane<std::uint8_t> domain;       // 1 where the surface is solved for
-  Plane<float> sigma_px;            // of disparity_px
-  Plane<float> cost;                // 1 - local zero-mean correlation
+  Plane<float> disparity_px;   // full-size pixels
+  Plane<std::uint8_t> domain;  // 1 where the surface is solved for
+  Plane<float> sigma_px;       // of disparity_px
+  Plane<float> cost;           // 1 - local zero-mean correlation
 };
 
 struct SurfaceRefinerOptions {
-  float bending = 0.17F;            // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
-  float crease = 0.9F;              // second differences beyond this many expected ones count as creases
-  float wrinkle = 0.135F;           // at full size, patches that bend well beyond this many expected ones count as relief; 0: none do
-  int local_window_px = 13;         // offset and gain are constant over this window, full-size pixels
-  int smallest_window_px = 9;       // and at least this many pixels of a smaller level
-  int steps = 5;                    // warps at full size; one less at half, twice that at a quarter of it
-  int solver_steps = 60;            // conjugate-gradient steps a warp
+  float bending =
+      0.17F;  // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
+  float crease = 0.9F;         // second differences beyond this many expected ones count as creases
+  float wrinkle = 0.135F;      // at full size, patches that bend well beyond this many expected ones count as
+                               // relief; 0: none do
+  int local_window_px = 13;    // offset and gain are constant over this window, full-size pixels
+  int smallest_window_px = 9;  // and at least this many pixels of a smaller level
+  int steps = 5;               // warps at full size; one less at half, twice that at a quarter of it
+  int solver_steps = 60;       // conjugate-gradient steps a warp
   Result<void> check() const;
 };
 
@@ -54,8 +59,8 @@ struct RefinerScene {
   const Plane<float>& left;
   const Plane<float>& right;
   const Plane<std::uint8_t>& right_valid;
-  int level;                        // the pictures are 2^level smaller than full size
-  double lambda_px;                 // weight of squared second derivatives per full-size pixel
+  int level;         // the pictures are 2^level smaller than full size
+  double lambda_px;  // weight of squared second derivatives per full-size pixel
 };
 
 Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,

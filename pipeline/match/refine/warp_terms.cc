@@ -13,9 +13,12 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
-constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer and says nothing about the surface
+constexpr float kSaturated =
+    250;  // grey: a highlight moves with the viewer and says nothing about the surface
 
-struct Sampled { float value, slope; };
+struct Sampled {
+  float value, slope;
+};
 
 // Cubic convolution (Keys 1981, a = -1/2) and its derivative, between row[1] and row[2].
 inline Sampled cubic(const float* p, float t) {
@@ -43,21 +46,23 @@ float node_disparity(const FieldRow& rows, int i, float tx) {
 
 // The right view as it is seen along the field, and where both views show the surface.
 struct Warped {
-  Plane<float>& left;         // the left view itself, 0 off the mask
+  Plane<float>& left;  // the left view itself, 0 off the mask
   Plane<float>& right;
   Plane<float>& right_slope;
   Plane<float>& mask;
 };
 
-void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window& window, int y, Warped& out) {
-  const int nodes_per_pixel_shift = field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
+void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window& window, int y,
+              Warped& out) {
+  const int nodes_per_pixel_shift =
+      field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
   const float to_level = 1.0F / static_cast<float>(1 << scene.level);
   const int py = window.y0 + y;
   const int j = py / nodes_per_pixel_shift;
   const int below = std::min(j + 1, field.domain.height - 1);
-  const FieldRow rows{field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j),
-                      field.domain.row(below),
-                      static_cast<float>(py % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift)};
+  const FieldRow rows{
+      field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j), field.domain.row(below),
+      static_cast<float>(py % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift)};
   const float* left = scene.left.row(py);
   const float* right = scene.right.row(py);
   const std::uint8_t* right_valid = scene.right_valid.row(py);
@@ -67,7 +72,8 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
     out.mask.row(y)[x] = 0;
     out.left.row(y)[x] = out.right.row(y)[x] = out.right_slope.row(y)[x] = 0;
     if (rows.upper_in[i] == 0 || px < 1 || px + 2 > scene.left.width) continue;
-    const float tx = static_cast<float>(px % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift);
+    const float tx =
+        static_cast<float>(px % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift);
     const float d = node_disparity(rows, std::min(i, field.domain.width - 2), tx) * to_level;
     const float at = static_cast<float>(px) - d;
     if (!(at >= 1 && at < static_cast<float>(scene.right.width - 2))) continue;
@@ -90,7 +96,8 @@ struct Moments {
   const float *count, *left, *right, *left_left, *right_right, *left_right;
 };
 
-// May be the very rows that are read: `right` becomes the residual, its slope the gradient, a moment the cost.
+// May be the very rows that are read: `right` becomes the residual, its slope the gradient, a moment the
+// cost.
 struct RowTerms {
   float *residual, *gradient, *cost, *agreed;
 };
@@ -101,8 +108,8 @@ struct RowViews {
 
 // Offset and gain taken out symmetrically: each view is divided by the root of the local gain. The
 // gain is drawn towards the whole face's where there is little texture to tell it from.
-RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, int end, float level_scale, float gain,
-                               float floor_variance, const RowTerms& out) {
+RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, int end, float level_scale,
+                               float gain, float floor_variance, const RowTerms& out) {
 #pragma GCC ivdep
   for (int x = begin; x < end; ++x) {
     const float n = 1.0F / std::max(m.count[x], 1.0F);
@@ -111,7 +118,8 @@ RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, i
     const float var_left = std::max(m.left_left[x] * n - mean_left * mean_left, 0.0F);
     const float var_right = std::max(m.right_right[x] * n - mean_right * mean_right, 0.0F);
     const float covariance = m.left_right[x] * n - mean_left * mean_right;
-    const float local = gain * std::sqrt((var_right / (gain * gain) + floor_variance) / (var_left + floor_variance));
+    const float local =
+        gain * std::sqrt((var_right / (gain * gain) + floor_variance) / (var_left + floor_variance));
     const float root = std::sqrt(local);
     const float inverse = 1.0F / root;
     const float left_slope = 0.5F * (s.left[x + 1] - s.left[x - 1]);
@@ -143,9 +151,11 @@ float noise_variance(const WarpTerms& terms) {
   return std::max(sigma * sigma, 0.05F);
 }
 
-// Sums over the window about every pixel. The results' own planes hold what leads to them: at full size every plane counts.
+// Sums over the window about every pixel. The results' own planes hold what leads to them: at full size every
+// plane counts.
 struct WindowSums {
-  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms) : WindowSums(memory, terms, terms.mask.width, terms.mask.height) {}
+  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms)
+      : WindowSums(memory, terms, terms.mask.width, terms.mask.height) {}
   Plane<float> count, left, right, left_left;
   Plane<float>& left_right;   // the costs' plane
   Plane<float>& right_right;  // the weights'
@@ -153,13 +163,18 @@ struct WindowSums {
 
  private:
   WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms, int w, int h)
-      : count(memory, w, h), left(memory, w, h), right(memory, w, h), left_left(memory, w, h), left_right(terms.cost),
-        right_right(terms.weight), across(memory, w, h) {}
+      : count(memory, w, h),
+        left(memory, w, h),
+        right(memory, w, h),
+        left_left(memory, w, h),
+        left_right(terms.cost),
+        right_right(terms.weight),
+        across(memory, w, h) {}
 };
 
 // The right view goes to the residuals' plane and its slope to the gradients'.
-void sum_windows(const RefinerScene& scene, const SurfaceField& field, const Window& window, int radius, ThreadPool& pool,
-                 WarpTerms& terms, WindowSums& sums) {
+void sum_windows(const RefinerScene& scene, const SurfaceField& field, const Window& window, int radius,
+                 ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
   const int w = window.width;
   Warped warped{sums.left, terms.residual, terms.gradient, terms.mask};
   pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
@@ -194,18 +209,20 @@ float gain_of(const WindowSums& sums, const Plane<float>& mask) {
   return static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
 }
 
-void form_residuals(const RefinerScene& scene, const Window& window, WindowSums& sums, ThreadPool& pool, WarpTerms& terms,
-                    Plane<float>* agreed) {
+void form_residuals(const RefinerScene& scene, const Window& window, WindowSums& sums, ThreadPool& pool,
+                    WarpTerms& terms, Plane<float>* agreed) {
   const int w = window.width;
   const float gain = gain_of(sums, terms.mask);
   const float level_scale = 1.0F / static_cast<float>(1 << scene.level);
   pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
-      const Moments m{sums.count.row(y), sums.left.row(y), sums.right.row(y), sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
+      const Moments m{sums.count.row(y),     sums.left.row(y),        sums.right.row(y),
+                      sums.left_left.row(y), sums.right_right.row(y), sums.left_right.row(y)};
       // Where nobody asks for it the product goes to a row that has had its day.
       const RowTerms out{terms.residual.row(y), terms.gradient.row(y), terms.cost.row(y),
                          agreed != nullptr ? agreed->row(y) : sums.right_right.row(y)};
-      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0, terms.residual.row(y), terms.gradient.row(y)};
+      const RowViews views{terms.mask.row(y), scene.left.row(window.y0 + y) + window.x0,
+                           terms.residual.row(y), terms.gradient.row(y)};
       // A pixel on the picture's own edge has no slope, and the mask is 0 there.
       const int begin_x = window.x0 == 0 ? 1 : 0;
       const int end_x = window.x0 + w == scene.left.width ? w - 1 : w;
@@ -238,7 +255,8 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
   Plane<float>& count = sums.left_left;
   terms.noise_variance = noise_variance(terms);
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
+    for (int y = begin; y < end; ++y)
+      multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
   });
   box_sum(squares, kNoiseRadius, pool, sums.across, squares);
   box_sum(terms.mask, kNoiseRadius, pool, sums.across, count);

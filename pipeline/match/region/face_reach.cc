@@ -12,17 +12,20 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kNearest = 0.01;
-constexpr std::size_t kLeast = 50;    // nodes in the middle; of fewer nothing can be said
-constexpr double kNoseDown = 0.12;    // of the face's width, from the middle of its box
+constexpr std::size_t kLeast = 50;  // nodes in the middle; of fewer nothing can be said
+constexpr double kNoseDown = 0.12;  // of the face's width, from the middle of its box
 
 // Depth over the middle's plane: level + right * x + down * y, about the points' mean.
 struct Plane3 {
   Vec3d mean;
   double level = 0, right = 0, down = 0;
-  double before(const Vec3d& p) const { return mean.z + level + right * (p.x - mean.x) + down * (p.y - mean.y) - p.z; }
+  double before(const Vec3d& p) const {
+    return mean.z + level + right * (p.x - mean.x) + down * (p.y - mean.y) - p.z;
+  }
 };
 
-// Least squares, then five times more with what lies off it counting little (Geman-McClure): the nose itself, above all.
+// Least squares, then five times more with what lies off it counting little (Geman-McClure): the nose itself,
+// above all.
 Plane3 plane_of(std::span<const Vec3d> points) {
   constexpr double kScale = 6;       // mm: a face without its nose is about that flat
   constexpr double kSteepest = 1.2;  // 50 degrees: the few points of a poor picture may say anything
@@ -34,7 +37,8 @@ Plane3 plane_of(std::span<const Vec3d> points) {
     ThreeTerms terms;
     for (const Vec3d& p : points) {
       const double e = round == 0 ? 0 : plane.before(p) / kScale;
-      terms.add({1, p.x - plane.mean.x, p.y - plane.mean.y}, p.z - plane.mean.z, 1 / ((1 + e * e) * (1 + e * e)));
+      terms.add({1, p.x - plane.mean.x, p.y - plane.mean.y}, p.z - plane.mean.z,
+                1 / ((1 + e * e) * (1 + e * e)));
     }
     const auto k = terms.solve();
     if (!k) break;  // all on a line: what is nearest, then
@@ -48,10 +52,11 @@ Plane3 plane_of(std::span<const Vec3d> points) {
 // The mean of the hundredth of points that comes first.
 template <typename Before>
 Vec3d mean_of_first(std::span<Vec3d> middle, Before&& before) {
-  const auto count = std::max<std::size_t>(10, static_cast<std::size_t>(kNearest * static_cast<double>(middle.size())));
+  const auto count =
+      std::max<std::size_t>(10, static_cast<std::size_t>(kNearest * static_cast<double>(middle.size())));
   const std::span<Vec3d> nearest = middle.first(std::min(count, middle.size()));
-  std::nth_element(middle.begin(), middle.begin() + static_cast<std::ptrdiff_t>(nearest.size() - 1), middle.end(),
-                   before);
+  std::nth_element(middle.begin(), middle.begin() + static_cast<std::ptrdiff_t>(nearest.size() - 1),
+                   middle.end(), before);
   Vec3d tip;
   for (const Vec3d& p : nearest) {
     tip.x += p.x / static_cast<double>(nearest.size());
@@ -71,11 +76,14 @@ Vec3d outstanding_tip(std::span<Vec3d> middle) { return outstanding_tip(middle, 
 
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates) {
   const Plane3 plane = plane_of(middle);
-  return mean_of_first(middle.first(candidates), [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
+  return mean_of_first(middle.first(candidates),
+                       [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
 }
 
 bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px) {
-  return std::hypot(x_px - pair.face_centre_px.x, y_px - pair.face_centre_px.y - kNoseDown * pair.face_width_px) < kNoseReach * pair.face_width_px;
+  return std::hypot(x_px - pair.face_centre_px.x,
+                    y_px - pair.face_centre_px.y - kNoseDown * pair.face_width_px) <
+         kNoseReach * pair.face_width_px;
 }
 
 void keep_within_reach(const RectifiedPair& pair, StageContext& context, SurfaceField& field) {

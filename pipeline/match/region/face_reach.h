@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What of a rough surface lies within reach of the face: shoulders, collar and neck need not be refined, since
-// they are cropped later (reconstruct/face_crop.h); on some pictures they are a third of all.
-// Memory: scratch only. Thread: any; deterministic.
+// What of a rough surface lies within reach of the face: shoulders, collar and neck need not be refined,
+// since they are cropped later (reconstruct/face_crop.h); on some pictures they are a third of all. Memory:
+// scratch only. Thread: any; deterministic.
 #pragma once
 
 #include <span>
@@ -16,23 +16,25 @@ namespace relievo::pipeline {
 // Where, in shares of the face's width around its middle, every nose is: 38 mm on a grown-up.
 inline constexpr double kNoseReach = 0.25;
 
-// The mean of the nearest hundredth of points of the middle of the face, for a single stray point is none: the tip of the
-// nose, unless the head is bowed by 10 degrees or more, when the forehead is nearer. Any frame whose z leads away from
-// the cameras; reorders the points, of which there must be 10 or more.
+// The mean of the nearest hundredth of points of the middle of the face, for a single stray point is none:
+// the tip of the nose, unless the head is bowed by 10 degrees or more, when the forehead is nearer. Any frame
+// whose z leads away from the cameras; reorders the points, of which there must be 10 or more.
 Vec3d nearest_tip(std::span<Vec3d> middle);
 
-// The tip of the nose of a head turned or bowed by 25 degrees and more: the mean of the hundredth of points that stands
-// out furthest towards the cameras from the plane that the rest of them lies about. As nearest_tip() else.
+// The tip of the nose of a head turned or bowed by 25 degrees and more: the mean of the hundredth of points
+// that stands out furthest towards the cameras from the plane that the rest of them lies about. As
+// nearest_tip() else.
 Vec3d outstanding_tip(std::span<Vec3d> middle);
 // The same where only the first `candidates` of the points, 10 or more, can be the tip.
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates);
 
-// Is a pixel of the left view where a nose may be? It lies 0.05 to 0.17 of the face's width below the middle of its box,
-// 0.3 when the head is bowed by 15 degrees.
+// Is a pixel of the left view where a nose may be? It lies 0.05 to 0.17 of the face's width below the middle
+// of its box, 0.3 when the head is bowed by 15 degrees.
 bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px);
 
 // Takes nodes out of the domain that lie further than pair.face_reach_mm from the surface nearest to the
-// cameras in the middle of the face. Does nothing where no face was looked for, or where hardly anything lies there.
+// cameras in the middle of the face. Does nothing where no face was looked for, or where hardly anything lies
+// there.
 void keep_within_reach(const RectifiedPair& pair, StageContext& context, SurfaceField& field);
 
 }  // namespace relievo::pipeline

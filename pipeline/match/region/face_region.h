@@ -17,19 +17,19 @@
 namespace relievo::pipeline {
 
 struct FaceBox {
-  Vec2d centre_px;        // between the eyes and the mouth, in the picture given
-  double width_px = 0;    // about 150 mm on a grown-up, whatever the cascade that saw it
-  double angle_deg = 0;   // how far the head was tilted in the try that saw it; clockwise in the picture
-  int votes = 0;          // overlapping hits: 5 doubtful, 50 certain
+  Vec2d centre_px;       // between the eyes and the mouth, in the picture given
+  double width_px = 0;   // about 150 mm on a grown-up, whatever the cascade that saw it
+  double angle_deg = 0;  // how far the head was tilted in the try that saw it; clockwise in the picture
+  int votes = 0;         // overlapping hits: 5 doubtful, 50 certain
 };
 
 struct FaceFinderOptions {
   std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-  int search_height_px = 400;      // the picture is reduced to this height before the search
-  double smallest_face = 0.15;     // width of the smallest face, share of the picture's height
-  int certain_votes = 8;           // a hit with this many votes ends the search
-  int least_votes = 4;             // fewer are no face
-  double tilt_deg = 15;            // how far the picture is turned for tilted heads
+  int search_height_px = 400;   // the picture is reduced to this height before the search
+  double smallest_face = 0.15;  // width of the smallest face, share of the picture's height
+  int certain_votes = 8;        // a hit with this many votes ends the search
+  int least_votes = 4;          // fewer are no face
+  double tilt_deg = 15;         // how far the picture is turned for tilted heads
 
   Result<void> check() const;
 };

@@ -17,12 +17,15 @@
 namespace relievo::pipeline {
 namespace {
 
-struct CascadeFile { std::string_view name, sha256; };
+struct CascadeFile {
+  std::string_view name, sha256;
+};
 
 // opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
 constexpr std::array<CascadeFile, 4> kFiles = {{
     {"haarcascade_frontalface_alt2.xml", "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4"},
-    {"haarcascade_frontalface_default.xml", "0f7d4527844eb514d4a4948e822da90fbb16a34a0bbbbc6adc6498747a5aafb0"},
+    {"haarcascade_frontalface_default.xml",
+     "0f7d4527844eb514d4a4948e822da90fbb16a34a0bbbbc6adc6498747a5aafb0"},
     {"haarcascade_frontalface_alt.xml", "6281df13459cc218ff047d02b2ae3859b12ff14a93ffe8952f7b33fad7b9697b"},
     {"haarcascade_profileface.xml", "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d"},
 }};
@@ -36,14 +39,28 @@ struct Try {
   bool mirrored;        // the profile cascade knows one side only
 };
 constexpr std::array<Try, 16> kTries = {{
-    {0, false, 0, false}, {1, false, 0, false}, {2, false, 0, false}, {0, true, 0, false},
-    {1, true, 0, false}, {2, true, 0, false}, {0, false, 1, false}, {0, false, -1, false},
-    {1, false, 1, false}, {1, false, -1, false}, {0, true, 1, false}, {0, true, -1, false},
-    {kProfile, false, 0, false}, {kProfile, false, 0, true}, {kProfile, true, 0, false}, {kProfile, true, 0, true},
+    {0, false, 0, false},
+    {1, false, 0, false},
+    {2, false, 0, false},
+    {0, true, 0, false},
+    {1, true, 0, false},
+    {2, true, 0, false},
+    {0, false, 1, false},
+    {0, false, -1, false},
+    {1, false, 1, false},
+    {1, false, -1, false},
+    {0, true, 1, false},
+    {0, true, -1, false},
+    {kProfile, false, 0, false},
+    {kProfile, false, 0, true},
+    {kProfile, true, 0, false},
+    {kProfile, true, 0, true},
 }};
 
 cv::Mat reduced_grey(const ImageView& view, int height_px) {
-  const int type = view.format == PixelFormat::Rgb8 ? CV_8UC3 : view.format == PixelFormat::Grey16 ? CV_16UC1 : CV_8UC1;
+  const int type = view.format == PixelFormat::Rgb8     ? CV_8UC3
+                   : view.format == PixelFormat::Grey16 ? CV_16UC1
+                                                        : CV_8UC1;
   // OpenCV wants a pointer it could write through; nothing here writes.
   const cv::Mat picture(view.height_px, view.width_px, type, const_cast<std::byte*>(view.bytes),
                         static_cast<std::size_t>(view.stride_bytes));
@@ -66,7 +83,11 @@ cv::Matx23d turn_about_centre(const cv::Size& size, double angle_deg) {
   return {c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy};
 }
 
-struct Hit { cv::Point2d centre; double width; int votes; };
+struct Hit {
+  cv::Point2d centre;
+  double width;
+  int votes;
+};
 
 // Overlapping cascades and tries speak for the same face; the largest sum of votes wins, and among
 // equals the wider face, which is nearer.
@@ -76,7 +97,8 @@ Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
     const double worth = static_cast<double>(votes[i]) * boxes[i].width;
     if (worth <= best.votes * best.width) continue;
     best = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
-            static_cast<double>(boxes[i].width), votes[i]};
+            static_cast<double>(boxes[i].width),
+            votes[i]};
   }
   return best;
 }
@@ -103,7 +125,8 @@ struct FaceFinder::Cascades {
     const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
-    files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, options.least_votes - 1, 0, {least, least});
+    files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, options.least_votes - 1, 0,
+                                            {least, least});
     Hit hit = best_of(boxes, votes);
     if (look_at.mirrored) hit.centre.x = grey.cols - 1 - hit.centre.x;
     if (look_at.tilt != 0) {
@@ -135,14 +158,16 @@ FaceFinder::~FaceFinder() = default;
 
 Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
   RELIEVO_TRY(options.check());
-  const Error unreadable{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"};
+  const Error unreadable{Errc::LibraryFailed,
+                         "OpenCV cannot read the face cascades: reinstall the package opencv-data"};
   try {
     auto cascades = std::make_unique<Cascades>();
     cascades->options = options;
     for (std::size_t i = 0; i < kFiles.size(); ++i) {
       const std::filesystem::path path = std::filesystem::path(options.cascade_dir) / kFiles[i].name;
       RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, kFiles[i].sha256));
-      const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
+      const cv::FileStorage file(
+          text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
       if (!cascades->files[i].read(file.getFirstTopLevelNode())) return unreadable.at(path.string());
     }
     return FaceFinder(std::move(cascades));
@@ -164,12 +189,16 @@ Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<boo
         return Error{Errc::Cancelled, "the search for a face was stopped"};
       const Hit hit = cascades_->look(grey, even, look_at);
       if (hit.votes < cascades_->options.least_votes || hit.votes <= best.votes) continue;
-      best = {{(hit.centre.x + 0.5) * scale - 0.5, (hit.centre.y + 0.5) * scale - 0.5}, hit.width * scale,
-              -look_at.tilt * cascades_->options.tilt_deg, hit.votes};
+      best = {{(hit.centre.x + 0.5) * scale - 0.5, (hit.centre.y + 0.5) * scale - 0.5},
+              hit.width * scale,
+              -look_at.tilt * cascades_->options.tilt_deg,
+              hit.votes};
       if (best.votes >= cascades_->options.certain_votes) break;
     }
     if (best.votes == 0)
-      return Error{Errc::NoFace, "no face in the left picture: look straight into the cameras from about half a metre, with light on the face"};
+      return Error{
+          Errc::NoFace,
+          "no face in the left picture: look straight into the cameras from about half a metre, with light on the face"};
     return best;
   } catch (const cv::Exception&) {
     return Error{Errc::LibraryFailed, "OpenCV gave up looking for a face in this picture"};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Weighted least squares of three terms: value = k0 * t0 + k1 * t1 + k2 * t2, from the sums alone. No memory. Thread: one caller.
+// Weighted least squares of three terms: value = k0 * t0 + k1 * t1 + k2 * t2, from the sums alone. No memory.
+// Thread: one caller.
 #pragma once
 
 #include <array>

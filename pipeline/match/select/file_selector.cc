@@ -20,8 +20,11 @@ Result<void> FileSelectorOptions::check() const { return {}; }
 Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (options_.path.empty()) return Error{Errc::InvalidInput, "no file of keypoints is named: --set file-points.path=FILE"}.at("file-points.path");
-  RELIEVO_TRY_ASSIGN(const NumberTable table, read_number_table(options_.path, 2, kMostPoints, context.scratch));
+  if (options_.path.empty())
+    return Error{Errc::InvalidInput, "no file of keypoints is named: --set file-points.path=FILE"}.at(
+        "file-points.path");
+  RELIEVO_TRY_ASSIGN(const NumberTable table,
+                     read_number_table(options_.path, 2, kMostPoints, context.scratch));
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));
   Keypoints keypoints(&context.output);
@@ -30,16 +33,22 @@ Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& 
     const double x = table.at(k, 0);
     const double y = table.at(k, 1);
     if (!(x >= 0 && y >= 0 && x <= pair.width_px - 1 && y <= pair.height_px - 1))
-      return Error{Errc::InvalidInput, "lies outside of the left rectified view; x and y are its pixels, from 0"}.at(table.place(k));
+      return Error{Errc::InvalidInput,
+                   "lies outside of the left rectified view; x and y are its pixels, from 0"}
+          .at(table.place(k));
     if (selectable(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)), 0))
       keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
   }
   std::sort(keypoints.points.begin(), keypoints.points.end(), [](const Keypoint& a, const Keypoint& b) {
     return a.at_px.y != b.at_px.y ? a.at_px.y < b.at_px.y : a.at_px.x < b.at_px.x;
   });
-  const auto same = [](const Keypoint& a, const Keypoint& b) { return a.at_px.x == b.at_px.x && a.at_px.y == b.at_px.y; };
-  keypoints.points.erase(std::unique(keypoints.points.begin(), keypoints.points.end(), same), keypoints.points.end());
-  if (keypoints.points.empty()) return Error{Errc::NoFace, "no keypoint of the file lies in the face region"}.at(options_.path);
+  const auto same = [](const Keypoint& a, const Keypoint& b) {
+    return a.at_px.x == b.at_px.x && a.at_px.y == b.at_px.y;
+  };
+  keypoints.points.erase(std::unique(keypoints.points.begin(), keypoints.points.end(), same),
+                         keypoints.points.end());
+  if (keypoints.points.empty())
+    return Error{Errc::NoFace, "no keypoint of the file lies in the face region"}.at(options_.path);
   return keypoints;
 }
 

@@ -14,12 +14,16 @@ namespace {
 
 constexpr std::size_t kMostLevels = 16;
 
-struct Level { double quality, distance_px; };
+struct Level {
+  double quality, distance_px;
+};
 
 std::optional<double> number_in(std::string_view text, double least, double most) {
   double value = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || read.ec != std::errc{} || read.ptr != text.data() + text.size() || !(value >= least && value <= most)) return {};
+  if (text.empty() || read.ec != std::errc{} || read.ptr != text.data() + text.size() ||
+      !(value >= least && value <= most))
+    return {};
   return value;
 }
 
@@ -36,8 +40,11 @@ std::vector<std::string_view> parts_of(std::string_view text) {
 }
 
 Result<std::vector<Level>> read_levels(const std::string& text) {
-  const Error wrong = Error{Errc::InvalidInput, "levels must be up to 16 QUALITY:DISTANCE_PX joined by '+', such as 0.1:4+0.02:7; quality above 0 to 1, distance 1 to 256"}
-                          .at("good-features.levels = " + text);
+  const Error wrong =
+      Error{
+          Errc::InvalidInput,
+          "levels must be up to 16 QUALITY:DISTANCE_PX joined by '+', such as 0.1:4+0.02:7; quality above 0 to 1, distance 1 to 256"}
+          .at("good-features.levels = " + text);
   std::vector<Level> levels;
   for (const std::string_view part : parts_of(text)) {
     const std::size_t colon = part.find(':');
@@ -63,7 +70,9 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
     thresholds.push_back(static_cast<float>(*grey));
   }
   if (thresholds.empty())
-    return Error{Errc::InvalidInput, "binary_thresholds must be up to 16 grey levels of 1 to 254 joined by '+', such as 64+128, or none"}
+    return Error{
+        Errc::InvalidInput,
+        "binary_thresholds must be up to 16 grey levels of 1 to 254 joined by '+', such as 64+128, or none"}
         .at("good-features.binary_thresholds = " + text);
   return thresholds;
 }
@@ -72,7 +81,8 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
 
 Result<void> GoodFeaturesSelectorOptions::check() const {
   if (window_px < 3 || window_px > 31 || window_px % 2 == 0 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "good-features: window_px must be odd, 3 .. 31, and max_points 1 .. 1000000"};
+    return Error{Errc::InvalidInput,
+                 "good-features: window_px must be odd, 3 .. 31, and max_points 1 .. 1000000"};
   if (const auto read = read_levels(levels); !read) return read.error();
   if (const auto read = read_thresholds(binary_thresholds); !read) return read.error();
   return {};
@@ -108,7 +118,8 @@ Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageC
   if (!thresholds.empty()) {
     std::pmr::vector<float> binary(pair.left.grey.size(), &context.scratch);
     for (const float threshold : thresholds) {
-      for (std::size_t k = 0; k < binary.size(); ++k) binary[k] = pair.left.grey[k] > threshold ? 255.0F : 0.0F;
+      for (std::size_t k = 0; k < binary.size(); ++k)
+        binary[k] = pair.left.grey[k] > threshold ? 255.0F : 0.0F;
       if (!search(binary)) return stopped;
     }
   }

@@ -16,7 +16,8 @@ int last_of(int first, int length, int view) { return length == 0 ? view - 1 : f
 
 Result<void> GridSelectorOptions::check() const {
   if (step_px < 1 || left_px < 0 || top_px < 0 || width_px < 0 || height_px < 0)
-    return Error{Errc::InvalidInput, "grid-points: step_px must be at least 1, and the rectangle's numbers not negative"};
+    return Error{Errc::InvalidInput,
+                 "grid-points: step_px must be at least 1, and the rectangle's numbers not negative"};
   return {};
 }
 
@@ -24,15 +25,22 @@ Result<Keypoints> GridSelector::select(const RectifiedPair& pair, StageContext& 
   RELIEVO_TRY(options_.check());
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  const LatticeArea area{options_.left_px, options_.top_px, last_of(options_.left_px, options_.width_px, pair.width_px),
+  const LatticeArea area{options_.left_px, options_.top_px,
+                         last_of(options_.left_px, options_.width_px, pair.width_px),
                          last_of(options_.top_px, options_.height_px, pair.height_px)};
-  if (area.left > area.right || area.top > area.bottom || area.right >= pair.width_px || area.bottom >= pair.height_px)
-    return Error{Errc::InvalidInput, "the rectangle leaves the left rectified view, whose size is in brackets: give a smaller one"}.at(
-        "grid-points (" + std::to_string(pair.width_px) + " x " + std::to_string(pair.height_px) + ")");
+  if (area.left > area.right || area.top > area.bottom || area.right >= pair.width_px ||
+      area.bottom >= pair.height_px)
+    return Error{
+        Errc::InvalidInput,
+        "the rectangle leaves the left rectified view, whose size is in brackets: give a smaller one"}
+        .at("grid-points (" + std::to_string(pair.width_px) + " x " + std::to_string(pair.height_px) + ")");
   auto chosen = lattice_keypoints(pair, options_.step_px, area, context);
   const bool part = options_.left_px + options_.top_px + options_.width_px + options_.height_px > 0;
   if (part && !chosen && chosen.error().code == Errc::NoFace)
-    return Error{Errc::NoFace, "no place of the rectangle lies in the face region: choose another one, or take the whole view (--region all)"}.at("grid-points");
+    return Error{
+        Errc::NoFace,
+        "no place of the rectangle lies in the face region: choose another one, or take the whole view (--region all)"}
+        .at("grid-points");
   return chosen;
 }
 

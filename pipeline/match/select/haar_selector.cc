@@ -18,8 +18,10 @@ constexpr int kSizes = 4;
 // One octave: responses of four filter sizes on every step-th pixel.
 struct Octave {
   Octave(int number, int width_px, int height_px, std::pmr::memory_resource* memory)
-      : step_px(1 << number), size_px{}, response{layer(memory, width_px, height_px), layer(memory, width_px, height_px),
-                                                  layer(memory, width_px, height_px), layer(memory, width_px, height_px)} {
+      : step_px(1 << number),
+        size_px{},
+        response{layer(memory, width_px, height_px), layer(memory, width_px, height_px),
+                 layer(memory, width_px, height_px), layer(memory, width_px, height_px)} {
     for (int k = 0; k < kSizes; ++k) size_px[static_cast<std::size_t>(k)] = 3 * ((2 << number) * (k + 1) + 1);
   }
   Plane<float> layer(std::pmr::memory_resource* memory, int width_px, int height_px) const {
@@ -35,7 +37,8 @@ void respond(const FastHessian& hessian, const Selectable& selectable, ThreadPoo
     for (std::size_t k = 0; k < kSizes; ++k)
       for (int j = begin; j < end; ++j)
         for (int i = 0; i < octave.response[k].width; ++i)
-          if (const int x = i * octave.step_px, y = j * octave.step_px; selectable(x, y, octave.size_px[k] / 2))
+          if (const int x = i * octave.step_px, y = j * octave.step_px;
+              selectable(x, y, octave.size_px[k] / 2))
             octave.response[k].row(j)[i] = std::max(0.0F, hessian.determinant(x, y, octave.size_px[k]));
   });
 }
@@ -58,11 +61,14 @@ bool is_peak(const Octave& octave, std::size_t k, int i, int j) {
 // where it would lie further away than the neighbours the samples say no more than the peak itself.
 std::array<double, 2> top_of(const Octave& octave, std::size_t k, int i, int j) {
   const auto at = [&](int di, int dj, int dk) {
-    return static_cast<double>(octave.response[static_cast<std::size_t>(static_cast<int>(k) + dk)].row(j + dj)[i + di]);
+    return static_cast<double>(
+        octave.response[static_cast<std::size_t>(static_cast<int>(k) + dk)].row(j + dj)[i + di]);
   };
   const double here = at(0, 0, 0);
-  const double gx = 0.5 * (at(1, 0, 0) - at(-1, 0, 0)), gy = 0.5 * (at(0, 1, 0) - at(0, -1, 0)), gs = 0.5 * (at(0, 0, 1) - at(0, 0, -1));
-  const double xx = at(1, 0, 0) + at(-1, 0, 0) - 2 * here, yy = at(0, 1, 0) + at(0, -1, 0) - 2 * here, ss = at(0, 0, 1) + at(0, 0, -1) - 2 * here;
+  const double gx = 0.5 * (at(1, 0, 0) - at(-1, 0, 0)), gy = 0.5 * (at(0, 1, 0) - at(0, -1, 0)),
+               gs = 0.5 * (at(0, 0, 1) - at(0, 0, -1));
+  const double xx = at(1, 0, 0) + at(-1, 0, 0) - 2 * here, yy = at(0, 1, 0) + at(0, -1, 0) - 2 * here,
+               ss = at(0, 0, 1) + at(0, 0, -1) - 2 * here;
   const double xy = 0.25 * (at(1, 1, 0) - at(-1, 1, 0) - at(1, -1, 0) + at(-1, -1, 0));
   const double xs = 0.25 * (at(1, 0, 1) - at(-1, 0, 1) - at(1, 0, -1) + at(-1, 0, -1));
   const double ys = 0.25 * (at(0, 1, 1) - at(0, -1, 1) - at(0, 1, -1) + at(0, -1, -1));
@@ -94,7 +100,8 @@ Result<void> HaarSelectorOptions::check() const {
   if (octaves < 1 || octaves > 4 || !(quality > 0 && quality <= 1))
     return Error{Errc::InvalidInput, "haar: octaves must lie in 1 .. 4 and quality above 0 to 1"};
   if (min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "haar: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
+    return Error{Errc::InvalidInput,
+                 "haar: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
   return {};
 }
 
@@ -117,7 +124,8 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
   if (const float strongest = greatest(found); strongest > 0) {
     for (float& r : found.values) r /= strongest;
-    Candidates peaks = peaks_of(found, static_cast<float>(options_.quality * options_.quality), 0, context, &context.scratch);
+    Candidates peaks = peaks_of(found, static_cast<float>(options_.quality * options_.quality), 0, context,
+                                &context.scratch);
     choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
   }
   if (context.stop()) return stopped;

@@ -27,7 +27,8 @@ struct HaarSelectorOptions {
 
 template <typename Field>
 void describe(HaarSelectorOptions& o, Field&& field) {
-  field("octaves", o.octaves, OptionRange{1, 4}, "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
+  field("octaves", o.octaves, OptionRange{1, 4},
+        "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
   field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest blob's");
   field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "blobs keep this distance, pixels");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");

@@ -11,8 +11,10 @@ namespace relievo::pipeline {
 Result<void> HarrisSelectorOptions::check() const {
   if (!(sensitivity >= 0.01 && sensitivity <= 0.24) || !(quality > 0 && quality <= 1))
     return Error{Errc::InvalidInput, "harris: sensitivity must lie in 0.01 .. 0.24 and quality above 0 to 1"};
-  if (window_px < 3 || window_px > 15 || min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "harris: window_px 3 .. 15, min_distance_px 1 .. 64, max_points 1 .. 1000000"};
+  if (window_px < 3 || window_px > 15 || min_distance_px < 1 || min_distance_px > 64 || max_points < 1 ||
+      max_points > 1'000'000)
+    return Error{Errc::InvalidInput,
+                 "harris: window_px 3 .. 15, min_distance_px 1 .. 64, max_points 1 .. 1000000"};
   if (window_px % 2 == 0) return Error{Errc::InvalidInput, "harris: window_px must be odd"};
   return {};
 }
@@ -26,11 +28,13 @@ Result<Keypoints> HarrisSelector::select(const RectifiedPair& pair, StageContext
   RELIEVO_TRY(check_selectable(selectable));
   Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
-  if (!corner_response(pair.left.grey, selectable, {options_.window_px / 2, 3}, harris_measure, static_cast<float>(options_.sensitivity), context, response))
+  if (!corner_response(pair.left.grey, selectable, {options_.window_px / 2, 3}, harris_measure,
+                       static_cast<float>(options_.sensitivity), context, response))
     return stopped;
   if (const float strongest = greatest(response); strongest > 0) {
     for (float& r : response.values) r /= strongest;
-    Candidates peaks = peaks_of(response, static_cast<float>(std::pow(options_.quality, 4)), 1, context, &context.scratch);
+    Candidates peaks =
+        peaks_of(response, static_cast<float>(std::pow(options_.quality, 4)), 1, context, &context.scratch);
     if (context.stop()) return stopped;
     choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
   }

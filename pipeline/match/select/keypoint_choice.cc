@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kBands = 16;
 
 bool selectable_at(const RectifiedPair& pair, int x, int y) {
-  const std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+  const std::size_t k =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
   return pair.left.valid[k] != 0 && (pair.region.empty() || pair.region[k] != 0);
 }
 
@@ -41,7 +42,10 @@ Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* mem
   for (int y = 0; y < pair.height_px; ++y) {
     std::int32_t in_row = 0;
     for (int x = 0; x < pair.width_px; ++x) {
-      in_row += pair.left.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)] != 0 ? 1 : 0;
+      in_row += pair.left.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+                                static_cast<std::size_t>(x)] != 0
+                    ? 1
+                    : 0;
       valid_above_.row(y + 1)[x + 1] = valid_above_.row(y)[x + 1] + in_row;
       count_ += selectable_at(pair, x, y) ? 1 : 0;
     }
@@ -60,8 +64,10 @@ bool Selectable::operator()(int x, int y, int margin) const {
 }
 
 Result<void> check_pixels_of_left(const RectifiedPair& pair) {
-  const std::size_t pixels = static_cast<std::size_t>(std::max(0, pair.width_px)) * static_cast<std::size_t>(std::max(0, pair.height_px));
-  if (pixels == 0 || pair.left.grey.size() != pixels || pair.left.valid.size() != pixels || !(pair.region.empty() || pair.region.size() == pixels))
+  const std::size_t pixels = static_cast<std::size_t>(std::max(0, pair.width_px)) *
+                             static_cast<std::size_t>(std::max(0, pair.height_px));
+  if (pixels == 0 || pair.left.grey.size() != pixels || pair.left.valid.size() != pixels ||
+      !(pair.region.empty() || pair.region.size() == pixels))
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   return {};
 }
@@ -71,7 +77,8 @@ Result<void> check_selectable(const Selectable& selectable) {
   return {};
 }
 
-Candidates peaks_of(const Plane<float>& response, float least, int radius, StageContext& context, std::pmr::memory_resource* memory) {
+Candidates peaks_of(const Plane<float>& response, float least, int radius, StageContext& context,
+                    std::pmr::memory_resource* memory) {
   std::array<std::size_t, kBands> found{};
   const auto each_peak = [&](int begin, int end, auto&& take) {
     for (int y = begin; y < end; ++y)
@@ -99,7 +106,8 @@ float greatest(const Plane<float>& response) {
   return response.values.empty() ? 0.0F : *std::max_element(response.values.begin(), response.values.end());
 }
 
-void choose_spread(Candidates& candidates, double min_distance, int max_points, Plane<float>& chosen, Arena& scratch) {
+void choose_spread(Candidates& candidates, double min_distance, int max_points, Plane<float>& chosen,
+                   Arena& scratch) {
   Arena::Mark mark(scratch);
   std::sort(candidates.begin(), candidates.end(), stronger);
   // Two points of one cell would be nearer than the distance: a cell holds one.
@@ -129,9 +137,12 @@ void choose_spread(Candidates& candidates, double min_distance, int max_points, 
 
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context) {
   Arena::Mark mark(context.scratch);
-  const auto count = static_cast<std::size_t>(std::count_if(chosen.values.begin(), chosen.values.end(), [](float v) { return v > 0; }));
+  const auto count = static_cast<std::size_t>(
+      std::count_if(chosen.values.begin(), chosen.values.end(), [](float v) { return v > 0; }));
   if (count == 0)
-    return Error{Errc::TooFewMatches, "no place of the left view stands out: lower the selector's quality, or is the picture dark or out of focus?"};
+    return Error{
+        Errc::TooFewMatches,
+        "no place of the left view stands out: lower the selector's quality, or is the picture dark or out of focus?"};
   Candidates all(&context.scratch);
   all.reserve(count);
   for (int y = 0; y < chosen.height; ++y)
@@ -141,15 +152,18 @@ Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, Stage
   if (kept < count) {
     std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(), stronger);
     all.resize(kept);
-    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::sort(all.begin(), all.end(),
+              [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   }
   Keypoints keypoints(&context.output);
   keypoints.points.reserve(kept);
-  for (const Candidate& c : all) keypoints.points.push_back({{static_cast<float>(c.x), static_cast<float>(c.y)}, c.strength});
+  for (const Candidate& c : all)
+    keypoints.points.push_back({{static_cast<float>(c.x), static_cast<float>(c.y)}, c.strength});
   return keypoints;
 }
 
-Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area, StageContext& context) {
+Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area,
+                                    StageContext& context) {
   const auto each_node = [&](auto&& take) {
     for (int y = area.top; y <= area.bottom; y += step_px)
       for (int x = area.left; x <= area.right; x += step_px)
@@ -161,7 +175,9 @@ Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, cons
   Keypoints keypoints(&context.output);
   keypoints.lattice_step_px = step_px;
   keypoints.points.reserve(count);
-  each_node([&](int x, int y) { keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1}); });
+  each_node([&](int x, int y) {
+    keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
+  });
   return keypoints;
 }
 

@@ -46,12 +46,14 @@ using Candidates = std::pmr::vector<Candidate>;
 
 // Pixels above `least` that no neighbour within `radius_px` (a square) exceeds; of equal ones the first. In
 // rows from the top. `response` is 0 where nothing may be selected.
-Candidates peaks_of(const Plane<float>& response, float least, int radius_px, StageContext& context, std::pmr::memory_resource* memory);
+Candidates peaks_of(const Plane<float>& response, float least, int radius_px, StageContext& context,
+                    std::pmr::memory_resource* memory);
 float greatest(const Plane<float>& response);
 
 // The strongest first, each at least min_distance_px from all before it, until there are max_points;
 // equal ones from the top left. Reorders the candidates. Marks what it takes in `chosen`.
-void choose_spread(Candidates& candidates, double min_distance_px, int max_points, Plane<float>& chosen, Arena& scratch);
+void choose_spread(Candidates& candidates, double min_distance_px, int max_points, Plane<float>& chosen,
+                   Arena& scratch);
 
 // What is marked (strength > 0), in rows from the top, at most the max_points strongest.
 // Error: TooFewMatches where nothing is.
@@ -63,6 +65,7 @@ struct LatticeArea {
 };
 
 // Every step_px pixels in both directions, from the area's upper left corner on. Error: NoFace.
-Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area, StageContext& context);
+Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area,
+                                    StageContext& context);
 
 }  // namespace relievo::pipeline

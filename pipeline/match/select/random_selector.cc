@@ -11,7 +11,8 @@ namespace relievo::pipeline {
 
 Result<void> RandomSelectorOptions::check() const {
   if (max_points < 1 || max_points > 1'000'000 || seed < 0)
-    return Error{Errc::InvalidInput, "random: max_points must lie in 1 .. 1000000 and seed must not be negative"};
+    return Error{Errc::InvalidInput,
+                 "random: max_points must lie in 1 .. 1000000 and seed must not be negative"};
   return {};
 }
 

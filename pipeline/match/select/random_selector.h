@@ -20,7 +20,8 @@ struct RandomSelectorOptions {
 
 template <typename Field>
 void describe(RandomSelectorOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "how many keypoints; all pixels where the region has no more");
+  field("max_points", o.max_points, OptionRange{1, 1'000'000},
+        "how many keypoints; all pixels where the region has no more");
   field("seed", o.seed, OptionRange{0, 2'000'000'000}, "another seed draws other pixels");
 }
 

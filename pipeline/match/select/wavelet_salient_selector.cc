@@ -13,7 +13,8 @@ namespace {
 constexpr int kBands = 16;
 
 // Bands of whole blocks of the coarsest scale: no track leaves its band.
-void mark_ends(const SalientTracks& tracks, const Selectable& selectable, ThreadPool& pool, Plane<float>& saliency) {
+void mark_ends(const SalientTracks& tracks, const Selectable& selectable, ThreadPool& pool,
+               Plane<float>& saliency) {
   const int block = 1 << tracks.scales();
   pool.for_each_band((saliency.height + block - 1) / block, kBands, [&](int begin, int end, int) {
     for (int scale = 1; scale <= tracks.scales(); ++scale) {
@@ -40,7 +41,8 @@ Result<void> WaveletSalientSelectorOptions::check() const {
   if (scales < 1 || scales > 8 || !(quality > 0 && quality <= 1))
     return Error{Errc::InvalidInput, "wavelet-salient: scales must lie in 1 .. 8 and quality above 0 to 1"};
   if (min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "wavelet-salient: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
+    return Error{Errc::InvalidInput,
+                 "wavelet-salient: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
   return {};
 }
 
@@ -51,7 +53,8 @@ Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, Stag
   if (context.stop()) return stopped;
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));
-  const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, options_.scales, &context.scratch);
+  const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, options_.scales,
+                             &context.scratch);
   Plane<float> saliency(&context.scratch, pair.width_px, pair.height_px);
   mark_ends(tracks, selectable, context.pool, saliency);
   if (context.stop()) return stopped;

@@ -27,7 +27,8 @@ struct WaveletSalientSelectorOptions {
 
 template <typename Field>
 void describe(WaveletSalientSelectorOptions& o, Field&& field) {
-  field("scales", o.scales, OptionRange{1, 8}, "how many dyadic scales tracks may begin at: 2 to 2^scales pixels");
+  field("scales", o.scales, OptionRange{1, 8},
+        "how many dyadic scales tracks may begin at: 2 to 2^scales pixels");
   field("quality", o.quality, OptionRange{1e-6, 1}, "least saliency, share of the greatest");
   field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "points keep this distance, pixels");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the most salient are kept");

@@ -20,7 +20,8 @@ void differ(const Plane<float>& from, int hole, ThreadPool& pool, Plane<Vec2f>& 
       const float* below = from.row(std::min(h - 1, y + hole));
       Vec2f* out = to.row(y);
       for (int x = 0; x < w; ++x)
-        out[x] = {0.5F * (row[std::min(w - 1, x + hole)] - row[std::max(0, x - hole)]), 0.5F * (below[x] - above[x])};
+        out[x] = {0.5F * (row[std::min(w - 1, x + hole)] - row[std::max(0, x - hole)]),
+                  0.5F * (below[x] - above[x])};
     }
   });
 }
@@ -54,8 +55,8 @@ void smooth(const Plane<float>& from, int hole, ThreadPool& pool, Plane<float>& 
 
 }  // namespace
 
-std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& grey, int width, int height, int scales,
-                                                StageContext& context) {
+std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& grey, int width, int height,
+                                                int scales, StageContext& context) {
   std::pmr::vector<Plane<Vec2f>> all(&context.scratch);
   all.reserve(static_cast<std::size_t>(scales));
   for (int j = 0; j < scales; ++j) all.emplace_back(&context.scratch, width, height);

@@ -16,7 +16,7 @@ constexpr int kBands = 32;
 constexpr int kMostSamples = 21 * 21;
 constexpr int kMostCandidates = 8;
 constexpr int kMostScales = 6;
-constexpr int kStacked = 2;           // scales that make the last comparison
+constexpr int kStacked = 2;  // scales that make the last comparison
 
 using Scales = std::pmr::vector<Plane<Vec2f>>;
 
@@ -60,7 +60,8 @@ class Place {
     const Plane<Vec2f>& from = right_[s];
     const int reach = radius_ << s;
     const int x = x_ - disparity;
-    const bool plain = tx_ == 0 && ty_ == 0 && x >= reach && x + reach < from.width && y_ >= reach && y_ + reach < from.height;
+    const bool plain = tx_ == 0 && ty_ == 0 && x >= reach && x + reach < from.width && y_ >= reach &&
+                       y_ + reach < from.height;
     for (int j = -radius_; j <= radius_; ++j) {
       float together = 0;
       float right = 0;
@@ -98,7 +99,8 @@ class Place {
       const float top = a + tx_ * (b - a);
       return top + ty_ * (c + tx_ * (d - c) - top);
     };
-    return {mix(upper[x0].x, upper[x1].x, lower[x0].x, lower[x1].x), mix(upper[x0].y, upper[x1].y, lower[x0].y, lower[x1].y)};
+    return {mix(upper[x0].x, upper[x1].x, lower[x0].x, lower[x1].x),
+            mix(upper[x0].y, upper[x1].y, lower[x0].y, lower[x1].y)};
   }
 
   const Scales& left_;
@@ -188,7 +190,8 @@ Fitted fit(const Place& place, const DisparityRange& range, int d, double sample
   return fitted;
 }
 
-Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcherOptions& options, double bias) {
+Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcherOptions& options,
+                   double bias) {
   const auto coarsest = static_cast<std::size_t>(options.scales - 1);
   Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
   const Candidate* winner = nullptr;
@@ -205,22 +208,28 @@ Fitted match_place(const Place& place, const DisparityRange& range, const Wavele
 }  // namespace
 
 Result<void> WaveletMatcherOptions::check() const {
-  if (scales < 2 || scales > kMostScales || radius < 1 || radius > 10 || candidates < 1 || candidates > kMostCandidates)
-    return Error{Errc::InvalidInput, "scales must lie in 2 .. 6, radius in 1 .. 10, candidates in 1 .. 8"}.at("wavelet");
+  if (scales < 2 || scales > kMostScales || radius < 1 || radius > 10 || candidates < 1 ||
+      candidates > kMostCandidates)
+    return Error{Errc::InvalidInput, "scales must lie in 2 .. 6, radius in 1 .. 10, candidates in 1 .. 8"}.at(
+        "wavelet");
   if (!(min_score >= 0 && min_score <= 1) || !(sigma_limit_px > 0))
-    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at("wavelet");
+    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at(
+        "wavelet");
   return {};
 }
 
-Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                       StageContext& context) const {
   const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
-  const Scales left = transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, options_.scales, context);
-  const Scales right = transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, options_.scales, context);
+  const Scales left =
+      transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, options_.scales, context);
+  const Scales right =
+      transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, options_.scales, context);
   // The finest samples and their filters lie inside both pictures; coarser ones may reach over the edge.
   const int reach = options_.radius + 1;
   const Plane<std::uint8_t> whole_left = whole_windows(pair, pair.left, reach, context);
@@ -241,7 +250,8 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
       if (!inside(whole_left, at.x, at.y)) continue;
       place.look_at(at);
       const Fitted fitted = match_place(place, range, options_, bias);
-      if (fitted.sigma_px > 0 && fitted.sigma_px <= options_.sigma_limit_px && inside(whole_right, at.x - fitted.disparity_px, at.y))
+      if (fitted.sigma_px > 0 && fitted.sigma_px <= options_.sigma_limit_px &&
+          inside(whole_right, at.x - fitted.disparity_px, at.y))
         found[static_cast<std::size_t>(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
     }
   });
@@ -249,7 +259,9 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
   for (const Match& match : found)
     if (match.sigma_px > 0) set.matches.push_back(match);
   if (set.matches.empty())
-    return Error{Errc::TooFewMatches, "no place of the left view is found again in the right one: is the face in both, in focus and lit?"};
+    return Error{
+        Errc::TooFewMatches,
+        "no place of the left view is found again in the right one: is the face in both, in focus and lit?"};
   return set;
 }
 

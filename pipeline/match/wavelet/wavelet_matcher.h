@@ -3,19 +3,21 @@
 //
 // WaveletMatcher ("wavelet"): coarse-to-fine comparison of dyadic wavelet coefficients, after Bhatti and
 // Nahavandi ("Stereo correspondence estimation using multiwavelets scale-space representation", 2008; Bhatti,
-// "Wavelets and multiwavelets" in Advances in Theory and Applications of Stereo Vision, 2011), with one scalar
-// wavelet, the translation-invariant gradient wavelet of dyadic_wavelet.h, in this form:
+// "Wavelets and multiwavelets" in Advances in Theory and Applications of Stereo Vision, 2011), with one
+// scalar wavelet, the translation-invariant gradient wavelet of dyadic_wavelet.h, in this form:
 //
-// 1. At scale 2^j a place is described by the coefficients (W^x, W^y) of (2 r + 1)^2 samples 2^(j-1) apart. Two
-//    places are compared by the normalised correlation  rho_j = sum W_L . W_R / root(sum |W_L|^2 sum |W_R|^2).
+// 1. At scale 2^j a place is described by the coefficients (W^x, W^y) of (2 r + 1)^2 samples 2^(j-1) apart.
+// Two
+//    places are compared by the normalised correlation  rho_j = sum W_L . W_R / root(sum |W_L|^2 sum
+//    |W_R|^2).
 // 2. At the coarsest scale 2^J every 2^(J-2)-th disparity of the volume is tried; the `candidates` best local
 //    maxima go on. At every finer scale each looks two steps of 2^(j-2) (at least one pixel) to both sides.
 // 3. The candidate whose correlations over all scales have the greatest sum wins (Bhatti's confidence).
 // 4. A parabola between pixels, through the correlation of the two finest scales stacked.
 //
-// Blind to offset and gain. cost is one minus the stacked correlation; sigma_px as in window_matching.h with the
-// samples of one scale as count. Keypoints between pixels: bilinear coefficients in both views.
-// Errors: as Matcher.
+// Blind to offset and gain. cost is one minus the stacked correlation; sigma_px as in window_matching.h with
+// the samples of one scale as count. Keypoints between pixels: bilinear coefficients in both views. Errors:
+// as Matcher.
 #pragma once
 
 #include "pipeline/match/matcher.h"
@@ -25,10 +27,10 @@ namespace relievo::pipeline {
 
 struct WaveletMatcherOptions {
   int scales = 4;
-  int radius = 4;             // samples to each side
-  int candidates = 4;         // that are followed from the coarsest scale
-  float min_score = 0.3F;     // mean correlation over the scales
-  float sigma_limit_px = 1;   // a place less certain than this has no match
+  int radius = 4;            // samples to each side
+  int candidates = 4;        // that are followed from the coarsest scale
+  float min_score = 0.3F;    // mean correlation over the scales
+  float sigma_limit_px = 1;  // a place less certain than this has no match
   Result<void> check() const;
 };
 
@@ -36,16 +38,20 @@ template <typename Field>
 void describe(WaveletMatcherOptions& o, Field&& field) {
   field("scales", o.scales, OptionRange{2, 6}, "dyadic scales: the coarsest is 2 to this power, pixels");
   field("radius", o.radius, OptionRange{1, 10}, "samples to each side of a place, half a scale apart");
-  field("candidates", o.candidates, OptionRange{1, 8}, "disparities followed from the coarsest scale to the finest");
-  field("min_score", o.min_score, OptionRange{0, 1}, "mean correlation over the scales below which there is no match");
-  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10}, "a place less certain than this has no match");
+  field("candidates", o.candidates, OptionRange{1, 8},
+        "disparities followed from the coarsest scale to the finest");
+  field("min_score", o.min_score, OptionRange{0, 1},
+        "mean correlation over the scales below which there is no match");
+  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},
+        "a place less certain than this has no match");
 }
 
 class WaveletMatcher final : public Matcher {
  public:
   explicit WaveletMatcher(const WaveletMatcherOptions& options) : options_(options) {}
   std::string_view name() const override { return "wavelet"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const override;
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
+                         StageContext& context) const override;
 
  private:
   WaveletMatcherOptions options_;

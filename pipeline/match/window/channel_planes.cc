@@ -16,17 +16,22 @@ void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool
     const std::size_t first = static_cast<std::size_t>(begin) * static_cast<std::size_t>(to.width);
     const std::size_t last = static_cast<std::size_t>(end) * static_cast<std::size_t>(to.width);
     for (std::size_t k = first; k < last; ++k)
-      to.values[k] = (channels == 1 ? view.grey[k] : static_cast<float>(view.rgb[3 * k + static_cast<std::size_t>(channel)])) - kMiddleGrey;
+      to.values[k] =
+          (channels == 1 ? view.grey[k]
+                         : static_cast<float>(view.rgb[3 * k + static_cast<std::size_t>(channel)])) -
+          kMiddleGrey;
   });
 }
 
 }  // namespace
 
 DisparityRange disparity_range(const RectifiedPair& pair) {
-  return {static_cast<int>(std::floor(pair.disparity_px(pair.far_mm))) - 1, static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
+  return {static_cast<int>(std::floor(pair.disparity_px(pair.far_mm))) - 1,
+          static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
 }
 
-Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius, StageContext& context) {
+Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius,
+                                  StageContext& context) {
   const int w = pair.width_px;
   const int h = pair.height_px;
   Plane<std::uint8_t> whole(&context.scratch, w, h);
@@ -35,7 +40,10 @@ Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x)
       run.values[static_cast<std::size_t>(x)] =
-          view.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)] != 0 ? run.values[static_cast<std::size_t>(x)] + 1 : 0;
+          view.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                     static_cast<std::size_t>(x)] != 0
+              ? run.values[static_cast<std::size_t>(x)] + 1
+              : 0;
     const int centre = y - radius;
     if (centre < radius) continue;
     int across = 0;
@@ -47,7 +55,8 @@ Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView
   return whole;
 }
 
-ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int radius, StageContext& context) {
+ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int radius,
+                                  StageContext& context) {
   ChannelPlanes planes(&context.scratch, pair.width_px, pair.height_px);
   planes.radius = radius;
   planes.left.reserve(static_cast<std::size_t>(channels));

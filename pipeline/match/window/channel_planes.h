@@ -17,9 +17,9 @@ namespace relievo::pipeline {
 struct ChannelPlanes {
   ChannelPlanes(std::pmr::memory_resource* memory, int width, int height)
       : left(memory), right(memory), whole_left(memory, width, height), whole_right(memory, width, height) {}
-  std::pmr::vector<Plane<float>> left;   // 1 or 3; grey levels minus 128
+  std::pmr::vector<Plane<float>> left;  // 1 or 3; grey levels minus 128
   std::pmr::vector<Plane<float>> right;
-  Plane<std::uint8_t> whole_left;        // 1 where every pixel of the window about this one is valid
+  Plane<std::uint8_t> whole_left;  // 1 where every pixel of the window about this one is valid
   Plane<std::uint8_t> whole_right;
   int radius = 0;
 };
@@ -33,7 +33,8 @@ struct DisparityRange {
 DisparityRange disparity_range(const RectifiedPair& pair);
 
 // 1 where the square of 2 radius + 1 pixels about a pixel lies inside the picture and is valid throughout.
-Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius, StageContext& context);
+Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius,
+                                  StageContext& context);
 
 // `channels` is 1 (grey) or 3 (colours). On context.scratch.
 ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int radius, StageContext& context);

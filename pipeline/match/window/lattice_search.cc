@@ -12,7 +12,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kRowsPerBand = 16;
-constexpr float kUnfit = 1e30F;       // a window that leaves its picture
+constexpr float kUnfit = 1e30F;  // a window that leaves its picture
 constexpr float kNothingYet = 1e29F;
 
 RELIEVO_SIMD void add_products(const float* l, const float* r, int n, float sign, float* to) {
@@ -27,17 +27,20 @@ RELIEVO_SIMD void add_shifted(const float* __restrict from, int n, float* __rest
 RELIEVO_SIMD void pair_up(const float* __restrict from, int gap, int n, float* __restrict to) {
   for (int x = 0; x < n; ++x) to[x] = from[x] + from[x + gap];
 }
-RELIEVO_SIMD void take_means(const float* __restrict left, const float* __restrict right, int n, float* __restrict sum) {
+RELIEVO_SIMD void take_means(const float* __restrict left, const float* __restrict right, int n,
+                             float* __restrict sum) {
   for (int x = 0; x < n; ++x) sum[x] -= left[x] * right[x];
 }
-RELIEVO_SIMD void keep_least(const float* __restrict sum, const float* __restrict unfit, int n, int d, float* __restrict least, int* __restrict at) {
+RELIEVO_SIMD void keep_least(const float* __restrict sum, const float* __restrict unfit, int n, int d,
+                             float* __restrict least, int* __restrict at) {
   for (int x = 0; x < n; ++x) {
     const float s = sum[x] + unfit[x];
     at[x] = s < least[x] ? d : at[x];
     least[x] = s < least[x] ? s : least[x];
   }
 }
-RELIEVO_SIMD void keep_most_alike(const float* __restrict sum, const float* __restrict inverse, int n, int d, float* __restrict least, int* __restrict at) {
+RELIEVO_SIMD void keep_most_alike(const float* __restrict sum, const float* __restrict inverse, int n, int d,
+                                  float* __restrict least, int* __restrict at) {
   for (int x = 0; x < n; ++x) {
     const float s = -sum[x] * inverse[x];
     at[x] = s < least[x] ? d : at[x];
@@ -63,24 +66,33 @@ void join_across(float* from, float* spare, int side, int n, float* to) {
 
 // What is known of every window of a lattice row before any disparity is tried.
 struct RowFacts {
-  std::pmr::vector<Plane<float>> left_mean;   // times the window's pixels; a channel each
+  std::pmr::vector<Plane<float>> left_mean;  // times the window's pixels; a channel each
   std::pmr::vector<Plane<float>> right_mean;
-  Plane<float> right_scale;                   // 1 / root of the variation; of squared differences kUnfit or 0
+  Plane<float> right_scale;  // 1 / root of the variation; of squared differences kUnfit or 0
 };
 
 class Search {
  public:
-  Search(const ChannelPlanes& planes, WindowScore score, const LatticeRows& rows, StageContext& context, Plane<int>& best)
-      : planes_(planes), score_(score), rows_(rows), side_(2 * planes.radius + 1), width_(best.width),
-        bands_((rows.count + kRowsPerBand - 1) / kRowsPerBand), best_(best), least_(&context.scratch, width_, rows.count, start()),
-        facts_{std::pmr::vector<Plane<float>>(&context.scratch), std::pmr::vector<Plane<float>>(&context.scratch),
+  Search(const ChannelPlanes& planes, WindowScore score, const LatticeRows& rows, StageContext& context,
+         Plane<int>& best)
+      : planes_(planes),
+        score_(score),
+        rows_(rows),
+        side_(2 * planes.radius + 1),
+        width_(best.width),
+        bands_((rows.count + kRowsPerBand - 1) / kRowsPerBand),
+        best_(best),
+        least_(&context.scratch, width_, rows.count, start()),
+        facts_{std::pmr::vector<Plane<float>>(&context.scratch),
+               std::pmr::vector<Plane<float>>(&context.scratch),
                Plane<float>(&context.scratch, width_, rows.count)},
         work_(&context.scratch, 4 * width_, bands_),
         moments_(&context.scratch, 3 * width_, bands_) {
     if (score != WindowScore::ZeroMeanCorrelation) return;
     for (auto* means : {&facts_.left_mean, &facts_.right_mean}) {
       means->reserve(planes.left.size());
-      for (std::size_t c = 0; c < planes.left.size(); ++c) means->emplace_back(&context.scratch, width_, rows.count);
+      for (std::size_t c = 0; c < planes.left.size(); ++c)
+        means->emplace_back(&context.scratch, width_, rows.count);
     }
   }
 
@@ -128,7 +140,8 @@ class Search {
       }
     }
     for (int x = 0; x < width_; ++x)
-      scale[x] = whole[x] != 0 && scale[x] > 1e-3F * static_cast<float>(pixels) ? 1 / std::sqrt(scale[x]) : 0.0F;
+      scale[x] =
+          whole[x] != 0 && scale[x] > 1e-3F * static_cast<float>(pixels) ? 1 / std::sqrt(scale[x]) : 0.0F;
   }
 
   // Of the window's rows about y: left, right and squared right, a column each.
@@ -151,14 +164,15 @@ class Search {
     for (std::size_t c = 0; c < planes_.left.size(); ++c) {
       const float* l = planes_.left[c].row(y) + begin;
       const float* r = planes_.right[c].row(y) + begin - d;
-      (score_ == WindowScore::ZeroMeanCorrelation ? add_products : add_squares)(l, r, end - begin, sign, columns + begin);
+      (score_ == WindowScore::ZeroMeanCorrelation ? add_products : add_squares)(l, r, end - begin, sign,
+                                                                                columns + begin);
     }
   }
 
   void try_disparity(int d, int first_row, int end_row, float* work) {
-    const int begin = std::max(0, d);                 // columns both views have
+    const int begin = std::max(0, d);  // columns both views have
     const int end = std::min(width_, width_ + d);
-    const int n = end - begin - side_ + 1;            // windows that fit
+    const int n = end - begin - side_ + 1;  // windows that fit
     if (n <= 0) return;
     float* columns = work;
     float* sum = work + width_;
@@ -184,7 +198,8 @@ class Search {
       }
       for (std::size_t c = 0; c < planes_.left.size(); ++c)
         take_means(facts_.left_mean[c].row(row) + x, facts_.right_mean[c].row(row) + x - d, n, sum);
-      keep_most_alike(sum, facts_.right_scale.row(row) + x - d, n, d, least_.row(row) + x, best_.row(row) + x);
+      keep_most_alike(sum, facts_.right_scale.row(row) + x - d, n, d, least_.row(row) + x,
+                      best_.row(row) + x);
     }
   }
 
@@ -201,8 +216,8 @@ class Search {
 
 }  // namespace
 
-void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range, const LatticeRows& rows,
-                    StageContext& context, Plane<int>& best) {
+void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range,
+                    const LatticeRows& rows, StageContext& context, Plane<int>& best) {
   std::fill(best.values.begin(), best.values.end(), kNoCandidate);
   Arena::Mark mark(context.scratch);
   Search(planes, score, rows, context, best).run(range, context);

@@ -23,7 +23,7 @@ inline constexpr int kNoCandidate = -1'000'000;
 
 // best.row(j)[x]: the disparity of pixel (x, rows.first_px + j * rows.step_px), kNoCandidate where no
 // window fits (or no correlation is positive). Stopped early where the context says so.
-void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range, const LatticeRows& rows,
-                    StageContext& context, Plane<int>& best);
+void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range,
+                    const LatticeRows& rows, StageContext& context, Plane<int>& best);
 
 }  // namespace relievo::pipeline

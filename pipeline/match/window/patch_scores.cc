@@ -45,10 +45,14 @@ RELIEVO_SIMD double sum_differences(const float* left, const float* right, int s
 
 }  // namespace
 
-PatchScores::PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates, std::pmr::memory_resource* memory)
-    : planes_(planes), score_(score), side_(2 * planes.radius + 1),
+PatchScores::PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates,
+                         std::pmr::memory_resource* memory)
+    : planes_(planes),
+      score_(score),
+      side_(2 * planes.radius + 1),
       left_(planes.left.size() * static_cast<std::size_t>(side_ * side_), 0.0F, memory),
-      strip_(planes.left.size() * static_cast<std::size_t>(side_ * (side_ + most_candidates - 1)), 0.0F, memory) {}
+      strip_(planes.left.size() * static_cast<std::size_t>(side_ * (side_ + most_candidates - 1)), 0.0F,
+             memory) {}
 
 bool PatchScores::whole(const Plane<std::uint8_t>& mask, int x) const {
   const int right = x + (tx_ > 0 ? 1 : 0);
@@ -97,7 +101,8 @@ bool PatchScores::load(Vec2f at, int first, int count) {
     double mean = 0;
     for (std::size_t k = 0; k < cells; ++k) mean += static_cast<double>(patch[k]);
     mean /= static_cast<double>(cells);
-    for (std::size_t k = 0; k < cells; ++k) left_variation_ += (static_cast<double>(patch[k]) - mean) * (static_cast<double>(patch[k]) - mean);
+    for (std::size_t k = 0; k < cells; ++k)
+      left_variation_ += (static_cast<double>(patch[k]) - mean) * (static_cast<double>(patch[k]) - mean);
     if (score_ == WindowScore::ZeroMeanCorrelation)
       for (std::size_t k = 0; k < cells; ++k) patch[k] -= static_cast<float>(mean);
     sample(planes_.right[c], x_ - (first + count - 1) - planes_.radius, strip_width_,
@@ -108,16 +113,19 @@ bool PatchScores::load(Vec2f at, int first, int count) {
 
 PatchScores::RightMoments PatchScores::moments(std::size_t channel, int candidate) const {
   double all[3];
-  sum_moments(left_.data() + channel * static_cast<std::size_t>(side_ * side_), right_window(channel, candidate), side_, strip_width_, all);
+  sum_moments(left_.data() + channel * static_cast<std::size_t>(side_ * side_),
+              right_window(channel, candidate), side_, strip_width_, all);
   return {all[0], all[1], all[2]};
 }
 
 double PatchScores::squared_differences(std::size_t channel, int candidate) const {
-  return sum_differences(left_.data() + channel * static_cast<std::size_t>(side_ * side_), right_window(channel, candidate), side_, strip_width_);
+  return sum_differences(left_.data() + channel * static_cast<std::size_t>(side_ * side_),
+                         right_window(channel, candidate), side_, strip_width_);
 }
 
 PatchScores::Score PatchScores::score(int candidate) const {
-  if (!whole(planes_.whole_right, x_ - (first_ + candidate))) return {std::numeric_limits<double>::infinity(), 1};
+  if (!whole(planes_.whole_right, x_ - (first_ + candidate)))
+    return {std::numeric_limits<double>::infinity(), 1};
   double differences = 0;
   double covariation = 0;
   double right_variation = 0;

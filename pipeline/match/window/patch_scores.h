@@ -23,7 +23,8 @@ enum class WindowScore : std::uint8_t { SquaredDifferences, ZeroMeanCorrelation 
 
 class PatchScores {
  public:
-  PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates, std::pmr::memory_resource* memory);
+  PatchScores(const ChannelPlanes& planes, WindowScore score, int most_candidates,
+              std::pmr::memory_resource* memory);
 
   // Reads the window about `at` and the strip of the right row for disparities first .. first + count - 1.
   // False where the left window leaves its picture.
@@ -36,10 +37,13 @@ class PatchScores {
   Score score(int candidate) const;
 
  private:
-  struct RightMoments { double sum, squares, cross; };
+  struct RightMoments {
+    double sum, squares, cross;
+  };
   RightMoments moments(std::size_t channel, int candidate) const;
   const float* right_window(std::size_t channel, int candidate) const {
-    return strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) + (strip_width_ - side_ - candidate);
+    return strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) +
+           (strip_width_ - side_ - candidate);
   }
   double squared_differences(std::size_t channel, int candidate) const;
   bool whole(const Plane<std::uint8_t>& mask, int x) const;

@@ -13,12 +13,14 @@ Result<void> SsdMatcherOptions::check() const {
   return {};
 }
 
-Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const {
+Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                   StageContext& context) const {
   WindowRule rule;
   rule.score = WindowScore::SquaredDifferences;
   rule.window_px = options_.window_px;
   rule.channels = options_.channels;
-  rule.most_unlike = static_cast<double>(options_.max_difference) * static_cast<double>(options_.max_difference);
+  rule.most_unlike =
+      static_cast<double>(options_.max_difference) * static_cast<double>(options_.max_difference);
   rule.sigma_limit_px = options_.sigma_limit_px;
   return match_windows(pair, keypoints, rule, context);
 }

@@ -10,20 +10,28 @@ namespace {
 
 struct Sampler {
   Sampler(const RectifiedPair& pair, const RectifiedView& view, Vec2f at, int radius)
-      : view_(view), width_(pair.width_px), x_(static_cast<int>(std::floor(at.x))), y_(static_cast<int>(std::floor(at.y))),
-        tx_(static_cast<double>(at.x) - x_), ty_(static_cast<double>(at.y) - y_),
+      : view_(view),
+        width_(pair.width_px),
+        x_(static_cast<int>(std::floor(at.x))),
+        y_(static_cast<int>(std::floor(at.y))),
+        tx_(static_cast<double>(at.x) - x_),
+        ty_(static_cast<double>(at.y) - y_),
         inside_(x_ >= radius && y_ >= radius && x_ + radius + (tx_ > 0 ? 1 : 0) < pair.width_px &&
                 y_ + radius + (ty_ > 0 ? 1 : 0) < pair.height_px) {}
 
   bool inside() const { return inside_; }
   // False where a pixel is not valid.
   bool at(int i, int j, double& value) const {
-    const std::size_t k = static_cast<std::size_t>(y_ + j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x_ + i);
+    const std::size_t k = static_cast<std::size_t>(y_ + j) * static_cast<std::size_t>(width_) +
+                          static_cast<std::size_t>(x_ + i);
     const std::size_t right = k + (tx_ > 0 ? 1 : 0);
     const std::size_t down = ty_ > 0 ? static_cast<std::size_t>(width_) : 0;
-    if ((view_.valid[k] & view_.valid[right] & view_.valid[k + down] & view_.valid[right + down]) == 0) return false;
-    const double top = (1 - tx_) * static_cast<double>(view_.grey[k]) + tx_ * static_cast<double>(view_.grey[right]);
-    const double low = (1 - tx_) * static_cast<double>(view_.grey[k + down]) + tx_ * static_cast<double>(view_.grey[right + down]);
+    if ((view_.valid[k] & view_.valid[right] & view_.valid[k + down] & view_.valid[right + down]) == 0)
+      return false;
+    const double top =
+        (1 - tx_) * static_cast<double>(view_.grey[k]) + tx_ * static_cast<double>(view_.grey[right]);
+    const double low = (1 - tx_) * static_cast<double>(view_.grey[k + down]) +
+                       tx_ * static_cast<double>(view_.grey[right + down]);
     value = (1 - ty_) * top + ty_ * low;
     return true;
   }
@@ -38,8 +46,8 @@ struct Sampler {
 }  // namespace
 
 double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_px, int radius) {
-  if (!std::isfinite(left_px.x + left_px.y + right_px.x + right_px.y) || std::abs(left_px.x) > 1e6F || std::abs(right_px.x) > 1e6F ||
-      std::abs(left_px.y) > 1e6F || std::abs(right_px.y) > 1e6F)
+  if (!std::isfinite(left_px.x + left_px.y + right_px.x + right_px.y) || std::abs(left_px.x) > 1e6F ||
+      std::abs(right_px.x) > 1e6F || std::abs(left_px.y) > 1e6F || std::abs(right_px.y) > 1e6F)
     return 0;
   const Sampler left(pair, pair.left, left_px, radius);
   const Sampler right(pair, pair.right, right_px, radius);
@@ -62,7 +70,8 @@ double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_
 }
 
 float window_cost(const RectifiedPair& pair, Vec2f left_px, float disparity_px, int radius) {
-  return static_cast<float>(std::clamp(1 - window_correlation(pair, left_px, {left_px.x - disparity_px, left_px.y}, radius), 0.0, 1.0));
+  return static_cast<float>(std::clamp(
+      1 - window_correlation(pair, left_px, {left_px.x - disparity_px, left_px.y}, radius), 0.0, 1.0));
 }
 
 }  // namespace relievo::pipeline

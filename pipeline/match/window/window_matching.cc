@@ -13,7 +13,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 32;
-constexpr double kFitBiasPx = 0.03;   // rms of the parabola's pull towards whole pixels, textures of 5 to 20 pixels
+constexpr double kFitBiasPx =
+    0.03;  // rms of the parabola's pull towards whole pixels, textures of 5 to 20 pixels
 constexpr double kFaceBend = 1.0 / 40;  // 1/mm: between a cheek and the tip of a nose
 
 // Rows of the keypoints, where they lie on pixels of a lattice as they say; else none.
@@ -41,11 +42,12 @@ struct Fit {
   double unlike = 0;
 };
 
-Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here, const PatchScores::Score& after,
-                int disparity, double bias, const WindowRule& rule) {
+Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here,
+                const PatchScores::Score& after, int disparity, double bias, const WindowRule& rule) {
   Fit fit;
   const double bend = before.unlike - 2 * here.unlike + after.unlike;
-  if (!std::isfinite(bend) || !(bend > 0) || here.unlike > before.unlike || here.unlike > after.unlike) return fit;
+  if (!std::isfinite(bend) || !(bend > 0) || here.unlike > before.unlike || here.unlike > after.unlike)
+    return fit;
   const double tilt = before.unlike - after.unlike;
   const double steep = std::max(before.unlike, after.unlike) - here.unlike;
   const double offset = rule.equiangular ? tilt / (2 * steep) : tilt / (2 * bend);
@@ -61,10 +63,16 @@ Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here
 
 class WindowMatching {
  public:
-  WindowMatching(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule, StageContext& context)
-      : keypoints_(keypoints), rule_(rule), bias_px_(method_bias_px(pair, rule.window_px)), range_(disparity_range(pair)), rows_(rows_of(keypoints, pair.height_px)),
+  WindowMatching(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
+                 StageContext& context)
+      : keypoints_(keypoints),
+        rule_(rule),
+        bias_px_(method_bias_px(pair, rule.window_px)),
+        range_(disparity_range(pair)),
+        rows_(rows_of(keypoints, pair.height_px)),
         planes_(make_channel_planes(pair, rule.channels, rule.window_px / 2, context)),
-        best_(&context.scratch, pair.width_px, rows_ ? rows_->count : 0), fits_(keypoints.points.size(), Fit{}, &context.scratch),
+        best_(&context.scratch, pair.width_px, rows_ ? rows_->count : 0),
+        fits_(keypoints.points.size(), Fit{}, &context.scratch),
         scores_(&context.scratch) {
     scores_.reserve(kBands);
     for (int band = 0; band < kBands; ++band)
@@ -79,14 +87,17 @@ class WindowMatching {
       for (int k = begin; k < end; ++k) {
         if (k % 64 == 0 && context.stop()) return;
         PatchScores& scores = scores_[static_cast<std::size_t>(band)];
-        fits_[static_cast<std::size_t>(k)] = rows_ ? fit_at_node(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores)
-                                                   : fit_anywhere(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores);
+        fits_[static_cast<std::size_t>(k)] =
+            rows_ ? fit_at_node(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores)
+                  : fit_anywhere(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores);
       }
     });
   }
 
   void hand_on(MatchSet& set) const {
-    const double scale = rule_.score == WindowScore::SquaredDifferences ? rule_.window_px * rule_.window_px * rule_.channels : 1;
+    const double scale = rule_.score == WindowScore::SquaredDifferences
+                             ? rule_.window_px * rule_.window_px * rule_.channels
+                             : 1;
     for (std::size_t k = 0; k < fits_.size(); ++k) {
       const Fit& fit = fits_[k];
       if (fit.sigma_px > 0 && fit.sigma_px <= rule_.sigma_limit_px && fit.unlike <= rule_.most_unlike * scale)
@@ -113,7 +124,8 @@ class WindowMatching {
         best = k;
       }
     if (best == 0 || best == range_.count() - 1) return {};
-    return fit_minimum(scores.score(best - 1), least, scores.score(best + 1), range_.first + best, bias_px_, rule_);
+    return fit_minimum(scores.score(best - 1), least, scores.score(best + 1), range_.first + best, bias_px_,
+                       rule_);
   }
 
   const Keypoints& keypoints_;
@@ -132,14 +144,16 @@ class WindowMatching {
 // What a window takes off a surface bent both ways: (w^2 - 1) / 24 times its second derivatives, each of
 // which is bend * baseline / focal length.
 double method_bias_px(const RectifiedPair& pair, int window_px) {
-  const double flattened = (window_px * window_px - 1) / 24.0 * 2 * kFaceBend * pair.baseline_mm / pair.focal_px;
+  const double flattened =
+      (window_px * window_px - 1) / 24.0 * 2 * kFaceBend * pair.baseline_mm / pair.focal_px;
   return std::hypot(kFitBiasPx, flattened);
 }
 
 Result<void> check_window(int window_px, int channels) {
   if (window_px < 3 || window_px > 63 || window_px % 2 == 0)
     return Error{Errc::InvalidInput, "window_px must be odd, 3 to 63"};
-  if (channels != 1 && channels != 3) return Error{Errc::InvalidInput, "channels must be 1 (grey) or 3 (colours)"};
+  if (channels != 1 && channels != 3)
+    return Error{Errc::InvalidInput, "channels must be 1 (grey) or 3 (colours)"};
   return {};
 }
 
@@ -156,7 +170,9 @@ Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypo
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching windows"};
   matching.hand_on(set);
   if (set.matches.empty())
-    return Error{Errc::TooFewMatches, "no window of the left view is found again in the right one: is the face in both, in focus and lit?"};
+    return Error{
+        Errc::TooFewMatches,
+        "no window of the left view is found again in the right one: is the face in both, in focus and lit?"};
   return set;
 }
 

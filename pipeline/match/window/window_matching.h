@@ -8,10 +8,10 @@
 //   sigma^2 = 2 S / (n S'') + bias^2
 // (S / n estimates twice the noise variance, S'' twice the summed squared gradients; of 1 - rho the same
 // holds in units of the windows' own variation). Whatever else keeps the windows apart, slant, highlights,
-// a wrong match next to a right one, raises S and sigma with it. `bias` is the method's own: a parabola through
-// whole pixels draws towards them, and a window flattens what it lies on (taken for a face: 40 mm of radius;
-// a nose is bent more, a forehead less). A wrong peak elsewhere is not in sigma: the constraints are for that.
-// Three channels are counted as one sample a pixel, because demosaicking joins their noise.
+// a wrong match next to a right one, raises S and sigma with it. `bias` is the method's own: a parabola
+// through whole pixels draws towards them, and a window flattens what it lies on (taken for a face: 40 mm of
+// radius; a nose is bent more, a forehead less). A wrong peak elsewhere is not in sigma: the constraints are
+// for that. Three channels are counted as one sample a pixel, because demosaicking joins their noise.
 #pragma once
 
 #include "pipeline/match/matcher.h"
@@ -23,8 +23,8 @@ struct WindowRule {
   WindowScore score = WindowScore::ZeroMeanCorrelation;
   int window_px = 15;
   int channels = 1;
-  bool equiangular = false;   // the fit between pixels: two lines of equal slope, not a parabola
-  double most_unlike = 1;     // S a pixel and channel (squared differences), or S
+  bool equiangular = false;  // the fit between pixels: two lines of equal slope, not a parabola
+  double most_unlike = 1;    // S a pixel and channel (squared differences), or S
   float sigma_limit_px = 1;
 };
 

@@ -13,7 +13,8 @@ namespace relievo::pipeline {
 namespace {
 
 // A cell's corners: bit 0 x, bit 1 y, bit 2 z. Its faces, counter-clockwise seen from outside.
-constexpr std::array<std::array<int, 4>, 6> kFaces{{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+constexpr std::array<std::array<int, 4>, 6> kFaces{
+    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
 // Where the surface crosses an edge: the lower voxel and the direction, in one number.
 using Crossing = std::uint64_t;
@@ -21,13 +22,15 @@ constexpr Crossing kCentre = Crossing{1} << 63;  // and above: a vertex of our o
 
 struct Cell {
   std::array<float, 8> value{};
-  std::size_t voxel = 0;   // of corner 0
+  std::size_t voxel = 0;  // of corner 0
 };
 
 class Walker {
  public:
-  Walker(const BandVolume& volume, std::pmr::memory_resource* memory) : volume_(volume), crossings_(memory), corners_(memory), centres_(memory), result_(memory) {
-    strides_ = {1, static_cast<std::size_t>(volume.nx), static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny)};
+  Walker(const BandVolume& volume, std::pmr::memory_resource* memory)
+      : volume_(volume), crossings_(memory), corners_(memory), centres_(memory), result_(memory) {
+    strides_ = {1, static_cast<std::size_t>(volume.nx),
+                static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny)};
   }
 
   Polygonised walk() {
@@ -41,7 +44,9 @@ class Walker {
     corners_.reserve(3 * sides);
     centres_.reserve(centres);
     for_each_cell([&](const Cell& cell) {
-      follow(cell, [&](std::span<const Crossing> loop, bool ambiguous) { ambiguous && loop.size() > 3 ? cut_to_centre(loop) : cut(loop); });
+      follow(cell, [&](std::span<const Crossing> loop, bool ambiguous) {
+        ambiguous&& loop.size() > 3 ? cut_to_centre(loop) : cut(loop);
+      });
     });
     crossings_ = corners_;
     std::sort(crossings_.begin(), crossings_.end());
@@ -49,7 +54,8 @@ class Walker {
     result_.vertices_mm.reserve(crossings_.size());
     for (const Crossing c : crossings_) result_.vertices_mm.push_back(place(c));
     result_.triangles.reserve(corners_.size() / 3);
-    for (std::size_t i = 0; i < corners_.size(); i += 3) result_.triangles.push_back({number(corners_[i]), number(corners_[i + 1]), number(corners_[i + 2])});
+    for (std::size_t i = 0; i < corners_.size(); i += 3)
+      result_.triangles.push_back({number(corners_[i]), number(corners_[i + 1]), number(corners_[i + 2])});
     return std::move(result_);
   }
 
@@ -65,7 +71,8 @@ class Walker {
           int outside = 0;
           bool known = true;
           for (std::size_t k = 0; known && k < 8; ++k) {
-            cell.value[k] = volume_.value[cell.voxel + (k & 1) * strides_[0] + (k >> 1 & 1) * strides_[1] + (k >> 2) * strides_[2]];
+            cell.value[k] = volume_.value[cell.voxel + (k & 1) * strides_[0] + (k >> 1 & 1) * strides_[1] +
+                                          (k >> 2) * strides_[2]];
             known = !std::isnan(cell.value[k]);
             outside += cell.value[k] >= 0;
           }
@@ -86,7 +93,9 @@ class Walker {
   Crossing crossing(const Cell& cell, std::size_t edge) const {
     const std::size_t way = edge / 4, others = edge % 4;
     const std::size_t low = way == 0 ? others << 1 : way == 1 ? (others & 1) | (others & 2) << 1 : others;
-    return 4 * (cell.voxel + (low & 1) * strides_[0] + (low >> 1 & 1) * strides_[1] + (low >> 2) * strides_[2]) + way;
+    return 4 * (cell.voxel + (low & 1) * strides_[0] + (low >> 1 & 1) * strides_[1] +
+                (low >> 2) * strides_[2]) +
+           way;
   }
 
   // Each face joins its crossings in pairs, from where one enters the outside to where one leaves it, going
@@ -125,11 +134,15 @@ class Walker {
     const auto edge_of = [&](std::size_t i) { return edge(face[i], face[(i + 1) % 4]); };
     if (crossings == 2) next[edge_of(entering[0])] = edge_of(leaving[0]);
     if (crossings != 4) return false;
-    const auto v = [&](std::size_t i) { return static_cast<double>(cell.value[static_cast<std::size_t>(face[i])]); };
-    const bool outside_joined = (v(0) * v(2) - v(1) * v(3)) * (v(0) + v(2) - v(1) - v(3)) >= 0;  // the saddle's sign
+    const auto v = [&](std::size_t i) {
+      return static_cast<double>(cell.value[static_cast<std::size_t>(face[i])]);
+    };
+    const bool outside_joined =
+        (v(0) * v(2) - v(1) * v(3)) * (v(0) + v(2) - v(1) - v(3)) >= 0;  // the saddle's sign
     for (std::size_t k = 0; k < 2; ++k) {
       const std::size_t e = entering[k];
-      // Around the outside's corner just entered, or, where the outside goes across, around the corner just left.
+      // Around the outside's corner just entered, or, where the outside goes across, around the corner just
+      // left.
       next[edge_of(e)] = edge_of(outside_joined ? (e + 3) % 4 : (e + 1) % 4);
     }
     return true;
@@ -166,17 +179,21 @@ class Walker {
   Vec3f place(Crossing c) const {
     if (c >= kCentre) return centres_[c - kCentre];
     const std::size_t voxel = c / 4, way = c % 4;
-    const double a = static_cast<double>(volume_.value[voxel]), b = static_cast<double>(volume_.value[voxel + strides_[way]]);
+    const double a = static_cast<double>(volume_.value[voxel]),
+                 b = static_cast<double>(volume_.value[voxel + strides_[way]]);
     // Never on a voxel itself: there other edges' crossings lie, and triangles without area arise.
     const float share = static_cast<float>(std::clamp(a / (a - b), 0.02, 0.98));
-    const int x = static_cast<int>(voxel % strides_[1]), y = static_cast<int>(voxel % strides_[2] / strides_[1]), z = static_cast<int>(voxel / strides_[2]);
+    const int x = static_cast<int>(voxel % strides_[1]),
+              y = static_cast<int>(voxel % strides_[2] / strides_[1]),
+              z = static_cast<int>(voxel / strides_[2]);
     Vec3f p = volume_.at(x, y, z);
     (way == 0 ? p.x : way == 1 ? p.y : p.z) += share * volume_.voxel_mm;
     return p;
   }
 
   std::uint32_t number(Crossing c) const {
-    return static_cast<std::uint32_t>(std::lower_bound(crossings_.begin(), crossings_.end(), c) - crossings_.begin());
+    return static_cast<std::uint32_t>(std::lower_bound(crossings_.begin(), crossings_.end(), c) -
+                                      crossings_.begin());
   }
 
   const BandVolume& volume_;
@@ -188,7 +205,8 @@ class Walker {
 
 }  // namespace
 
-BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int margin, std::pmr::memory_resource* memory) {
+BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int margin,
+                         std::pmr::memory_resource* memory) {
   BandVolume volume(memory);
   Vec3f low{1e9F, 1e9F, 1e9F}, high{-1e9F, -1e9F, -1e9F};
   for (const Vec3f& p : points) {
@@ -198,14 +216,20 @@ BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int marg
   const float more = voxel_mm * static_cast<float>(margin);
   volume.voxel_mm = voxel_mm;
   volume.corner_mm = {low.x - more, low.y - more, low.z - more};
-  const auto count = [&](float from, float to) { return static_cast<int>((to - from + 2 * more) / voxel_mm) + 2; };
+  const auto count = [&](float from, float to) {
+    return static_cast<int>((to - from + 2 * more) / voxel_mm) + 2;
+  };
   volume.nx = count(low.x, high.x);
   volume.ny = count(low.y, high.y);
   volume.nz = count(low.z, high.z);
-  volume.value.assign(static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny) * static_cast<std::size_t>(volume.nz), std::numeric_limits<float>::quiet_NaN());
+  volume.value.assign(static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny) *
+                          static_cast<std::size_t>(volume.nz),
+                      std::numeric_limits<float>::quiet_NaN());
   return volume;
 }
 
-Polygonised polygonise(const BandVolume& volume, std::pmr::memory_resource* memory) { return Walker(volume, memory).walk(); }
+Polygonised polygonise(const BandVolume& volume, std::pmr::memory_resource* memory) {
+  return Walker(volume, memory).walk();
+}
 
 }  // namespace relievo::pipeline

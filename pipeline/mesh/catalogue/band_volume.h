@@ -5,9 +5,9 @@
 // marching cubes walks over, whoever makes the values. Positive outside. Millimetres.
 //
 // polygonise(): the surface where the values pass through zero (marching cubes; Lorensen, Cline 1987), with
-// its ambiguous faces decided by the asymptotic decider (Nielson, Hamann 1991): the crossings of each face are
-// joined by the sign of its bilinear saddle, the same for both cells that share it, and followed around the
-// cell to closed loops. So there is no table, and no crack: every edge within the band has two triangles.
+// its ambiguous faces decided by the asymptotic decider (Nielson, Hamann 1991): the crossings of each face
+// are joined by the sign of its bilinear saddle, the same for both cells that share it, and followed around
+// the cell to closed loops. So there is no table, and no crack: every edge within the band has two triangles.
 #pragma once
 
 #include <cstddef>
@@ -24,30 +24,36 @@ struct BandVolume {
   explicit BandVolume(std::pmr::memory_resource* memory) : value(memory) {}
   int nx = 0, ny = 0, nz = 0;
   float voxel_mm = 1;
-  Vec3f corner_mm;                  // of voxel (0, 0, 0)
-  std::pmr::vector<float> value;    // x fastest; NaN outside the band
+  Vec3f corner_mm;                // of voxel (0, 0, 0)
+  std::pmr::vector<float> value;  // x fastest; NaN outside the band
 
   std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(nx) +
+           static_cast<std::size_t>(x);
   }
   Vec3f at(int x, int y, int z) const {
-    return {corner_mm.x + voxel_mm * static_cast<float>(x), corner_mm.y + voxel_mm * static_cast<float>(y), corner_mm.z + voxel_mm * static_cast<float>(z)};
+    return {corner_mm.x + voxel_mm * static_cast<float>(x), corner_mm.y + voxel_mm * static_cast<float>(y),
+            corner_mm.z + voxel_mm * static_cast<float>(z)};
   }
 };
 
 // A box around the points, `margin` voxels wider each way, all values NaN. Throws std::bad_alloc.
-BandVolume volume_around(std::span<const Vec3f> points_mm, float voxel_mm, int margin, std::pmr::memory_resource* memory);
+BandVolume volume_around(std::span<const Vec3f> points_mm, float voxel_mm, int margin,
+                         std::pmr::memory_resource* memory);
 
 // Calls visit(x, y, z) for all voxels within `radius_mm` of a point, once for each such point.
 template <typename Visit>
 void for_each_voxel_near(const BandVolume& volume, const Vec3f& p, float radius_mm, Visit&& visit) {
   const auto cell = [&](float at, float from) { return (at - from) / volume.voxel_mm; };
-  const float x = cell(p.x, volume.corner_mm.x), y = cell(p.y, volume.corner_mm.y), z = cell(p.z, volume.corner_mm.z);
+  const float x = cell(p.x, volume.corner_mm.x), y = cell(p.y, volume.corner_mm.y),
+              z = cell(p.z, volume.corner_mm.z);
   const float r = radius_mm / volume.voxel_mm;
   for (int k = static_cast<int>(z - r) + 1; static_cast<float>(k) <= z + r; ++k)
     for (int j = static_cast<int>(y - r) + 1; static_cast<float>(j) <= y + r; ++j)
       for (int i = static_cast<int>(x - r) + 1; static_cast<float>(i) <= x + r; ++i) {
-        const float dx = static_cast<float>(i) - x, dy = static_cast<float>(j) - y, dz = static_cast<float>(k) - z;
+        const float dx = static_cast<float>(i) - x, dy = static_cast<float>(j) - y,
+                    dz = static_cast<float>(k) - z;
         if (dx * dx + dy * dy + dz * dz <= r * r) visit(i, j, k);
       }
 }

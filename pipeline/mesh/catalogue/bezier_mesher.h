@@ -14,9 +14,9 @@
 namespace relievo::pipeline {
 
 struct BezierMesherOptions {
-  int max_points = 160'000;    // more are thinned evenly
-  double patch_mm = 1.5;       // side of a patch, where the face's usual depth is
-  double bending = 0.003;      // weight of the bending term against the points'
+  int max_points = 160'000;  // more are thinned evenly
+  double patch_mm = 1.5;     // side of a patch, where the face's usual depth is
+  double bending = 0.003;    // weight of the bending term against the points'
   SheetOptions sheet;
 
   Result<void> check() const;

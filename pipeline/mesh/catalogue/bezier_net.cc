@@ -14,11 +14,15 @@ using Four = std::array<double, 4>;
 // Uniform cubic B-splines at t in 0 .. 1 of a knot's interval.
 Four basis(double t) {
   const double s = 1 - t;
-  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
+  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
+          t * t * t / 6};
 }
 
 // The Bezier values of the interval between the middle two of four coefficients (knot insertion).
-Four bezier(const Four& c) { return {(c[0] + 4 * c[1] + c[2]) / 6, (2 * c[1] + c[2]) / 3, (c[1] + 2 * c[2]) / 3, (c[1] + 4 * c[2] + c[3]) / 6}; }
+Four bezier(const Four& c) {
+  return {(c[0] + 4 * c[1] + c[2]) / 6, (2 * c[1] + c[2]) / 3, (c[1] + 2 * c[2]) / 3,
+          (c[1] + 4 * c[2] + c[3]) / 6};
+}
 
 double de_casteljau(Four b, double t) {
   for (int level = 3; level > 0; --level)
@@ -32,11 +36,19 @@ class Normal {
   static constexpr int kReach = 3, kSide = 7;
 
   Normal(int columns, int rows, std::pmr::memory_resource* memory)
-      : columns_(columns), rows_(rows), ties_(size() * kSide * kSide, 0.0, memory), right_(size(), 0.0, memory), value_(size(), 0.0, memory),
-        residual_(memory), step_(memory), product_(memory) {}
+      : columns_(columns),
+        rows_(rows),
+        ties_(size() * kSide * kSide, 0.0, memory),
+        right_(size(), 0.0, memory),
+        value_(size(), 0.0, memory),
+        residual_(memory),
+        step_(memory),
+        product_(memory) {}
 
   std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
-  std::size_t index(int c, int r) const { return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c); }
+  std::size_t index(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  }
   const std::pmr::vector<double>& solution() const { return value_; }
 
   struct Term {
@@ -48,7 +60,8 @@ class Normal {
     for (const Term& a : terms) {
       right_[index(a.c, a.r)] += weight * a.weight * aim;
       double* row = &ties_[index(a.c, a.r) * kSide * kSide];
-      for (const Term& b : terms) row[(b.r - a.r + kReach) * kSide + b.c - a.c + kReach] += weight * a.weight * b.weight;
+      for (const Term& b : terms)
+        row[(b.r - a.r + kReach) * kSide + b.c - a.c + kReach] += weight * a.weight * b.weight;
     }
   }
 
@@ -63,7 +76,8 @@ class Normal {
       for (std::size_t i = 0; i < size(); ++i) now += residual_[i] * residual_[i] / diagonal(i);
       if (turn == 0) first = now;
       if (!(now > enough * first)) return;
-      for (std::size_t i = 0; i < size(); ++i) step_[i] = residual_[i] / diagonal(i) + (turn > 0 ? now / before * step_[i] : 0);
+      for (std::size_t i = 0; i < size(); ++i)
+        step_[i] = residual_[i] / diagonal(i) + (turn > 0 ? now / before * step_[i] : 0);
       multiply();
       double along = 0;
       for (std::size_t i = 0; i < size(); ++i) along += step_[i] * product_[i];
@@ -100,10 +114,14 @@ class Normal {
 void add_bending(Normal& normal, int columns, int rows, double weight) {
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      if (c + 2 < columns) normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c + 1, r, -2}, {c + 2, r, 1}}}, 0, weight);
-      if (r + 2 < rows) normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c, r + 1, -2}, {c, r + 2, 1}}}, 0, weight);
+      if (c + 2 < columns)
+        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c + 1, r, -2}, {c + 2, r, 1}}}, 0, weight);
+      if (r + 2 < rows)
+        normal.add(std::array<Normal::Term, 3>{{{c, r, 1}, {c, r + 1, -2}, {c, r + 2, 1}}}, 0, weight);
       if (c + 1 < columns && r + 1 < rows)
-        normal.add(std::array<Normal::Term, 4>{{{c, r, 1}, {c + 1, r, -1}, {c, r + 1, -1}, {c + 1, r + 1, 1}}}, 0, 2 * weight);
+        normal.add(
+            std::array<Normal::Term, 4>{{{c, r, 1}, {c + 1, r, -1}, {c, r + 1, -1}, {c + 1, r + 1, 1}}}, 0,
+            2 * weight);
     }
 }
 
@@ -119,19 +137,27 @@ Share share_of(double at, double from, double side, int count) {
 
 }  // namespace
 
-BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bending, std::pmr::memory_resource* memory)
-    : left_(samples.left), top_(samples.top), side_(patch_mm), middle_(samples.usual_depth_mm),
-      columns_(static_cast<int>((samples.right - samples.left) / patch_mm) + 1), rows_(static_cast<int>((samples.bottom - samples.top) / patch_mm) + 1),
+BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bending,
+                     std::pmr::memory_resource* memory)
+    : left_(samples.left),
+      top_(samples.top),
+      side_(patch_mm),
+      middle_(samples.usual_depth_mm),
+      columns_(static_cast<int>((samples.right - samples.left) / patch_mm) + 1),
+      rows_(static_cast<int>((samples.bottom - samples.top) / patch_mm) + 1),
       patches_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Patch{}, memory) {
   Normal normal(columns_ + 3, rows_ + 3, memory);
   double weights = 0;
   for (std::size_t i = 0; i < samples.u.size(); ++i) {
-    const Share u = share_of(samples.u[i], left_, side_, columns_), v = share_of(samples.v[i], top_, side_, rows_);
+    const Share u = share_of(samples.u[i], left_, side_, columns_),
+                v = share_of(samples.v[i], top_, side_, rows_);
     const Four across = basis(u.rest), down = basis(v.rest);
     std::array<Normal::Term, 16> terms;
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c)
-        terms[static_cast<std::size_t>(4 * r + c)] = {u.whole + c, v.whole + r, down[static_cast<std::size_t>(r)] * across[static_cast<std::size_t>(c)]};
+        terms[static_cast<std::size_t>(4 * r + c)] = {
+            u.whole + c, v.whole + r,
+            down[static_cast<std::size_t>(r)] * across[static_cast<std::size_t>(c)]};
     const double weight = 1 / std::max(samples.sigma[i] * samples.sigma[i], 1e-6);
     normal.add(terms, samples.depth[i] - middle_, weight);
     weights += weight;

@@ -25,7 +25,8 @@ struct LongestEdge {
     double longest = 0;
     for (int i = 1; i <= 3; ++i)
       for (int j = i + 1; j <= 3; ++j)
-        longest = std::max(longest, CGAL::squared_distance(cell->vertex((index + i) % 4)->point(), cell->vertex((index + j) % 4)->point()));
+        longest = std::max(longest, CGAL::squared_distance(cell->vertex((index + i) % 4)->point(),
+                                                           cell->vertex((index + j) % 4)->point()));
     return longest > most_squared ? front.infinity() : front.smallest_radius_delaunay_sphere(cell, index);
   }
 };
@@ -33,12 +34,16 @@ struct LongestEdge {
 std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageContext& context) {
   std::vector<Kernel::Point_3> points;
   points.reserve(base.vertices_mm.size());
-  for (const Vec3f& v : base.vertices_mm) points.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  for (const Vec3f& v : base.vertices_mm)
+    points.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
   std::vector<Facet> facets;
-  CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(), std::back_inserter(facets), LongestEdge{longest_mm * longest_mm});
+  CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(), std::back_inserter(facets),
+                                               LongestEdge{longest_mm * longest_mm});
   std::pmr::vector<Triangle> triangles(&context.scratch);
   triangles.reserve(facets.size());
-  for (const Facet& f : facets) triangles.push_back({static_cast<std::uint32_t>(f[0]), static_cast<std::uint32_t>(f[1]), static_cast<std::uint32_t>(f[2])});
+  for (const Facet& f : facets)
+    triangles.push_back({static_cast<std::uint32_t>(f[0]), static_cast<std::uint32_t>(f[1]),
+                         static_cast<std::uint32_t>(f[2])});
   // CGAL orients the surface as one, either way round: towards the camera it shall be.
   std::size_t away = 0;
   for (const Triangle& t : triangles) {
@@ -56,9 +61,11 @@ std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageCo
 }  // namespace
 
 Result<void> AdvancingFrontMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000) return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.advancing-front");
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.advancing-front");
   if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
-    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at("mesher.advancing-front");
+    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
+        "mesher.advancing-front");
   return finish.check("mesher.advancing-front");
 }
 
@@ -66,7 +73,9 @@ Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContex
   RELIEVO_TRY(options_.check());
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
-  const double longest = std::min(options_.max_edge_mm, options_.max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
+  const double longest =
+      std::min(options_.max_edge_mm,
+               options_.max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
   std::pmr::vector<Triangle> triangles = grow(base, longest, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   return finish_surface(base, base.vertices_mm, triangles, options_.finish, context);

@@ -37,13 +37,16 @@ bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageCon
     const Kernel::Vector_3 away(d(p.x) / distance, d(p.y) / distance, d(p.z) / distance);
     points.emplace_back(Kernel::Point_3(d(p.x), d(p.y), d(p.z)) + kBackMm * away, away);
   }
-  CGAL::Poisson_reconstruction_function<Kernel> inside(points.begin(), points.end(), CGAL::First_of_pair_property_map<Oriented>(),
+  CGAL::Poisson_reconstruction_function<Kernel> inside(points.begin(), points.end(),
+                                                       CGAL::First_of_pair_property_map<Oriented>(),
                                                        CGAL::Second_of_pair_property_map<Oriented>());
   if (context.stop() || !inside.compute_implicit_function()) return false;
   constexpr float kWanted = -1;  // marks the band, until its values are known
   const FaceMesh between = densify(base, kSparse * volume.voxel_mm, &context.scratch);
   for (const auto* near : {&base.vertices_mm, &between.vertices_mm})
-    for (const Vec3f& p : *near) for_each_voxel_near(volume, p, radius, [&](int x, int y, int z) { volume.value[volume.index(x, y, z)] = kWanted; });
+    for (const Vec3f& p : *near)
+      for_each_voxel_near(volume, p, radius,
+                          [&](int x, int y, int z) { volume.value[volume.index(x, y, z)] = kWanted; });
   for (int z = 0; z < volume.nz && !context.stop(); ++z)
     for (int y = 0; y < volume.ny; ++y)
       for (int x = 0; x < volume.nx; ++x) {
@@ -56,8 +59,8 @@ bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageCon
   return !context.stop();
 }
 
-// One pass of 1 2 1 along one direction, over what is known. CGAL's function is linear from vertex to vertex of its
-// triangulation: left alone, the surface shows its facets.
+// One pass of 1 2 1 along one direction, over what is known. CGAL's function is linear from vertex to vertex
+// of its triangulation: left alone, the surface shows its facets.
 void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* memory) {
   const std::pmr::vector<float> before(volume.value, memory);
   for (std::size_t k = stride; k + stride < before.size(); ++k) {
@@ -70,7 +73,8 @@ void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* m
 }  // namespace
 
 Result<void> PoissonMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000) return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.poisson");
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.poisson");
   if (!(voxel_mm >= 0.3 && voxel_mm <= 10) || !(band_voxels >= 1.8 && band_voxels <= 5))
     return Error{Errc::InvalidInput, "voxel_mm 0.3 .. 10, band_voxels 1.8 .. 5"}.at("mesher.poisson");
   return finish.check("mesher.poisson");
@@ -81,9 +85,12 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
   RELIEVO_TRY(options_.check());
   if (context.stop()) return stopped;
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
-  const float voxel = std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
-  BandVolume volume = volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
-  if (!fill_field(base, volume, static_cast<float>(options_.band_voxels) * voxel, context)) return context.stop() ? stopped : no_surface();
+  const float voxel =
+      std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  BandVolume volume =
+      volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
+  if (!fill_field(base, volume, static_cast<float>(options_.band_voxels) * voxel, context))
+    return context.stop() ? stopped : no_surface();
   const std::size_t row = static_cast<std::size_t>(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
     for (const std::size_t stride : {std::size_t{1}, row, row * static_cast<std::size_t>(volume.ny)}) {

@@ -14,8 +14,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr float kLeastSigmaMm = 0.005F;
-constexpr float kBetweenShare = 0.05F;   // of a measured point's weight, where there is none near
-constexpr float kSparse = 1.5F;          // voxels: points further apart are joined by others
+constexpr float kBetweenShare = 0.05F;  // of a measured point's weight, where there is none near
+constexpr float kSparse = 1.5F;         // voxels: points further apart are joined by others
 
 // Adds the points' planes to values and weights of the field.
 void splat(const FaceMesh& points, float share, float radius, BandVolume& volume, std::span<float> weight) {
@@ -34,19 +34,22 @@ void splat(const FaceMesh& points, float share, float radius, BandVolume& volume
   }
 }
 
-void fill_field(const FaceMesh& base, const FaceMesh& between, float radius, BandVolume& volume, std::pmr::memory_resource* memory) {
+void fill_field(const FaceMesh& base, const FaceMesh& between, float radius, BandVolume& volume,
+                std::pmr::memory_resource* memory) {
   std::pmr::vector<float> weight(volume.value.size(), 0.0F, memory);
   std::fill(volume.value.begin(), volume.value.end(), 0.0F);
   splat(base, 1, radius, volume, weight);
   splat(between, kBetweenShare, radius, volume, weight);
   for (std::size_t k = 0; k < weight.size(); ++k)
-    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius, radius) : std::numeric_limits<float>::quiet_NaN();
+    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius, radius)
+                                    : std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace
 
 Result<void> MarchingCubesMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000) return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.marching-cubes");
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.marching-cubes");
   if (!(voxel_mm >= 0.3 && voxel_mm <= 10) || !(band_voxels >= 1.8 && band_voxels <= 5))
     return Error{Errc::InvalidInput, "voxel_mm 0.3 .. 10, band_voxels 1.8 .. 5"}.at("mesher.marching-cubes");
   return finish.check("mesher.marching-cubes");
@@ -57,9 +60,11 @@ Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.
-  const float voxel = std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  const float voxel =
+      std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
   const float radius = static_cast<float>(options_.band_voxels) * voxel;
-  BandVolume volume = volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
+  BandVolume volume =
+      volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
   fill_field(base, densify(base, kSparse * voxel, &context.scratch), radius, volume, &context.scratch);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   Polygonised surface = polygonise(volume, &context.scratch);

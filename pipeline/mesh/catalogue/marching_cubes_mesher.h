@@ -14,9 +14,9 @@
 namespace relievo::pipeline {
 
 struct MarchingCubesMesherOptions {
-  int max_points = 160'000;     // more are thinned evenly
+  int max_points = 160'000;  // more are thinned evenly
   double voxel_mm = 0.8;
-  double band_voxels = 2.5;     // how far from a point the field reaches
+  double band_voxels = 2.5;  // how far from a point the field reaches
   FinishOptions finish;
 
   Result<void> check() const;
@@ -26,7 +26,8 @@ template <typename Field>
 void describe(MarchingCubesMesherOptions& o, Field&& field) {
   field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
   field("voxel_mm", o.voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
-  field("band_voxels", o.band_voxels, OptionRange{1.8, 5}, "how far from a point the field reaches, in voxels");
+  field("band_voxels", o.band_voxels, OptionRange{1.8, 5},
+        "how far from a point the field reaches, in voxels");
   describe_finish(o.finish, field);
 }
 

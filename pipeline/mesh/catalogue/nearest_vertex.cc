@@ -11,11 +11,13 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr float kPointsPerCell = 2;
-constexpr float kObliquity = 0.5F;  // a step in x/z is at least so much of an angle within 60 degrees of the axis
+constexpr float kObliquity =
+    0.5F;  // a step in x/z is at least so much of an angle within 60 degrees of the axis
 
 }  // namespace
 
-NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_resource* memory) : points_(points), first_(memory), members_(memory) {
+NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_resource* memory)
+    : points_(points), first_(memory), members_(memory) {
   if (points.empty()) return;
   left_ = top_ = 1e9F;
   float right = -1e9F, bottom = -1e9F;
@@ -25,7 +27,8 @@ NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_res
     top_ = std::min(top_, p.y / p.z);
     bottom = std::max(bottom, p.y / p.z);
   }
-  side_ = std::sqrt(std::max((right - left_) * (bottom - top_), 1e-9F) * kPointsPerCell / static_cast<float>(points.size()));
+  side_ = std::sqrt(std::max((right - left_) * (bottom - top_), 1e-9F) * kPointsPerCell /
+                    static_cast<float>(points.size()));
   columns_ = static_cast<int>((right - left_) / side_) + 1;
   rows_ = static_cast<int>((bottom - top_) / side_) + 1;
   const auto cell_of = [this](const Vec3f& p) {
@@ -55,7 +58,8 @@ NearestVertex::Hit NearestVertex::find(const Vec3f& at, float within_mm) const {
       const int stride = y == r - ring || y == r + ring || ring == 0 ? 1 : 2 * ring;
       for (int x = c - ring; x <= c + ring; x += stride) {
         if (x < 0 || x >= columns_) continue;
-        const std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+        const std::size_t k =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
         for (std::uint32_t i = first_[k]; i < first_[k + 1]; ++i) {
           const float square = mesh::squared_distance(points_[members_[i]], at);
           if (square < best.squared_mm) best = {members_[i], square};

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kBands = 64;
 constexpr int kFirstCentres = 150;
-constexpr double kGrowth = 2;             // centres from turn to turn
-constexpr std::size_t kJudged = 20'000;   // points the function is compared with, spread evenly
+constexpr double kGrowth = 2;            // centres from turn to turn
+constexpr std::size_t kJudged = 20'000;  // points the function is compared with, spread evenly
 
 // r^2 log r of a squared distance.
 double plate(double square) { return square > 0 ? 0.5 * square * std::log(square) : 0; }
@@ -21,8 +21,13 @@ double plate(double square) { return square > 0 ? 0.5 * square * std::log(square
 class Rbf {
  public:
   Rbf(const DepthSamples& samples, const RbfMesherOptions& options, StageContext& context)
-      : samples_(samples), options_(options), context_(context), centres_(&context.scratch), chosen_(samples.u.size(), 0, &context.scratch),
-        weights_(&context.scratch), matrix_(&context.scratch) {
+      : samples_(samples),
+        options_(options),
+        context_(context),
+        centres_(&context.scratch),
+        chosen_(samples.u.size(), 0, &context.scratch),
+        weights_(&context.scratch),
+        matrix_(&context.scratch) {
     const std::size_t most = std::min(static_cast<std::size_t>(options.max_centres), samples.u.size());
     const std::size_t side = most + 3;
     centres_.reserve(most);
@@ -40,7 +45,9 @@ class Rbf {
     solve();
     while (centres_.size() < most) {
       if (context_.stop()) return false;
-      const std::size_t wanted = std::min(most - centres_.size(), static_cast<std::size_t>((kGrowth - 1) * static_cast<double>(centres_.size())));
+      const std::size_t wanted =
+          std::min(most - centres_.size(),
+                   static_cast<std::size_t>((kGrowth - 1) * static_cast<double>(centres_.size())));
       if (add_worst(wanted) == 0) break;
       solve();
     }
@@ -101,7 +108,9 @@ class Rbf {
   struct Judged {
     double off;
     std::uint32_t point;
-    friend bool operator<(const Judged& a, const Judged& b) { return a.off != b.off ? a.off > b.off : a.point < b.point; }
+    friend bool operator<(const Judged& a, const Judged& b) {
+      return a.off != b.off ? a.off > b.off : a.point < b.point;
+    }
   };
 
   // The worst points, but never two in one cell: cells get smaller as centres get more.
@@ -113,7 +122,8 @@ class Rbf {
       for (int k = from; k < to; ++k) {
         const std::size_t i = static_cast<std::size_t>(k) * samples_.u.size() / n;
         const double off = std::abs(at(samples_.u[i], samples_.v[i]) - samples_.depth[i]);
-        judged[static_cast<std::size_t>(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0), static_cast<std::uint32_t>(i)};
+        judged[static_cast<std::size_t>(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
+                                               static_cast<std::uint32_t>(i)};
       }
     });
     std::sort(judged.begin(), judged.end());
@@ -125,7 +135,9 @@ class Rbf {
     std::size_t added = 0;
     for (const Judged& j : judged) {
       if (added == wanted || j.off <= options_.accuracy_mm) break;
-      const std::size_t cell = static_cast<std::size_t>((samples_.v[j.point] - samples_.top) / side) * columns + static_cast<std::size_t>((samples_.u[j.point] - samples_.left) / side);
+      const std::size_t cell =
+          static_cast<std::size_t>((samples_.v[j.point] - samples_.top) / side) * columns +
+          static_cast<std::size_t>((samples_.u[j.point] - samples_.left) / side);
       if (taken[cell] || chosen_[j.point]) continue;
       taken[cell] = 1;
       choose(j.point);
@@ -139,7 +151,7 @@ class Rbf {
   StageContext& context_;
   std::pmr::vector<std::uint32_t> centres_;
   std::pmr::vector<std::uint8_t> chosen_;
-  std::pmr::vector<double> weights_;   // of the centres, then of 1, x, y
+  std::pmr::vector<double> weights_;  // of the centres, then of 1, x, y
   std::pmr::vector<double> matrix_;
   double middle_ = 0, scale_ = 1;
 };
@@ -147,8 +159,10 @@ class Rbf {
 }  // namespace
 
 Result<void> RbfMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000) return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.rbf");
-  if (max_centres < 20 || max_centres > 4000) return Error{Errc::InvalidInput, "max_centres must lie in 20 .. 4000"}.at("mesher.rbf");
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.rbf");
+  if (max_centres < 20 || max_centres > 4000)
+    return Error{Errc::InvalidInput, "max_centres must lie in 20 .. 4000"}.at("mesher.rbf");
   if (!(accuracy_mm >= 0.001 && accuracy_mm <= 10) || !(smoothing >= 0 && smoothing <= 1000))
     return Error{Errc::InvalidInput, "accuracy_mm 0.001 .. 10, smoothing 0 .. 1000"}.at("mesher.rbf");
   return sheet.check("mesher.rbf");
@@ -161,7 +175,9 @@ Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context)
   const DepthSamples samples = sample_depths(base, &context.scratch);
   Rbf function(samples, options_, context);
   if (!function.fit()) return Error{Errc::Cancelled, "meshing was stopped"};
-  return mesh_sheet(base, samples, [&function](auto us, double v, auto depths) { function.depths(us, v, depths); }, options_.sheet, context);
+  return mesh_sheet(
+      base, samples, [&function](auto us, double v, auto depths) { function.depths(us, v, depths); },
+      options_.sheet, context);
 }
 
 }  // namespace relievo::pipeline

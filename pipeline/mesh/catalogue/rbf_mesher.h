@@ -15,10 +15,11 @@
 namespace relievo::pipeline {
 
 struct RbfMesherOptions {
-  int max_points = 160'000;      // more are thinned evenly
+  int max_points = 160'000;  // more are thinned evenly
   int max_centres = 1400;
-  double accuracy_mm = 0.05;     // no centre is added where the function is as close as this
-  double smoothing = 0.02;       // how much a point's sigma lets the function leave it; 0 goes through every centre
+  double accuracy_mm = 0.05;  // no centre is added where the function is as close as this
+  double smoothing =
+      0.02;  // how much a point's sigma lets the function leave it; 0 goes through every centre
   SheetOptions sheet;
 
   Result<void> check() const;
@@ -28,8 +29,10 @@ template <typename Field>
 void describe(RbfMesherOptions& o, Field&& field) {
   field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
   field("max_centres", o.max_centres, OptionRange{20, 4000}, "how many centres the function may have");
-  field("accuracy_mm", o.accuracy_mm, OptionRange{0.001, 10}, "no centre is added where the function is as close to the points as this, mm");
-  field("smoothing", o.smoothing, OptionRange{0, 1000}, "how much a point's sigma lets the function leave it");
+  field("accuracy_mm", o.accuracy_mm, OptionRange{0.001, 10},
+        "no centre is added where the function is as close to the points as this, mm");
+  field("smoothing", o.smoothing, OptionRange{0, 1000},
+        "how much a point's sigma lets the function leave it");
   describe_sheet(o.sheet, field);
 }
 

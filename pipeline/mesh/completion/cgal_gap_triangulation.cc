@@ -15,10 +15,12 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
 
 // The faces to the right of the border, and all that is reached from them without crossing it.
-std::set<Triangulation::Face_handle> outside(const Triangulation& cdt, std::span<const std::array<std::uint32_t, 2>> border,
+std::set<Triangulation::Face_handle> outside(const Triangulation& cdt,
+                                             std::span<const std::array<std::uint32_t, 2>> border,
                                              const std::vector<Triangulation::Vertex_handle>& at) {
   std::set<Triangulation::Face_handle> found;
   std::vector<Triangulation::Face_handle> stack;
@@ -45,14 +47,16 @@ std::set<Triangulation::Face_handle> outside(const Triangulation& cdt, std::span
 
 }  // namespace
 
-std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(std::span<const Vec2f> plane, std::span<const std::array<std::uint32_t, 2>> border,
-                                                               std::span<const std::uint32_t> added, std::pmr::memory_resource* memory) {
+std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
+    std::span<const Vec2f> plane, std::span<const std::array<std::uint32_t, 2>> border,
+    std::span<const std::uint32_t> added, std::pmr::memory_resource* memory) {
   Triangulation cdt;
   std::vector<Triangulation::Vertex_handle> at(plane.size());
   std::vector<char> is_added(plane.size(), 0);
   const auto insert = [&](std::uint32_t v) {
     if (at[v] != nullptr) return;
-    const auto handle = cdt.insert(Kernel::Point_2(static_cast<double>(plane[v].x), static_cast<double>(plane[v].y)));
+    const auto handle =
+        cdt.insert(Kernel::Point_2(static_cast<double>(plane[v].x), static_cast<double>(plane[v].y)));
     handle->info() = v;
     at[v] = handle;
   };

@@ -3,8 +3,8 @@
 //
 // Completion: gives a measured surface what the cameras did not see. Completed vertices carry measured = 0
 // and a sigma_mm of their own; what was measured stays bit for bit where it is. One connected manifold
-// surface comes out. A surface in which no head is found, or to which nothing can be added, comes back as it is.
-// Errors: OutOfMemory, Cancelled.
+// surface comes out. A surface in which no head is found, or to which nothing can be added, comes back as it
+// is. Errors: OutOfMemory, Cancelled.
 #pragma once
 
 #include <string_view>

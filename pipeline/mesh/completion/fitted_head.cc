@@ -17,10 +17,11 @@ namespace {
 using Modes = Eigen::Matrix<double, kHeadModes, 1>;
 using ModesSquare = Eigen::Matrix<double, kHeadModes, kHeadModes>;
 
-constexpr double kApartMm = 5;       // between the places that the fit looks at
-constexpr double kTogetherMm = 12;   // over which the misfit hangs together: that many places tell as much as one
+constexpr double kApartMm = 5;  // between the places that the fit looks at
+constexpr double kTogetherMm =
+    12;  // over which the misfit hangs together: that many places tell as much as one
 constexpr int kRounds = 6;
-constexpr double kHuber = 1.5;       // misfits beyond this many count less: hair, a tongue, a hand
+constexpr double kHuber = 1.5;  // misfits beyond this many count less: hair, a tongue, a hand
 
 struct Fit {
   Modes weight = Modes::Zero();
@@ -79,7 +80,8 @@ FittedHead fit_generic_head(const UnrolledHead& head, double cell_mm, double mis
       const HeadPlace place = head_place(radius.x_mm(c), radius.y_mm(r));
       const Modes modes = modes_of(place);
       radius.z(c, r) = static_cast<float>(place.mean_mm + modes.dot(fit.weight));
-      sigma.z(c, r) = static_cast<float>(std::sqrt(misfit_mm * misfit_mm + place.left_mm * place.left_mm + modes.dot(fit.covariance * modes)));
+      sigma.z(c, r) = static_cast<float>(std::sqrt(misfit_mm * misfit_mm + place.left_mm * place.left_mm +
+                                                   modes.dot(fit.covariance * modes)));
     }
   for (int c = 0; c < radius.columns(); ++c) end_at_jaw(radius, c, static_cast<float>(cell_mm));
   return fitted;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where nothing was measured stands the head that is usual for what was: the generic head (generic_head.h) is fitted to
-// the measured radii by robust least squares with its modes' own spread as prior, moved by what it differs along the
-// seam (unrolled_head.h), and sewn on (head_sewing.h). Its sigma is the posterior's, with what the model cannot show.
-// Errors: those of Completion. Thread: any.
+// Where nothing was measured stands the head that is usual for what was: the generic head (generic_head.h) is
+// fitted to the measured radii by robust least squares with its modes' own spread as prior, moved by what it
+// differs along the seam (unrolled_head.h), and sewn on (head_sewing.h). Its sigma is the posterior's, with
+// what the model cannot show. Errors: those of Completion. Thread: any.
 #pragma once
 
 #include "pipeline/mesh/completion/completion.h"
@@ -13,9 +13,9 @@
 namespace relievo::pipeline {
 
 struct GenericHeadOptions {
-  double cell_mm = 2;            // between completed vertices
-  double longest_edge_mm = 12;   // wider gaps stay open
-  double misfit_mm = 1.5;        // what a person differs by from all that the model can be, one standard deviation
+  double cell_mm = 2;           // between completed vertices
+  double longest_edge_mm = 12;  // wider gaps stay open
+  double misfit_mm = 1.5;  // what a person differs by from all that the model can be, one standard deviation
   Result<void> check() const;
 };
 

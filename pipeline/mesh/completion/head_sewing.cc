@@ -16,13 +16,18 @@
 namespace relievo::pipeline {
 namespace {
 
-Vec3f narrow(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vec3f narrow(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 using Edge = std::array<std::uint32_t, 2>;
 
 // Directed edges that one triangle alone has.
 std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
-  struct Half { Edge key; Edge as_run; };
+  struct Half {
+    Edge key;
+    Edge as_run;
+  };
   std::pmr::vector<Half> all(&scratch);
   all.reserve(mesh.triangles.size() * 3);
   for (const auto& t : mesh.triangles)
@@ -42,13 +47,14 @@ std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
 }
 
 struct Addition {
-  Vec3f at_mm;    // the camera's frame
+  Vec3f at_mm;  // the camera's frame
   Vec2f plane;
   float sigma_mm;
 };
 
 // Not where the border's own triangles still lie.
-std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head, double cell_mm, const SewingRules& rules, Arena& scratch) {
+std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head,
+                                     double cell_mm, const SewingRules& rules, Arena& scratch) {
   std::pmr::vector<Addition> all(&scratch);
   for (int r = 0; r < head.own.rows(); ++r)
     for (int c = 0; c < head.own.columns(); ++c) {
@@ -56,9 +62,11 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
       const float away = head.distance_mm[head.index(c, r)];
       if (std::isnan(radius) || away < 1.5F * static_cast<float>(cell_mm)) continue;
       const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
-      const double sigma = rules.sigma ? static_cast<double>(rules.sigma->z(c, r)) : rules.sigma_mm + rules.sigma_per_mm * static_cast<double>(away);
+      const double sigma = rules.sigma ? static_cast<double>(rules.sigma->z(c, r))
+                                       : rules.sigma_mm + rules.sigma_per_mm * static_cast<double>(away);
       all.push_back({narrow(apply(camera_from_head, rolled(arc, y, static_cast<double>(radius)))),
-                     {static_cast<float>(arc), static_cast<float>(y)}, static_cast<float>(sigma)});
+                     {static_cast<float>(arc), static_cast<float>(y)},
+                     static_cast<float>(sigma)});
     }
   return all;
 }
@@ -66,7 +74,9 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
 // What the gap's triangles may be: short edges, seen from outside, and no edge that the surface has already.
 bool fits(const FaceMesh& mesh, const Triangle& t, float longest_mm) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (mesh::squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) > longest_mm * longest_mm) return false;
+    if (mesh::squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) >
+        longest_mm * longest_mm)
+      return false;
   return true;
 }
 
@@ -78,7 +88,8 @@ FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
   std::uint32_t count = 0;
   for (std::uint32_t& p : place) p = p != 0 ? ++count : 0;
   FaceMesh out(&output);
-  out.vertices_mm.reserve(count), out.normals.reserve(count), out.sigma_mm.reserve(count), out.measured.reserve(count);
+  out.vertices_mm.reserve(count), out.normals.reserve(count), out.sigma_mm.reserve(count),
+      out.measured.reserve(count);
   for (std::size_t v = 0; v < place.size(); ++v) {
     if (place[v] == 0) continue;
     out.vertices_mm.push_back(mesh.vertices_mm[v]);
@@ -87,11 +98,13 @@ FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
     out.measured.push_back(mesh.measured[v]);
   }
   out.triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) out.triangles.push_back({place[t[0]] - 1, place[t[1]] - 1, place[t[2]] - 1});
+  for (const auto& t : mesh.triangles)
+    out.triangles.push_back({place[t[0]] - 1, place[t[1]] - 1, place[t[2]] - 1});
   return out;
 }
 
-FaceMesh joined(const FaceMesh& mesh, const UnrolledHead& head, std::span<const Addition> added, double longest_edge_mm, StageContext& context) {
+FaceMesh joined(const FaceMesh& mesh, const UnrolledHead& head, std::span<const Addition> added,
+                double longest_edge_mm, StageContext& context) {
   FaceMesh whole(&context.scratch);
   whole.vertices_mm.assign(mesh.vertices_mm.begin(), mesh.vertices_mm.end());
   whole.sigma_mm.assign(mesh.sigma_mm.begin(), mesh.sigma_mm.end());
@@ -121,7 +134,8 @@ FaceMesh joined(const FaceMesh& mesh, const UnrolledHead& head, std::span<const 
 
 }  // namespace
 
-Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm, const std::function<SewingRules(UnrolledHead&)>& propose,
+Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm,
+                               const std::function<SewingRules(UnrolledHead&)>& propose,
                                StageContext& context) {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
   const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);

@@ -9,7 +9,8 @@
 namespace relievo::pipeline {
 
 Result<void> SymmetricCompletionOptions::check() const {
-  if (!(cell_mm >= 0.5 && cell_mm <= 10)) return Error{Errc::InvalidInput, "cell_mm must lie in 0.5 .. 10"}.at("symmetric");
+  if (!(cell_mm >= 0.5 && cell_mm <= 10))
+    return Error{Errc::InvalidInput, "cell_mm must lie in 0.5 .. 10"}.at("symmetric");
   if (!(longest_edge_mm >= 2 * cell_mm && longest_edge_mm <= 50))
     return Error{Errc::InvalidInput, "longest_edge_mm must lie between two cells and 50"}.at("symmetric");
   if (!(sigma_mm >= 0 && sigma_mm <= 20 && sigma_per_mm >= 0 && sigma_per_mm <= 1))
@@ -17,9 +18,11 @@ Result<void> SymmetricCompletionOptions::check() const {
   return {};
 }
 
-Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const {
+Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
+                                               StageContext& context) const {
   const auto mirror = [&](UnrolledHead& head) {
-    head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, options_.cell_mm, context.scratch);
+    head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, options_.cell_mm,
+             context.scratch);
     return SewingRules{options_.longest_edge_mm, options_.sigma_mm, options_.sigma_per_mm};
   };
   return complete_head(std::move(mesh), across, options_.cell_mm, mirror, context);

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What one side of the face hides, the other side shows: the measured surface is mirrored at the plane of
-// symmetry found in it and laid where nothing was measured (unrolled_head.h), moved by what the two differ along
-// their seam, and sewn on (head_sewing.h).
-// Its sigma is that of asymmetry: sigma_mm, and sigma_per_mm more for every millimetre from the seam.
-// Errors: those of Completion. Thread: any.
+// symmetry found in it and laid where nothing was measured (unrolled_head.h), moved by what the two differ
+// along their seam, and sewn on (head_sewing.h). Its sigma is that of asymmetry: sigma_mm, and sigma_per_mm
+// more for every millimetre from the seam. Errors: those of Completion. Thread: any.
 #pragma once
 
 #include "pipeline/mesh/completion/completion.h"
@@ -14,8 +13,8 @@
 namespace relievo::pipeline {
 
 struct SymmetricCompletionOptions {
-  double cell_mm = 1.5;          // between completed vertices
-  double longest_edge_mm = 12;   // wider gaps between both sides' surfaces stay open
+  double cell_mm = 1.5;         // between completed vertices
+  double longest_edge_mm = 12;  // wider gaps between both sides' surfaces stay open
   double sigma_mm = 0.7;
   double sigma_per_mm = 0.015;
   Result<void> check() const;
@@ -25,7 +24,8 @@ template <typename Field>
 void describe(SymmetricCompletionOptions& o, Field&& field) {
   field("cell_mm", o.cell_mm, OptionRange{0.5, 10}, "between completed vertices, mm");
   field("longest_edge_mm", o.longest_edge_mm, OptionRange{1, 50}, "longer edges join nothing, mm");
-  field("sigma_mm", o.sigma_mm, OptionRange{0, 20}, "standard deviation of a completed place at the seam, mm");
+  field("sigma_mm", o.sigma_mm, OptionRange{0, 20},
+        "standard deviation of a completed place at the seam, mm");
   field("sigma_per_mm", o.sigma_per_mm, OptionRange{0, 1}, "how much more for each mm from the seam");
 }
 

@@ -9,13 +9,16 @@ namespace {
 
 constexpr int kRelaxRounds = 150;
 
-Vec3d wide(const Vec3f& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Vec3d wide(const Vec3f& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 }  // namespace
 
 Vec3f unrolled(const Vec3d& in_head) {
   const double z = in_head.z + kAxisBehind;
-  return {static_cast<float>(kArcRadius * std::atan2(in_head.x, z)), static_cast<float>(in_head.y), static_cast<float>(std::hypot(in_head.x, z))};
+  return {static_cast<float>(kArcRadius * std::atan2(in_head.x, z)), static_cast<float>(in_head.y),
+          static_cast<float>(std::hypot(in_head.x, z))};
 }
 
 Vec3d rolled(double arc, double y, double radius) {
@@ -23,11 +26,15 @@ Vec3d rolled(double arc, double y, double radius) {
   return {radius * std::sin(angle), y, radius * std::cos(angle) - kAxisBehind};
 }
 
-UnrolledHead::UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell_mm, Arena& scratch)
-    : flat(&scratch), own({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch), added({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch),
+UnrolledHead::UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell_mm,
+                           Arena& scratch)
+    : flat(&scratch),
+      own({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch),
+      added({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch),
       distance_mm(&scratch) {
   flat.vertices_mm.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& v : mesh.vertices_mm) flat.vertices_mm.push_back(unrolled(apply(head_from_camera, wide(v))));
+  for (const Vec3f& v : mesh.vertices_mm)
+    flat.vertices_mm.push_back(unrolled(apply(head_from_camera, wide(v))));
   flat.measured.assign(mesh.vertices_mm.size(), 1);  // gaps that the mesher closed are surface here
   flat.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
   own.add(flat, {});
@@ -56,7 +63,9 @@ void UnrolledHead::measure_distance(float cell_mm) {
   distance_mm.assign(static_cast<std::size_t>(columns * rows), 1e6F);
   const auto step = [&](int c, int r, int dc, int dr) {
     if (has_own(c, r)) distance_mm[index(c, r)] = 0;
-    else if (own.inside(c + dc, r + dr)) distance_mm[index(c, r)] = std::min(distance_mm[index(c, r)], distance_mm[index(c + dc, r + dr)] + cell_mm);
+    else if (own.inside(c + dc, r + dr))
+      distance_mm[index(c, r)] =
+          std::min(distance_mm[index(c, r)], distance_mm[index(c + dc, r + dr)] + cell_mm);
   };
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) step(c, r, -1, 0), step(c, r, 0, -1);

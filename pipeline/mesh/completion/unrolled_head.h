@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A head laid flat: radii about its upright axis, which stands kAxisBehind behind the tip of the nose, over arc and
-// height. `own` holds what was measured, `added` what a completion proposes where nothing was. Millimetres, head frame.
-// Memory: scratch. Thread: any.
+// A head laid flat: radii about its upright axis, which stands kAxisBehind behind the tip of the nose, over
+// arc and height. `own` holds what was measured, `added` what a completion proposes where nothing was.
+// Millimetres, head frame. Memory: scratch. Thread: any.
 #pragma once
 
 #include <algorithm>
@@ -28,9 +28,9 @@ class UnrolledHead {
  public:
   UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell_mm, Arena& scratch);
 
-  // Takes as added what `other`(column, row) says of every cell, NaN where it says nothing, wherever nothing was
-  // measured; moved by what the two differ where both are known, relaxed into the new part (Laplace), so that no
-  // step is left at the seam.
+  // Takes as added what `other`(column, row) says of every cell, NaN where it says nothing, wherever nothing
+  // was measured; moved by what the two differ where both are known, relaxed into the new part (Laplace), so
+  // that no step is left at the seam.
   template <typename Other>
   void add(Other&& other, double cell_mm, Arena& scratch) {
     std::pmr::vector<float> shift(cells(), 0.0F, &scratch);
@@ -39,7 +39,8 @@ class UnrolledHead {
       for (int c = 0; c < own.columns(); ++c) {
         const float value = other(c, r);
         if (std::isnan(value)) continue;
-        if (has_own(c, r)) shift[index(c, r)] = std::clamp(own.z(c, r) - value, -4.0F, 4.0F), fixed[index(c, r)] = 1;
+        if (has_own(c, r))
+          shift[index(c, r)] = std::clamp(own.z(c, r) - value, -4.0F, 4.0F), fixed[index(c, r)] = 1;
         else added.z(c, r) = value;
       }
     relax(shift, fixed);
@@ -52,7 +53,7 @@ class UnrolledHead {
   std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * own.columns() + c); }
   std::size_t cells() const { return static_cast<std::size_t>(own.columns() * own.rows()); }
 
-  FaceMesh flat;                        // the measured surface, unrolled
+  FaceMesh flat;  // the measured surface, unrolled
   FaceRelief own, added;
   std::pmr::vector<float> distance_mm;  // of a cell from the measured ones, in city blocks
 

@@ -6,8 +6,12 @@
 
 namespace relievo::pipeline {
 
-CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles, std::pmr::memory_resource* memory)
-    : triangles_(triangles), first_(vertices + 1, 0U, memory), around_(3 * triangles.size(), 0U, memory), touched_(vertices, 0, memory) {}
+CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles,
+                         std::pmr::memory_resource* memory)
+    : triangles_(triangles),
+      first_(vertices + 1, 0U, memory),
+      around_(3 * triangles.size(), 0U, memory),
+      touched_(vertices, 0, memory) {}
 
 void CornerIndex::build(std::span<const std::uint8_t> fixed) {
   std::erase_if(triangles_, [](const Corners& t) { return t[0] == kGoneVertex; });
@@ -47,7 +51,8 @@ bool CornerIndex::on_border(std::uint32_t v) const {
   return false;
 }
 
-bool CornerIndex::may_collapse(const Ring& of_gone, const Ring& of_kept, std::uint32_t gone, std::uint32_t kept) const {
+bool CornerIndex::may_collapse(const Ring& of_gone, const Ring& of_kept, std::uint32_t gone,
+                               std::uint32_t kept) const {
   if (of_gone.count == 0 || of_kept.count == 0) return false;
   const bool border = border_edge(gone, kept);
   if (on_border(gone) && !(border && on_border(kept))) return false;
@@ -63,7 +68,8 @@ void CornerIndex::collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_
   }
 }
 
-std::size_t CornerIndex::common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a, std::uint32_t b) const {
+std::size_t CornerIndex::common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a,
+                                           std::uint32_t b) const {
   std::array<std::uint32_t, 2 * kMostAround> near{};
   auto end = near.begin();
   for (std::size_t i = 0; i < of_a.count; ++i)

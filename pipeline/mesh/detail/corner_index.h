@@ -32,15 +32,21 @@ class CornerIndex {
   // Looks at `triangles` for as long as it lives; there are never more later. Throws std::bad_alloc.
   CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles, std::pmr::memory_resource* memory);
 
-  // Takes out what is gone, and counts anew. Vertices that are `fixed` (one byte each, or empty) are touched from the start.
+  // Takes out what is gone, and counts anew. Vertices that are `fixed` (one byte each, or empty) are touched
+  // from the start.
   void build(std::span<const std::uint8_t> fixed = {});
 
   void touch(std::uint32_t v) { touched_[v] = 1; }
   bool touched(std::uint32_t v) const { return touched_[v] != 0; }
-  Ring ring(std::uint32_t v) const;                                    // empty where touched, or too many
-  std::uint32_t across(std::uint32_t a, std::uint32_t b) const;        // the triangle that runs from b to a, or kGoneVertex
-  bool joined(std::uint32_t a, std::uint32_t b) const { return across(a, b) != kGoneVertex || across(b, a) != kGoneVertex; }
-  bool border_edge(std::uint32_t a, std::uint32_t b) const { return across(a, b) == kGoneVertex || across(b, a) == kGoneVertex; }
+  Ring ring(std::uint32_t v) const;  // empty where touched, or too many
+  std::uint32_t across(std::uint32_t a,
+                       std::uint32_t b) const;  // the triangle that runs from b to a, or kGoneVertex
+  bool joined(std::uint32_t a, std::uint32_t b) const {
+    return across(a, b) != kGoneVertex || across(b, a) != kGoneVertex;
+  }
+  bool border_edge(std::uint32_t a, std::uint32_t b) const {
+    return across(a, b) == kGoneVertex || across(b, a) == kGoneVertex;
+  }
   bool on_border(std::uint32_t v) const;
 
   // Whether `gone` may be moved onto its neighbour `kept` and the surface stays one manifold with the same
@@ -52,10 +58,13 @@ class CornerIndex {
   std::size_t common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a, std::uint32_t b) const;
 
   std::pmr::vector<Corners>& triangles_;
-  std::pmr::vector<std::uint32_t> first_, around_;  // triangles around vertex v: around_[first_[v] .. first_[v + 1])
+  std::pmr::vector<std::uint32_t> first_,
+      around_;  // triangles around vertex v: around_[first_[v] .. first_[v + 1])
   std::pmr::vector<std::uint8_t> touched_;
 };
 
-inline bool holds(const CornerIndex::Corners& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+inline bool holds(const CornerIndex::Corners& t, std::uint32_t v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
 
 }  // namespace relievo::pipeline

@@ -16,29 +16,45 @@ namespace {
 using mesh::cross, mesh::dot, mesh::length, mesh::minus;
 using Ring = CornerIndex::Ring;
 
-constexpr float kBarDeg = 12;          // no triangle gets a smaller angle unless it had one
-constexpr float kMostTurn = 0.7F;      // cosine of how far a triangle may turn in one collapse
-constexpr double kBorderWeight = 4;    // of the planes across the border, against the surface's own
-constexpr float kLengthWeight = 1e-6F; // of an edge's squared length: what is flat is thinned evenly
-constexpr std::size_t kTriedShare = 3; // a pass tries the cheapest third of the edges
+constexpr float kBarDeg = 12;           // no triangle gets a smaller angle unless it had one
+constexpr float kMostTurn = 0.7F;       // cosine of how far a triangle may turn in one collapse
+constexpr double kBorderWeight = 4;     // of the planes across the border, against the surface's own
+constexpr float kLengthWeight = 1e-6F;  // of an edge's squared length: what is flat is thinned evenly
+constexpr std::size_t kTriedShare = 3;  // a pass tries the cheapest third of the edges
 
 // The sum of squared distances to planes, weighted by area, as a function of a point.
 struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, x = 0, y = 0, z = 0, one = 0, weight = 0;
 
   void add_plane(const Vec3d& n, double offset, double w) {
-    xx += w * n.x * n.x; xy += w * n.x * n.y; xz += w * n.x * n.z;
-    yy += w * n.y * n.y; yz += w * n.y * n.z; zz += w * n.z * n.z;
-    x += w * n.x * offset; y += w * n.y * offset; z += w * n.z * offset;
+    xx += w * n.x * n.x;
+    xy += w * n.x * n.y;
+    xz += w * n.x * n.z;
+    yy += w * n.y * n.y;
+    yz += w * n.y * n.z;
+    zz += w * n.z * n.z;
+    x += w * n.x * offset;
+    y += w * n.y * offset;
+    z += w * n.z * offset;
     one += w * offset * offset;
     weight += w;
   }
   void add(const Quadric& o) {
-    xx += o.xx; xy += o.xy; xz += o.xz; yy += o.yy; yz += o.yz; zz += o.zz;
-    x += o.x; y += o.y; z += o.z; one += o.one; weight += o.weight;
+    xx += o.xx;
+    xy += o.xy;
+    xz += o.xz;
+    yy += o.yy;
+    yz += o.yz;
+    zz += o.zz;
+    x += o.x;
+    y += o.y;
+    z += o.z;
+    one += o.one;
+    weight += o.weight;
   }
   double at(const Vec3d& p) const {
-    return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + one;
+    return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2 * (yz * p.z + y)) +
+           p.z * (zz * p.z + 2 * z) + one;
   }
 };
 
@@ -52,9 +68,15 @@ struct Candidate {
 
 class Collapser {
  public:
-  Collapser(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory)
-      : vertices_(vertices), triangles_(triangles), fixed_(fixed), index_(vertices.size(), triangles, memory), quadrics_(vertices.size(), Quadric{}, memory),
-        border_(vertices.size(), 0, memory), candidates_(memory) {
+  Collapser(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles,
+            std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory)
+      : vertices_(vertices),
+        triangles_(triangles),
+        fixed_(fixed),
+        index_(vertices.size(), triangles, memory),
+        quadrics_(vertices.size(), Quadric{}, memory),
+        border_(vertices.size(), 0, memory),
+        candidates_(memory) {
     candidates_.reserve(3 * triangles.size());
     for (const Vec3f& v : vertices) {
       middle_.x += static_cast<double>(v.x) / static_cast<double>(vertices.size());
@@ -77,10 +99,13 @@ class Collapser {
  private:
   // Near the origin, so that squares keep their digits.
   Vec3d at(std::uint32_t v) const {
-    return {static_cast<double>(vertices_[v].x) - middle_.x, static_cast<double>(vertices_[v].y) - middle_.y, static_cast<double>(vertices_[v].z) - middle_.z};
+    return {static_cast<double>(vertices_[v].x) - middle_.x, static_cast<double>(vertices_[v].y) - middle_.y,
+            static_cast<double>(vertices_[v].z) - middle_.z};
   }
   static Vec3d minus_d(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  static Vec3d cross_d(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+  static Vec3d cross_d(const Vec3d& a, const Vec3d& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
   static double dot_d(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
   void add_quadrics() {
@@ -103,7 +128,8 @@ class Collapser {
     const double l = std::sqrt(dot_d(n, n));
     if (!(l > 0)) return;
     n = {n.x / l, n.y / l, n.z / l};
-    for (const std::uint32_t v : {from, to}) quadrics_[v].add_plane(n, -dot_d(n, at(from)), kBorderWeight * dot_d(along, along));
+    for (const std::uint32_t v : {from, to})
+      quadrics_[v].add_plane(n, -dot_d(n, at(from)), kBorderWeight * dot_d(along, along));
   }
 
   void mark_border() {
@@ -117,7 +143,8 @@ class Collapser {
     Quadric sum = quadrics_[gone];
     sum.add(quadrics_[kept]);
     const double square = std::max(sum.at(at(kept)), 0.0) / std::max(sum.weight, 1e-12);
-    return static_cast<float>(square) + kLengthWeight * mesh::squared_distance(vertices_[gone], vertices_[kept]);
+    return static_cast<float>(square) +
+           kLengthWeight * mesh::squared_distance(vertices_[gone], vertices_[kept]);
   }
 
   // Each edge once, in its cheaper direction.
@@ -138,8 +165,12 @@ class Collapser {
   }
 
   std::size_t run_pass(std::size_t wanted) {
-    const std::size_t tried = std::min(candidates_.size(), std::max(candidates_.size() / kTriedShare, std::size_t{100}));
-    std::nth_element(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(tried == candidates_.size() ? 0 : tried), candidates_.end());
+    const std::size_t tried =
+        std::min(candidates_.size(), std::max(candidates_.size() / kTriedShare, std::size_t{100}));
+    std::nth_element(
+        candidates_.begin(),
+        candidates_.begin() + static_cast<std::ptrdiff_t>(tried == candidates_.size() ? 0 : tried),
+        candidates_.end());
     std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(tried));
     const std::size_t cheap = run(0, tried, wanted);
     if (cheap > 0) return cheap;
@@ -152,7 +183,8 @@ class Collapser {
     for (std::size_t i = from; i < to && gone < wanted; ++i) {
       const Candidate& c = candidates_[i];
       const Ring of_gone = index_.ring(c.gone), of_kept = index_.ring(c.kept);
-      if (!index_.may_collapse(of_gone, of_kept, c.gone, c.kept) || !keeps_shape(of_gone, c.gone, c.kept)) continue;
+      if (!index_.may_collapse(of_gone, of_kept, c.gone, c.kept) || !keeps_shape(of_gone, c.gone, c.kept))
+        continue;
       gone += border_[c.gone] ? 1 : 2;
       index_.collapse(of_gone, c.gone, c.kept);
       quadrics_[c.kept].add(quadrics_[c.gone]);
@@ -174,8 +206,12 @@ class Collapser {
     return true;
   }
 
-  Vec3f normal(const Triangle& t) const { return cross(minus(vertices_[t[1]], vertices_[t[0]]), minus(vertices_[t[2]], vertices_[t[0]])); }
-  float smallest(const Triangle& t) const { return smallest_angle_deg(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]); }
+  Vec3f normal(const Triangle& t) const {
+    return cross(minus(vertices_[t[1]], vertices_[t[0]]), minus(vertices_[t[2]], vertices_[t[0]]));
+  }
+  float smallest(const Triangle& t) const {
+    return smallest_angle_deg(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
+  }
 
   std::span<const Vec3f> vertices_;
   std::pmr::vector<Triangle>& triangles_;
@@ -189,8 +225,8 @@ class Collapser {
 
 }  // namespace
 
-void collapse_edges(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, std::size_t most, std::span<const std::uint8_t> fixed,
-                    std::pmr::memory_resource* memory) {
+void collapse_edges(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, std::size_t most,
+                    std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory) {
   if (triangles.empty()) return;
   Collapser(vertices, triangles, fixed, memory).collapse(most);
 }

@@ -24,7 +24,7 @@ namespace relievo::pipeline {
 // Shrinks `triangles`, one manifold surface, to at most `most`, or as far as it can; vertices may be left
 // without any. Those that are `fixed` (one byte a vertex, or empty) keep all their triangles' corners.
 // Throws std::bad_alloc when `memory` is used up.
-void collapse_edges(std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles, std::size_t most,
-                    std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory);
+void collapse_edges(std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles,
+                    std::size_t most, std::span<const std::uint8_t> fixed, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -19,7 +19,8 @@ constexpr double kMoreEachTry = 2;
 // Corners that share vertex and texture coordinate share one entry. What has several entries lies on a
 // seam and stays, with all that it has.
 struct Entries {
-  explicit Entries(std::pmr::memory_resource* memory) : vertex(memory), uv(memory), at_mm(memory), seam(memory), triangles(memory) {}
+  explicit Entries(std::pmr::memory_resource* memory)
+      : vertex(memory), uv(memory), at_mm(memory), seam(memory), triangles(memory) {}
   std::pmr::vector<std::uint32_t> vertex;
   std::pmr::vector<Vec2f> uv;
   std::pmr::vector<Vec3f> at_mm;
@@ -30,15 +31,17 @@ struct Entries {
 Entries split_at_seams(const FaceModel& model, std::pmr::memory_resource* memory) {
   const auto& triangles = model.mesh.triangles;
   Entries entries(memory);
-  std::pmr::vector<std::uint32_t> first(model.mesh.vertices_mm.size(), kUnused, memory);  // of a vertex's entries ...
-  std::pmr::vector<std::uint32_t> next(memory);                                           // ... and the one after each
+  std::pmr::vector<std::uint32_t> first(model.mesh.vertices_mm.size(), kUnused,
+                                        memory);  // of a vertex's entries ...
+  std::pmr::vector<std::uint32_t> next(memory);   // ... and the one after each
   entries.triangles.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = triangles[t][k];
       const Vec2f uv = model.texture.uv.empty() ? Vec2f{} : model.texture.uv[3 * t + k];
       std::uint32_t entry = first[v];
-      while (entry != kUnused && !(entries.uv[entry].x == uv.x && entries.uv[entry].y == uv.y)) entry = next[entry];
+      while (entry != kUnused && !(entries.uv[entry].x == uv.x && entries.uv[entry].y == uv.y))
+        entry = next[entry];
       if (entry == kUnused) {
         entry = static_cast<std::uint32_t>(entries.vertex.size());
         entries.vertex.push_back(v);
@@ -54,8 +57,8 @@ Entries split_at_seams(const FaceModel& model, std::pmr::memory_resource* memory
 }
 
 // `model` with these triangles alone, and the vertices they use.
-void take_over(const FaceModel& model, const Entries& entries, const std::pmr::vector<Triangle>& triangles, FaceModel& lighter,
-               std::pmr::memory_resource* memory) {
+void take_over(const FaceModel& model, const Entries& entries, const std::pmr::vector<Triangle>& triangles,
+               FaceModel& lighter, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> place(model.mesh.vertices_mm.size(), kUnused, memory);
   for (const Triangle& t : triangles)
     for (const std::uint32_t entry : t) place[entries.vertex[entry]] = 0;
@@ -68,7 +71,8 @@ void take_over(const FaceModel& model, const Entries& entries, const std::pmr::v
     mesh.normals[used] = model.mesh.normals[v];
     mesh.sigma_mm[used] = model.mesh.sigma_mm[v];
     mesh.measured[used] = model.mesh.measured[v];
-    if (coloured) std::copy_n(&model.texture.vertex_rgb[3 * v], 3, &lighter.texture.vertex_rgb[std::size_t{3} * used]);
+    if (coloured)
+      std::copy_n(&model.texture.vertex_rgb[3 * v], 3, &lighter.texture.vertex_rgb[std::size_t{3} * used]);
     place[v] = used++;
   }
   mesh.vertices_mm.resize(used);
@@ -88,21 +92,26 @@ void take_over(const FaceModel& model, const Entries& entries, const std::pmr::v
 bool hangs_together(const FaceModel& model) {
   const FaceMesh& mesh = model.mesh;
   const std::size_t n = mesh.vertices_mm.size();
-  if (mesh.normals.size() != n || mesh.sigma_mm.size() != n || mesh.measured.size() != n || mesh.triangles.empty()) return false;
+  if (mesh.normals.size() != n || mesh.sigma_mm.size() != n || mesh.measured.size() != n ||
+      mesh.triangles.empty())
+    return false;
   if (!model.texture.uv.empty() && model.texture.uv.size() != 3 * mesh.triangles.size()) return false;
   if (!model.texture.vertex_rgb.empty() && model.texture.vertex_rgb.size() != 3 * n) return false;
-  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
 }
 
 }  // namespace
 
 Result<void> DetailOptions::check() const {
-  if (triangles < 100 || triangles > 10'000'000) return Error{Errc::InvalidInput, "a level of detail has 100 to 10000000 triangles"}.at("lod");
+  if (triangles < 100 || triangles > 10'000'000)
+    return Error{Errc::InvalidInput, "a level of detail has 100 to 10000000 triangles"}.at("lod");
   if (!(max_error_mm > 0)) return Error{Errc::InvalidInput, "the largest error must be above 0 mm"}.at("lod");
   return {};
 }
 
-Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& options, std::pmr::memory_resource* memory) {
+Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& options,
+                             std::pmr::memory_resource* memory) {
   RELIEVO_TRY(options.check());
   if (!hangs_together(model)) return Error{Errc::InvalidInput, "the model does not hang together"}.at("lod");
   LighterModel lighter(memory);
@@ -113,7 +122,8 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
     collapse_edges(entries.at_mm, triangles, wanted, entries.seam, memory);
     lighter.model = model;  // all that stays, whatever else a model may carry
     take_over(model, entries, triangles, lighter.model, memory);
-    const SurfaceDistance distance = distance_to_surface(model.mesh.vertices_mm, lighter.model.mesh.vertices_mm, lighter.model.mesh.triangles, memory);
+    const SurfaceDistance distance = distance_to_surface(
+        model.mesh.vertices_mm, lighter.model.mesh.vertices_mm, lighter.model.mesh.triangles, memory);
     lighter.rms_error_mm = distance.rms_mm;
     lighter.max_error_mm = distance.max_mm;
     if (distance.max_mm <= options.max_error_mm) return lighter;

@@ -18,8 +18,8 @@
 namespace relievo::pipeline {
 
 struct DetailOptions {
-  int triangles = 40'000;      // as many as that, where the error allows it
-  double max_error_mm = 0.5;   // of any vertex of the model to the lighter surface
+  int triangles = 40'000;     // as many as that, where the error allows it
+  double max_error_mm = 0.5;  // of any vertex of the model to the lighter surface
 
   Result<void> check() const;
 };
@@ -27,12 +27,13 @@ struct DetailOptions {
 struct LighterModel {
   explicit LighterModel(std::pmr::memory_resource* memory) : model(memory) {}
   FaceModel model;
-  double rms_error_mm = 0;     // of the model's vertices to the lighter surface
+  double rms_error_mm = 0;  // of the model's vertices to the lighter surface
   double max_error_mm = 0;
 };
 
 // One that is light enough already comes back as it is. Errors: InvalidInput (options; a model that does not
 // hang together). Throws std::bad_alloc when `memory` is used up.
-Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& options, std::pmr::memory_resource* memory);
+Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& options,
+                             std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -24,9 +24,13 @@ class Mender {
  public:
   Mender(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, const SliverLimits& limits,
          std::pmr::memory_resource* memory)
-      : vertices_(vertices), triangles_(triangles), bar_(limits.smallest_angle_deg),
-        cosine_of_bar_(std::cos(bar_ * std::numbers::pi_v<float> / 180)), min_cosine_(cosine_of_slope(limits.max_slope)),
-        index_(vertices.size(), triangles, memory), slivers_(memory) {
+      : vertices_(vertices),
+        triangles_(triangles),
+        bar_(limits.smallest_angle_deg),
+        cosine_of_bar_(std::cos(bar_ * std::numbers::pi_v<float> / 180)),
+        min_cosine_(cosine_of_slope(limits.max_slope)),
+        index_(vertices.size(), triangles, memory),
+        slivers_(memory) {
     slivers_.reserve(triangles.size());
     find_slivers();
   }
@@ -45,7 +49,9 @@ class Mender {
   }
 
  private:
-  float angle(const Triangle& t) const { return smallest_angle_deg(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]); }
+  float angle(const Triangle& t) const {
+    return smallest_angle_deg(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
+  }
 
   void find_slivers() {
     slivers_.clear();
@@ -70,10 +76,13 @@ class Mender {
     for (const std::uint32_t v : corners)
       if (v == kGoneVertex || index_.touched(v)) return false;
     std::array<std::size_t, 3> by_length{0, 1, 2};  // edge k runs from corner k to the next
-    const auto squared = [&](std::size_t k) { return mesh::squared_distance(vertices_[corners[k]], vertices_[corners[(k + 1) % 3]]); };
-    std::sort(by_length.begin(), by_length.end(), [&](std::size_t i, std::size_t j) { return squared(i) < squared(j); });
-    return flip(t, by_length[2]) || collapse(t, by_length[0]) || drop(t, by_length[2]) || collapse(t, by_length[1]) ||
-           drop(t, by_length[1]) || drop(t, by_length[0]) || take_corner_out(t);
+    const auto squared = [&](std::size_t k) {
+      return mesh::squared_distance(vertices_[corners[k]], vertices_[corners[(k + 1) % 3]]);
+    };
+    std::sort(by_length.begin(), by_length.end(),
+              [&](std::size_t i, std::size_t j) { return squared(i) < squared(j); });
+    return flip(t, by_length[2]) || collapse(t, by_length[0]) || drop(t, by_length[2]) ||
+           collapse(t, by_length[1]) || drop(t, by_length[1]) || drop(t, by_length[0]) || take_corner_out(t);
   }
 
   // What nothing helps goes, where that opens no hole.
@@ -81,7 +90,8 @@ class Mender {
     index_.build();
     const auto hopeless = [this](std::uint32_t t) {
       const Triangle& corners = triangles_[t];
-      return std::any_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return index_.on_border(v); });
+      return std::any_of(corners.begin(), corners.end(),
+                         [this](std::uint32_t v) { return index_.on_border(v); });
     };
     const auto first_kept = std::partition(slivers_.begin(), slivers_.end(), hopeless);
     for (auto t = slivers_.begin(); t != first_kept; ++t) triangles_[*t].fill(kGoneVertex);
@@ -141,15 +151,19 @@ class Mender {
   bool drop(std::uint32_t t, std::size_t k) {
     const Triangle corners = triangles_[t];
     int edges = 0;
-    for (std::size_t i = 0; i < 3; ++i) edges += index_.across(corners[i], corners[(i + 1) % 3]) != kGoneVertex;
-    const bool inwards = index_.across(corners[k], corners[(k + 1) % 3]) == kGoneVertex && !index_.on_border(corners[(k + 2) % 3]);
+    for (std::size_t i = 0; i < 3; ++i)
+      edges += index_.across(corners[i], corners[(i + 1) % 3]) != kGoneVertex;
+    const bool inwards = index_.across(corners[k], corners[(k + 1) % 3]) == kGoneVertex &&
+                         !index_.on_border(corners[(k + 2) % 3]);
     if (edges != 1 && !(edges == 2 && inwards)) return false;
     triangles_[t].fill(kGoneVertex);
     for (const std::uint32_t v : corners) index_.touch(v);
     return true;
   }
 
-  bool stands(const Triangle& t) const { return facing(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], min_cosine_); }
+  bool stands(const Triangle& t) const {
+    return facing(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], min_cosine_);
+  }
   static std::uint32_t third(const Triangle& t, std::uint32_t a, std::uint32_t b) {
     return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
   }
@@ -170,8 +184,8 @@ float smallest_angle_deg(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return std::min({at(a, b, c), at(b, c, a), at(c, a, b)}) * 180 / std::numbers::pi_v<float>;
 }
 
-std::size_t mend_slivers(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, const SliverLimits& limits,
-                         std::pmr::memory_resource* scratch) {
+std::size_t mend_slivers(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles,
+                         const SliverLimits& limits, std::pmr::memory_resource* scratch) {
   return Mender(vertices, triangles, limits, scratch).mend();
 }
 

@@ -23,14 +23,15 @@ inline constexpr float kSmallestAngleDeg = 10;
 
 struct SliverLimits {
   float smallest_angle_deg = kSmallestAngleDeg;
-  float max_slope = 0;   // tangent of the steepest angle of incidence
+  float max_slope = 0;  // tangent of the steepest angle of incidence
 };
 
 // `triangles` must be one manifold surface. Vertices may be left without triangles. Returns how many slivers
 // nothing helped; those that touched the border are gone, and what they held together may have come apart:
-// above 0 the surface must be cleaned again (keep_one_surface). Throws std::bad_alloc when `scratch` is used up.
-std::size_t mend_slivers(std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles, const SliverLimits& limits,
-                         std::pmr::memory_resource* scratch);
+// above 0 the surface must be cleaned again (keep_one_surface). Throws std::bad_alloc when `scratch` is used
+// up.
+std::size_t mend_slivers(std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles,
+                         const SliverLimits& limits, std::pmr::memory_resource* scratch);
 
 // The smallest of the three angles, degrees.
 float smallest_angle_deg(const Vec3f& a, const Vec3f& b, const Vec3f& c);

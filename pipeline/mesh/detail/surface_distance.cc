@@ -27,7 +27,8 @@ float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
 // Cells over x/z, y/z, each with the triangles that touch it.
 class CellIndex {
  public:
-  CellIndex(std::span<const Vec3f> vertices, std::span<const Triangle> triangles, std::pmr::memory_resource* memory)
+  CellIndex(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
+            std::pmr::memory_resource* memory)
       : vertices_(vertices), triangles_(triangles), first_(memory), members_(memory) {
     float right = -std::numeric_limits<float>::max();
     float bottom = right;
@@ -52,10 +53,13 @@ class CellIndex {
     const int most = std::max({std::abs(c), std::abs(c - columns_), std::abs(r), std::abs(r - rows_)}) + 1;
     for (int ring = 0; ring <= most; ++ring) {
       // What lies beyond this ring is further away across the line of sight alone.
-      const double beyond = static_cast<double>(ring - 1) * static_cast<double>(side_ * kObliquity * std::min(nearest_mm_, p.z));
+      const double beyond = static_cast<double>(ring - 1) *
+                            static_cast<double>(side_ * kObliquity * std::min(nearest_mm_, p.z));
       if (ring > 0 && beyond > 0 && best <= beyond * beyond) break;
       for (int y = r - ring; y <= r + ring; ++y)
-        for (int x = c - ring; x <= c + ring; x += (y == r - ring || y == r + ring || ring == 0) ? 1 : 2 * ring) look(x, y, p, best);
+        for (int x = c - ring; x <= c + ring;
+             x += (y == r - ring || y == r + ring || ring == 0) ? 1 : 2 * ring)
+          look(x, y, p, best);
     }
     return best;
   }
@@ -73,7 +77,9 @@ class CellIndex {
       u = std::min(u, vertices_[v].y / vertices_[v].z);
       d = std::max(d, vertices_[v].y / vertices_[v].z);
     }
-    const auto cell = [this](float at, float from, int count) { return std::clamp(static_cast<int>((at - from) / side_), 0, count - 1); };
+    const auto cell = [this](float at, float from, int count) {
+      return std::clamp(static_cast<int>((at - from) / side_), 0, count - 1);
+    };
     for (int y = cell(u, top_, rows_); y <= cell(d, top_, rows_); ++y)
       for (int x = cell(l, left_, columns_); x <= cell(r, left_, columns_); ++x)
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
@@ -92,10 +98,12 @@ class CellIndex {
 
   void look(int x, int y, const Vec3f& p, double& best) const {
     if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
-    const std::size_t k = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+    const std::size_t k =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     for (std::uint32_t i = first_[k]; i < first_[k + 1]; ++i) {
       const Triangle& t = triangles_[members_[i]];
-      best = std::min(best, squared_distance_to_triangle(p, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]));
+      best =
+          std::min(best, squared_distance_to_triangle(p, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]));
     }
   }
 
@@ -114,17 +122,19 @@ double squared_distance_to_triangle(const Vec3f& p, const Vec3f& a, const Vec3f&
   const Vec3f n = cross(minus(b, a), minus(c, a));
   const float square = dot(n, n);
   // Above the triangle where it lies on the inner side of all three edges.
-  const bool inside = square > 0 && dot(cross(minus(b, a), minus(p, a)), n) >= 0 && dot(cross(minus(c, b), minus(p, b)), n) >= 0 &&
+  const bool inside = square > 0 && dot(cross(minus(b, a), minus(p, a)), n) >= 0 &&
+                      dot(cross(minus(c, b), minus(p, b)), n) >= 0 &&
                       dot(cross(minus(a, c), minus(p, c)), n) >= 0;
   if (inside) {
     const double height = static_cast<double>(dot(minus(p, a), n));
     return height * height / static_cast<double>(square);
   }
-  return static_cast<double>(std::min({squared_to_segment(p, a, b), squared_to_segment(p, b, c), squared_to_segment(p, c, a)}));
+  return static_cast<double>(
+      std::min({squared_to_segment(p, a, b), squared_to_segment(p, b, c), squared_to_segment(p, c, a)}));
 }
 
-SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
-                                    std::pmr::memory_resource* memory) {
+SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<const Vec3f> vertices,
+                                    std::span<const Triangle> triangles, std::pmr::memory_resource* memory) {
   SurfaceDistance result;
   if (points.empty() || triangles.empty()) return result;
   const CellIndex index(vertices, triangles, memory);

@@ -18,13 +18,15 @@ using Eigen::Vector3d;
 // The core of a face: what cameras see of it however it turns. Beside the nose and below the eyes; the tip.
 constexpr double kCoreHalf = 50, kCoreFrom = -30, kCoreTo = 78;
 constexpr double kCoreCell = 1.25;
-constexpr double kTipReach = 11;    // mm around the tip: both wings' flanks belong to it
-constexpr double kRidgeShare = 0.2; // of the vote of the nose's sides: highlights lie on the ridge
-constexpr double kTipScale = 1.0;   // mm: what lies further off the paraboloid counts little
+constexpr double kTipReach = 11;     // mm around the tip: both wings' flanks belong to it
+constexpr double kRidgeShare = 0.2;  // of the vote of the nose's sides: highlights lie on the ridge
+constexpr double kTipScale = 1.0;    // mm: what lies further off the paraboloid counts little
 
 // A window beside or above the nose: its height and lean at its middle, by a quadratic through what was
 // seen of it, so that a part that is missing shifts nothing.
-struct Window { double from_x, to_x, from_y, to_y; };
+struct Window {
+  double from_x, to_x, from_y, to_y;
+};
 // Of a head held upright (nasion above pogonion, as in the Frankfurt plane): 10 +- 3 degrees.
 constexpr double kBrowBeforeCheeks = 10 * std::numbers::pi / 180;
 constexpr Window kCheek{18, 46, -22, 16}, kBrow{0, 30, 50, 76};
@@ -53,7 +55,8 @@ bool height_at_middle(const FaceRelief& core, const Window& w, double& z_mm) {
 double nod_of(const FaceRelief& core) {
   double cheek = 0, brow = 0;
   if (!height_at_middle(core, kCheek, cheek) || !height_at_middle(core, kBrow, brow)) return 0;
-  return std::atan2(brow - cheek, 0.5 * (kBrow.from_y + kBrow.to_y - kCheek.from_y - kCheek.to_y)) - kBrowBeforeCheeks;
+  return std::atan2(brow - cheek, 0.5 * (kBrow.from_y + kBrow.to_y - kCheek.from_y - kCheek.to_y)) -
+         kBrowBeforeCheeks;
 }
 
 // Foremost point of a paraboloid, upright in x, through the surface around the foremost place near the
@@ -62,7 +65,9 @@ Vector3d tip_of(const FaceRelief& core) {
   Vector3d top(0, 0, -1e9);
   for (int r = 0; r < core.rows(); ++r)
     for (int c = 0; c < core.columns(); ++c)
-      if (std::abs(core.x_mm(c)) < 4 && std::abs(core.y_mm(r)) < 16 && static_cast<double>(core.z(c, r)) > top.z()) top = {0, core.y_mm(r), static_cast<double>(core.z(c, r))};
+      if (std::abs(core.x_mm(c)) < 4 && std::abs(core.y_mm(r)) < 16 &&
+          static_cast<double>(core.z(c, r)) > top.z())
+        top = {0, core.y_mm(r), static_cast<double>(core.z(c, r))};
   if (top.z() < -1e8) return Vector3d::Zero();
   Eigen::Vector4d k = Eigen::Vector4d::Zero();
   for (int turn = 0; turn < 12; ++turn) {
@@ -70,7 +75,8 @@ Vector3d tip_of(const FaceRelief& core) {
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
     for (int r = 0; r < core.rows(); ++r)
       for (int c = 0; c < core.columns(); ++c) {
-        const double x = core.x_mm(c), y = core.y_mm(r) - top.y(), z = static_cast<double>(core.z(c, r)) - top.z();
+        const double x = core.x_mm(c), y = core.y_mm(r) - top.y(),
+                     z = static_cast<double>(core.z(c, r)) - top.z();
         const double q = (x * x + y * y) / (kTipReach * kTipReach);
         if (!(q < 1) || !(std::abs(z) < 12)) continue;
         const Eigen::Vector4d row(1, y, y * y, x * x);

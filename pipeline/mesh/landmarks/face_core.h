@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The core of a face: what cameras see of it however it turns, beside the nose, below and above the eyes. From it, how
-// the face nods and where the tip of its nose lies, both robust to what highlights pull away and to a side that is hidden.
-// Memory: scratch only, given back. No errors but std::bad_alloc; thread: any.
+// The core of a face: what cameras see of it however it turns, beside the nose, below and above the eyes.
+// From it, how the face nods and where the tip of its nose lies, both robust to what highlights pull away and
+// to a side that is hidden. Memory: scratch only, given back. No errors but std::bad_alloc; thread: any.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 namespace relievo::pipeline {
 
 struct FaceCore {
-  double nod_rad = 0;                              // how much brow and cheeks lean back beyond an upright head's
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();   // mm, on the plane of symmetry, x = 0
+  double nod_rad = 0;  // how much brow and cheeks lean back beyond an upright head's
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  // mm, on the plane of symmetry, x = 0
 };
 
 // `head_from_camera`: a frame near the head's, x across the face, z out of it, the origin near the tip.

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kCellMm = 0.75;
 constexpr double kSmoothMm = 1.0;
-constexpr double kBelowMm = 105, kAboveMm = 90;    // of the tip: chin to hairline
-constexpr double kTipReachMm = 16;                 // the frame's origin is that near to the tip
-constexpr double kNasionFrom = 18, kNasionTo = 62; // above the tip; Farkas: n to prn along y 35 .. 55
-constexpr double kHullTop = 75;                    // the hull's other foot: brow and forehead
-constexpr double kNasionDepth = 0.8;               // below the hull: less is no root of a nose
-constexpr double kLipFoot = 38;                    // the upper lip ends above that, below the tip
+constexpr double kBelowMm = 105, kAboveMm = 90;     // of the tip: chin to hairline
+constexpr double kTipReachMm = 16;                  // the frame's origin is that near to the tip
+constexpr double kNasionFrom = 18, kNasionTo = 62;  // above the tip; Farkas: n to prn along y 35 .. 55
+constexpr double kHullTop = 75;                     // the hull's other foot: brow and forehead
+constexpr double kNasionDepth = 0.8;                // below the hull: less is no root of a nose
+constexpr double kLipFoot = 38;                     // the upper lip ends above that, below the tip
 constexpr double kSubnasaleDepth = 2.0;
-constexpr double kChinFrom = -48, kChinTo = -98;   // sublabiale to the lowest chins, from the tip
-constexpr double kChinRise = 0.3;                  // of the chin out of the fold above it
+constexpr double kChinFrom = -48, kChinTo = -98;  // sublabiale to the lowest chins, from the tip
+constexpr double kChinRise = 0.3;                 // of the chin out of the fold above it
 
 using Profile = std::span<const ProfilePoint>;
 
@@ -30,7 +30,8 @@ Profile part(Profile profile, double from_mm, double to_mm) {
   return {begin, end};
 }
 
-// The extreme of a parabola through a point and what lies within 3 mm of it; the point itself where that bends the other way.
+// The extreme of a parabola through a point and what lies within 3 mm of it; the point itself where that
+// bends the other way.
 ProfilePoint extreme_near(Profile profile, const ProfilePoint& at, double sign) {
   double s[5] = {0, 0, 0, 0, 0}, t[3] = {0, 0, 0};
   for (const ProfilePoint& p : part(profile, at.y_mm - 3.1, at.y_mm + 3.1)) {
@@ -43,7 +44,8 @@ ProfilePoint extreme_near(Profile profile, const ProfilePoint& at, double sign) 
   }
   const double m[3][4] = {{s[0], s[1], s[2], t[0]}, {s[1], s[2], s[3], t[1]}, {s[2], s[3], s[4], t[2]}};
   const auto det = [&](int a, int b, int c) {
-    return m[0][a] * (m[1][b] * m[2][c] - m[1][c] * m[2][b]) - m[0][b] * (m[1][a] * m[2][c] - m[1][c] * m[2][a]) +
+    return m[0][a] * (m[1][b] * m[2][c] - m[1][c] * m[2][b]) -
+           m[0][b] * (m[1][a] * m[2][c] - m[1][c] * m[2][a]) +
            m[0][c] * (m[1][a] * m[2][b] - m[1][b] * m[2][a]);
   };
   const double whole = det(0, 1, 2);
@@ -58,13 +60,18 @@ ProfilePoint extreme_near(Profile profile, const ProfilePoint& at, double sign) 
 std::optional<ProfilePoint> extreme(Profile profile, double from_mm, double to_mm, double sign) {
   const Profile range = part(profile, from_mm, to_mm);
   if (range.size() < 6) return std::nullopt;
-  const auto best = std::max_element(range.begin(), range.end(), [&](const ProfilePoint& a, const ProfilePoint& b) { return sign * a.z_mm < sign * b.z_mm; });
+  const auto best = std::max_element(
+      range.begin(), range.end(),
+      [&](const ProfilePoint& a, const ProfilePoint& b) { return sign * a.z_mm < sign * b.z_mm; });
   if (best == range.begin() || best + 1 == range.end()) return std::nullopt;
   return extreme_near(profile, *best, sign);
 }
 
 // What lies deepest below the upper hull of [from, to], of what lies in [least, most].
-struct Deepest { ProfilePoint at; double depth_mm = 0; };
+struct Deepest {
+  ProfilePoint at;
+  double depth_mm = 0;
+};
 Deepest deepest_below_hull(Profile profile, double from_mm, double to_mm, double least_mm, double most_mm) {
   const Profile range = part(profile, from_mm, to_mm);
   Deepest deepest;
@@ -89,7 +96,8 @@ Deepest deepest_below_hull(Profile profile, double from_mm, double to_mm, double
 }
 
 std::optional<ProfilePoint> find_nasion(Profile profile, const ProfilePoint& tip) {
-  const Deepest root = deepest_below_hull(profile, tip.y_mm, tip.y_mm + kHullTop, tip.y_mm + kNasionFrom, tip.y_mm + kNasionTo);
+  const Deepest root = deepest_below_hull(profile, tip.y_mm, tip.y_mm + kHullTop, tip.y_mm + kNasionFrom,
+                                          tip.y_mm + kNasionTo);
   if (root.depth_mm < kNasionDepth) return std::nullopt;
   // Its depth along z, where that has an extreme: it hardly changes when the head nods.
   const auto lowest = extreme(profile, root.at.y_mm - 10, root.at.y_mm + 10, -1);
@@ -107,7 +115,8 @@ std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) 
 
 }  // namespace
 
-std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, std::pmr::memory_resource* memory) {
+std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh,
+                                          std::pmr::memory_resource* memory) {
   constexpr double kHalfWidth = 6 * kCellMm;
   FaceRelief band({-kHalfWidth, kHalfWidth, -kBelowMm, kAboveMm, kCellMm}, memory);
   band.add(mesh, frame_from_mesh);
@@ -116,7 +125,8 @@ std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTrans
   std::pmr::vector<ProfilePoint> profile(memory);
   profile.reserve(static_cast<std::size_t>(band.rows()));
   for (int row = 0; row < band.rows(); ++row)
-    if (const float z = band.z(band.columns() / 2, row); !std::isnan(z)) profile.push_back({band.y_mm(row), static_cast<double>(z)});
+    if (const float z = band.z(band.columns() / 2, row); !std::isnan(z))
+      profile.push_back({band.y_mm(row), static_cast<double>(z)});
   return profile;
 }
 
@@ -126,7 +136,8 @@ ProfileMarks find_profile_marks(Profile profile) {
   if (!marks.tip) return marks;
   marks.nasion = find_nasion(profile, *marks.tip);
   marks.chin = find_chin(profile, *marks.tip);
-  const Deepest base = deepest_below_hull(profile, marks.tip->y_mm - kLipFoot, marks.tip->y_mm, marks.tip->y_mm - kLipFoot, marks.tip->y_mm - 3);
+  const Deepest base = deepest_below_hull(profile, marks.tip->y_mm - kLipFoot, marks.tip->y_mm,
+                                          marks.tip->y_mm - kLipFoot, marks.tip->y_mm - 3);
   if (base.depth_mm >= kSubnasaleDepth) marks.subnasale = base.at;
   return marks;
 }

@@ -22,7 +22,8 @@ struct ProfilePoint {
 };
 
 // From the chin upwards; gaps are left out. Both sides of the nose count, or the one that was seen.
-std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, std::pmr::memory_resource* memory);
+std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh,
+                                          std::pmr::memory_resource* memory);
 
 struct ProfileMarks {
   std::optional<ProfilePoint> tip, nasion, subnasale, chin;

@@ -23,7 +23,8 @@ FaceRelief::FaceRelief(const ReliefBox& box, std::pmr::memory_resource* memory) 
 double FaceRelief::at(double x_mm, double y_mm) const {
   const double c = (x_mm - box_.left_mm) / box_.cell_mm;
   const double r = (y_mm - box_.bottom_mm) / box_.cell_mm;
-  if (!(c >= 0 && r >= 0 && c <= columns_ - 1 && r <= rows_ - 1)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(c >= 0 && r >= 0 && c <= columns_ - 1 && r <= rows_ - 1))
+    return std::numeric_limits<double>::quiet_NaN();
   const int c0 = std::min(static_cast<int>(c), columns_ - 2);
   const int r0 = std::min(static_cast<int>(r), rows_ - 2);
   const double u = c - c0;
@@ -56,14 +57,18 @@ void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too) {
   const auto cells = [&](std::uint32_t v) {
     const Vec3f& m = mesh.vertices_mm[v];
-    const Vec3d p = apply(frame_from_mesh, {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)});
-    return Vec3f{static_cast<float>((p.x - box_.left_mm) / box_.cell_mm), static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm),
-                 static_cast<float>(p.z)};
+    const Vec3d p = apply(frame_from_mesh,
+                          {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)});
+    return Vec3f{static_cast<float>((p.x - box_.left_mm) / box_.cell_mm),
+                 static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm), static_cast<float>(p.z)};
   };
   for (const auto& t : mesh.triangles) {
-    if (!completed_too && (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0)) continue;
+    if (!completed_too && (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0))
+      continue;
     const Vec3f a = cells(t[0]);
-    if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) || a.y > static_cast<float>(rows_ + 20)) continue;
+    if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) ||
+        a.y > static_cast<float>(rows_ + 20))
+      continue;
     add_triangle(a, cells(t[1]), cells(t[2]));
   }
 }
@@ -78,7 +83,8 @@ void FaceRelief::symmetrise() {
     }
 }
 
-void FaceRelief::smooth_along(bool rows, const std::pmr::vector<float>& kernel, std::pmr::vector<float>& line) {
+void FaceRelief::smooth_along(bool rows, const std::pmr::vector<float>& kernel,
+                              std::pmr::vector<float>& line) {
   const int lines = rows ? rows_ : columns_;
   const int length = rows ? columns_ : rows_;
   const int reach = static_cast<int>(kernel.size()) - 1;

@@ -28,11 +28,14 @@ class FaceRelief {
   double y_mm(int row) const { return box_.bottom_mm + row * box_.cell_mm; }
   float& z(int column, int row) { return z_[index(column, row)]; }
   float z(int column, int row) const { return z_[index(column, row)]; }
-  bool inside(int column, int row) const { return column >= 0 && row >= 0 && column < columns_ && row < rows_; }
+  bool inside(int column, int row) const {
+    return column >= 0 && row >= 0 && column < columns_ && row < rows_;
+  }
   // Between cells; NaN where one of the four around has nothing.
   double at(double x_mm, double y_mm) const;
 
-  // Lays the triangles whose three corners were measured, or all, into it. The box's left is its right, mirrored.
+  // Lays the triangles whose three corners were measured, or all, into it. The box's left is its right,
+  // mirrored.
   void add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too = false);
   // Both halves become their mean, or the one there is.
   void symmetrise();
@@ -41,7 +44,8 @@ class FaceRelief {
 
  private:
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
   void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
   void smooth_along(bool rows, const std::pmr::vector<float>& kernel, std::pmr::vector<float>& line);

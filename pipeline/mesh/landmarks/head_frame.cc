@@ -34,7 +34,9 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
     const Vector3d a = to_eigen(mesh.vertices_mm[t[0]]);
     return 0.5 * (to_eigen(mesh.vertices_mm[t[1]]) - a).cross(to_eigen(mesh.vertices_mm[t[2]]) - a).norm();
   };
-  const auto counts = [&](const auto& t) { return mesh.measured[t[0]] && mesh.measured[t[1]] && mesh.measured[t[2]]; };
+  const auto counts = [&](const auto& t) {
+    return mesh.measured[t[0]] && mesh.measured[t[1]] && mesh.measured[t[2]];
+  };
   for (const auto& t : mesh.triangles)
     if (counts(t)) total += area(t);
   Points points(&scratch);
@@ -59,12 +61,13 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
 
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
-constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
-constexpr double kCostOfOneSide = 2;        // mm: a chin may stand out further than a nose, seen from the neck
-constexpr double kMostOfANose = 16;         // mm: what stands out further is no better nose, but hair
+constexpr double kWorthOfProtrusion =
+    0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
+constexpr double kCostOfOneSide = 2;  // mm: a chin may stand out further than a nose, seen from the neck
+constexpr double kMostOfANose = 16;   // mm: what stands out further is no better nose, but hair
 
-constexpr double kOneNose = 40;             // mm: places of one and the same
-constexpr double kWorthOfTheTip = 1;        // mm of mirror cost
+constexpr double kOneNose = 40;       // mm: places of one and the same
+constexpr double kWorthOfTheTip = 1;  // mm of mirror cost
 
 // Points within half a face of `centre`, still in the frame of `points`.
 Points around(const Points& points, const Vector3d& centre, Arena& scratch) {
@@ -138,10 +141,10 @@ RigidTransform to_transform(const Frame& frame) {
   return t;
 }
 
-// How one-sided the surface around the origin is, 0 as around a nose to 1: a chin has a face above it and next to
-// nothing below, a forehead the other way round. y is up to some tens of degrees.
+// How one-sided the surface around the origin is, 0 as around a nose to 1: a chin has a face above it and
+// next to nothing below, a forehead the other way round. y is up to some tens of degrees.
 double one_sidedness(std::span<const SurfacePoint> points) {
-  constexpr double kBeside = 15;    // mm: the place itself is on neither side
+  constexpr double kBeside = 15;      // mm: the place itself is on neither side
   constexpr double kBalanced = 0.25;  // a nose has at least so much of its face below it, and above
   double above = 0;
   double below = 0;
@@ -155,8 +158,10 @@ double one_sidedness(std::span<const SurfacePoint> points) {
 
 // The frame of the most mirror-like face around one of the places that stand out like a nose: x is
 // final, the origin is near the tip, the nod is a guess.
-Result<Frame> upright_frame(const Points& points, const Vector3d& across, SymmetryPlane& best, StageContext& context) {
-  Error why{Errc::PoorGeometry, "nothing on the surface stands out like a nose: look straight into the cameras"};
+Result<Frame> upright_frame(const Points& points, const Vector3d& across, SymmetryPlane& best,
+                            StageContext& context) {
+  Error why{Errc::PoorGeometry,
+            "nothing on the surface stands out like a nose: look straight into the cameras"};
   double best_score = 1e9;
   Frame frame;
   const NoseCandidates noses = find_nose_candidates(points);
@@ -173,7 +178,9 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
       continue;
     }
     // A nose stands out three times as far as anything else on a head that is mirror-like.
-    const double score = plane->cost_mm - kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose) + kCostOfOneSide * one_sided;
+    const double score = plane->cost_mm -
+                         kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose) +
+                         kCostOfOneSide * one_sided;
     // The bridge of a nose is as good a mirror as its tip, which stands out further and came first.
     const bool same_nose = chosen < i && (noses.best[i].at_mm - noses.best[chosen].at_mm).norm() < kOneNose;
     if (score >= best_score - (same_nose ? kWorthOfTheTip : 0)) continue;
@@ -202,10 +209,13 @@ void turn(Frame& frame, Points& points, double nod_rad) {
   move(frame, points, turned);
 }
 
-FaceCore core_of(const FaceMesh& mesh, const Frame& frame, Arena& scratch) { return face_core(mesh, to_transform(frame), scratch); }
+FaceCore core_of(const FaceMesh& mesh, const Frame& frame, Arena& scratch) {
+  return face_core(mesh, to_transform(frame), scratch);
+}
 
 Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, StageContext& context) {
-  constexpr double kFurthest = 25;  // mm from the candidate: further on lies the chin, where this would walk along a nose that is missing
+  constexpr double kFurthest = 25;  // mm from the candidate: further on lies the chin, where this would walk
+                                    // along a nose that is missing
   const Vector3d start = frame.origin;
   for (int round = 0; round < 8; ++round) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
@@ -236,8 +246,8 @@ Result<void> HeadFrameOptions::check() const {
   return {};
 }
 
-Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options, StageContext& context,
-                                  const Vec3d& across) {
+Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options,
+                                  StageContext& context, const Vec3d& across) {
   RELIEVO_TRY(options.check());
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
   Points points = sample(mesh, options.sample_points, context.scratch);

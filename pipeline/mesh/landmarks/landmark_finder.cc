@@ -10,15 +10,19 @@
 namespace relievo::pipeline {
 namespace {
 
-struct Place { double x = 0, y = 0; };
+struct Place {
+  double x = 0, y = 0;
+};
 
 // Where a pit is looked for: mean and deviation, mm in the head frame, on the person's left.
-struct Expected { double x, y, sigma_x, sigma_y; };
+struct Expected {
+  double x, y, sigma_x, sigma_y;
+};
 
 constexpr double kCellMm = 1, kSmoothMm = 1.5;
-constexpr int kSpan = 2;               // cells between the heights of a second difference
-constexpr double kPitWorth = 25;       // of one unit of bend (1 / mm), against half a squared deviation
-constexpr double kOwnReachMm = 3;      // a side's own pit lies that near the place of both
+constexpr int kSpan = 2;           // cells between the heights of a second difference
+constexpr double kPitWorth = 25;   // of one unit of bend (1 / mm), against half a squared deviation
+constexpr double kOwnReachMm = 3;  // a side's own pit lies that near the place of both
 constexpr double kFissureMm = 30.8, kFissureRiseMm = 1.5;  // Farkas: ex - en
 constexpr double kNasionOverCanthus = 3;                   // sellion lies that much higher than en
 constexpr double kStomionBelowSubnasale = 21;
@@ -29,12 +33,15 @@ constexpr float kInnerEyeSigma = 2.0F, kOuterEyeSigma = 4.0F, kMouthSigma = 3.0F
 
 // The lesser of the two bends of a hollow: positive only where the surface is a pit. 1 / mm.
 double pit(const FaceRelief& relief, int column, int row) {
-  const auto z = [&](int dc, int dr) { return static_cast<double>(relief.z(column + dc * kSpan, row + dr * kSpan)); };
+  const auto z = [&](int dc, int dr) {
+    return static_cast<double>(relief.z(column + dc * kSpan, row + dr * kSpan));
+  };
   const double step = kSpan * kCellMm;
   const double xx = (z(1, 0) - 2 * z(0, 0) + z(-1, 0)) / (step * step);
   const double yy = (z(0, 1) - 2 * z(0, 0) + z(0, -1)) / (step * step);
   const double xy = (z(1, 1) - z(-1, 1) - z(1, -1) + z(-1, -1)) / (4 * step * step);
-  return 0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);  // NaN where something is missing
+  return 0.5 * (xx + yy) -
+         std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);  // NaN where something is missing
 }
 
 // The most pit-like and most expected place within the window.
@@ -56,7 +63,9 @@ bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Place& 
 class Finder {
  public:
   Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch)
-      : camera_from_head_(inverse(head_from_camera)), own_({-62, 62, -78, 62, kCellMm}, &scratch), both_({-62, 62, -78, 62, kCellMm}, &scratch) {
+      : camera_from_head_(inverse(head_from_camera)),
+        own_({-62, 62, -78, 62, kCellMm}, &scratch),
+        both_({-62, 62, -78, 62, kCellMm}, &scratch) {
     own_.add(mesh, head_from_camera);
     both_ = own_;  // keeps its own memory
     both_.symmetrise();
@@ -79,7 +88,8 @@ class Finder {
  private:
   void set(LandmarkName name, const Vec3d& in_head, float sigma_mm) {
     const Vec3d p = apply(camera_from_head_, in_head);
-    found_[static_cast<std::size_t>(name)] = {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, sigma_mm, true};
+    found_[static_cast<std::size_t>(name)] = {
+        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, sigma_mm, true};
   }
   void mark(LandmarkName name, const std::optional<ProfilePoint>& at, float sigma_mm) {
     if (at) set(name, {0, at->y_mm, at->z_mm}, sigma_mm);
@@ -112,7 +122,8 @@ class Finder {
   void eyes() {
     const double y = marks_.nasion ? marks_.nasion->y_mm - kNasionOverCanthus : 34;
     Place inner{16, y};
-    pair({16, y, 3, 4}, LandmarkName::EndocanthionRight, LandmarkName::EndocanthionLeft, kInnerEyeSigma, inner);
+    pair({16, y, 3, 4}, LandmarkName::EndocanthionRight, LandmarkName::EndocanthionLeft, kInnerEyeSigma,
+         inner);
     const Place outer{inner.x + kFissureMm - 1, inner.y + kFissureRiseMm};
     on_surface(LandmarkName::ExocanthionRight, {-outer.x, outer.y}, kOuterEyeSigma);
     on_surface(LandmarkName::ExocanthionLeft, outer, kOuterEyeSigma);
@@ -132,7 +143,8 @@ class Finder {
 
 }  // namespace
 
-Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
+Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                                 StageContext& context) {
   if (context.stop()) return Error{Errc::Cancelled, "the search for landmarks was stopped"};
   const Arena::Mark mark(context.scratch);
   return Finder(mesh, head_from_camera, context.scratch).find();

@@ -16,6 +16,7 @@
 namespace relievo::pipeline {
 
 // `head_from_camera` as find_head_frame() gives it. Errors: Cancelled.
-Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context);
+Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                                 StageContext& context);
 
 }  // namespace relievo::pipeline

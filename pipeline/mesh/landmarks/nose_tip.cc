@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kRingFrom = 18, kRingTo = 28;  // mm; beyond the wings of a nose, within its cheeks
 constexpr int kSectors = 8;
-constexpr int kSectorsNeeded = 5;               // one flank of the nose may hide its cheek
+constexpr int kSectorsNeeded = 5;  // one flank of the nose may hide its cheek
 
 // Negative where the surroundings cannot be judged.
 double protrusion(std::span<const SurfacePoint> points, const Vector3d& at) {
@@ -24,7 +24,8 @@ double protrusion(std::span<const SurfacePoint> points, const Vector3d& at) {
     if ((q.at_mm - at).squaredNorm() < 12.0 * 12.0) out += q.normal;
   if (!(out.norm() > 0)) return -1;
   out.normalize();
-  const Vector3d across = (std::abs(out.x()) < 0.8 ? Vector3d::UnitX() : Vector3d::UnitY()).cross(out).normalized();
+  const Vector3d across =
+      (std::abs(out.x()) < 0.8 ? Vector3d::UnitX() : Vector3d::UnitY()).cross(out).normalized();
   const Vector3d along = out.cross(across);
   std::array<double, kSectors> sum{};
   std::array<int, kSectors> count{};
@@ -55,7 +56,8 @@ void keep(NoseCandidates& found, const NoseCandidate& candidate) {
     if ((found.best[i].at_mm - candidate.at_mm).norm() > 25) continue;
     if (found.best[i].protrusion_mm >= candidate.protrusion_mm) return;
     std::copy(found.best.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-              found.best.begin() + static_cast<std::ptrdiff_t>(found.count), found.best.begin() + static_cast<std::ptrdiff_t>(i));
+              found.best.begin() + static_cast<std::ptrdiff_t>(found.count),
+              found.best.begin() + static_cast<std::ptrdiff_t>(i));
     --found.count;
     --i;
   }

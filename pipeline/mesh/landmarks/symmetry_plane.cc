@@ -14,9 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFar = 6;        // mm: a reflection further off than this says nothing more
-constexpr double kMissing = 2.5;  // mm: what a reflection beside the surface costs; dear enough to keep the halves overlapping
-constexpr double kScale = 1.5;    // mm: asymmetry of a usual face; the robust weight halves about here
+constexpr double kFar = 6;  // mm: a reflection further off than this says nothing more
+constexpr double kMissing =
+    2.5;  // mm: what a reflection beside the surface costs; dear enough to keep the halves overlapping
+constexpr double kScale = 1.5;  // mm: asymmetry of a usual face; the robust weight halves about here
 
 // Yaw about y, roll about z, offset along the normal.
 using Pose = Vector3d;
@@ -25,7 +26,10 @@ Vector3d normal_of(const Pose& pose) {
   return {std::cos(pose[0]) * std::cos(pose[1]), std::sin(pose[1]), -std::sin(pose[0]) * std::cos(pose[1])};
 }
 
-struct Residual { double distance; bool met; };
+struct Residual {
+  double distance;
+  bool met;
+};
 
 Residual residual(const HeightMap& map, const SurfacePoint& p, const Vector3d& normal, double offset) {
   const Vector3d mirrored = p.at_mm - 2 * (normal.dot(p.at_mm) - offset) * normal;
@@ -69,7 +73,8 @@ Pose descend(const HeightMap& map, std::span<const SurfacePoint> points, Pose po
       Vector3d slope;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d moved = p.at_mm - 2 * (ahead[k].dot(p.at_mm) - offset[k]) * ahead[k];
-        slope[static_cast<Eigen::Index>(k)] = other->normal.dot(moved - mirrored) / step[static_cast<Eigen::Index>(k)];
+        slope[static_cast<Eigen::Index>(k)] =
+            other->normal.dot(moved - mirrored) / step[static_cast<Eigen::Index>(k)];
       }
       const double w = 1 / ((1 + r * r / (kScale * kScale)) * (1 + r * r / (kScale * kScale)));
       a += w * slope * slope.transpose();
@@ -83,7 +88,10 @@ Pose descend(const HeightMap& map, std::span<const SurfacePoint> points, Pose po
   return pose;
 }
 
-struct Start { double cost; Pose pose; };
+struct Start {
+  double cost;
+  Pose pose;
+};
 
 // The best of a coarse raster; three of them, as a face a quarter turned has false optima.
 std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> points) {
@@ -141,17 +149,20 @@ const SurfacePoint* HeightMap::at(double x_mm, double y_mm) const {
   const double c = std::floor((x_mm - left_mm_) / cell_mm_);
   const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
   if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
-  const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  const std::size_t k =
+      static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
   return count_[k] == 0 ? nullptr : &cells_[k];
 }
 
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
-  const Error none{Errc::PoorGeometry, "the surface has no plane of symmetry: it shows less than half a face"};
+  const Error none{Errc::PoorGeometry,
+                   "the surface has no plane of symmetry: it shows less than half a face"};
   const HeightMap map(points, 2.5, &context.scratch);
   Start best{1e30, Pose::Zero()};
   for (const Start& start : raster(map, points)) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-    // On a rough surface the descent may leave for where hardly anything meets: a start that was better stays.
+    // On a rough surface the descent may leave for where hardly anything meets: a start that was better
+    // stays.
     for (const Pose& pose : {start.pose, descend(map, points, start.pose)})
       if (const double c = cost(map, points, 1, pose); c < best.cost) best = {c, pose};
   }
@@ -162,10 +173,15 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   std::pmr::vector<double> distances(&context.scratch);
   distances.reserve(points.size());
   for (const SurfacePoint& p : points)
-    if (const Residual r = residual(map, p, plane.normal, plane.offset_mm); r.met) distances.push_back(std::abs(r.distance));
-  plane.overlap = static_cast<double>(distances.size()) / static_cast<double>(std::max<std::size_t>(1, points.size()));
-  if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 || std::abs(plane.offset_mm) > 20) return none;
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+    if (const Residual r = residual(map, p, plane.normal, plane.offset_mm); r.met)
+      distances.push_back(std::abs(r.distance));
+  plane.overlap =
+      static_cast<double>(distances.size()) / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 ||
+      std::abs(plane.offset_mm) > 20)
+    return none;
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
+                   distances.end());
   plane.residual_mm = distances[distances.size() / 2];
   return plane;
 }

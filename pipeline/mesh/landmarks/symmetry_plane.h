@@ -39,9 +39,9 @@ class HeightMap {
 struct SymmetryPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit length, pointing to +x
   double offset_mm = 0;                               // normal . p = offset
-  double cost_mm = 0;                                 // mean capped distance, missing surface included: to compare planes
-  double residual_mm = 0;                             // median distance of the reflected surface to the surface
-  double overlap = 0;                                 // share of the surface whose reflection meets surface
+  double cost_mm = 0;      // mean capped distance, missing surface included: to compare planes
+  double residual_mm = 0;  // median distance of the reflected surface to the surface
+  double overlap = 0;      // share of the surface whose reflection meets surface
 };
 
 // `points` in a frame whose z axis looks roughly out of the face, whose x axis runs roughly across it

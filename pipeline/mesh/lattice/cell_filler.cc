@@ -12,10 +12,12 @@ namespace {
 
 constexpr double kLeastRadiusMm = 1;
 constexpr double kBesideMm = 2.5;  // over more than this a plate runs beside the surface it is like
-constexpr double kBowMm = 40;      // where nothing says otherwise skin bends back from a ball about the chart's centre, by 1 / this
+constexpr double kBowMm =
+    40;  // where nothing says otherwise skin bends back from a ball about the chart's centre, by 1 / this
 
 // Twice the sigma of the carrying nodes nearby, from ring to ring.
-void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free, std::pmr::memory_resource* memory) {
+void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free,
+                  std::pmr::memory_resource* memory) {
   CellMask known = carrying;
   std::pmr::vector<std::uint32_t> ring(memory);
   std::pmr::vector<std::uint32_t> left(free.begin(), free.end(), memory);
@@ -45,9 +47,10 @@ void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<con
   }
 }
 
-// On a head's chart a node stays on its ray and the plate is one of radii: no fold can arise, and what nothing bends is round as
-// a head is. Elsewhere each coordinate is a plate.
-void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying, std::span<const double> like, std::pmr::memory_resource* memory) {
+// On a head's chart a node stays on its ray and the plate is one of radii: no fold can arise, and what
+// nothing bends is round as a head is. Elsewhere each coordinate is a plate.
+void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying,
+           std::span<const double> like, std::pmr::memory_resource* memory) {
   PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
   std::pmr::vector<double> value(l.size(), 0.0, memory);
   if (l.chart) {
@@ -69,12 +72,13 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
 
 }  // namespace
 
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::span<const double> like,
-                std::pmr::memory_resource* memory) {
+void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
+                std::span<const double> like, std::pmr::memory_resource* memory) {
   CellMask carrying(lattice.size(), 0, memory);
   CellMask listed(lattice.size(), 0, memory);
   for (int r = 0; r < lattice.rows; ++r)
-    for (int c = 0; c < lattice.columns; ++c) carrying[lattice.index(c, r)] = carries_surface(lattice, surface, c, r);
+    for (int c = 0; c < lattice.columns; ++c)
+      carrying[lattice.index(c, r)] = carries_surface(lattice, surface, c, r);
   const std::size_t w = static_cast<std::size_t>(lattice.columns);
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (cells[k])

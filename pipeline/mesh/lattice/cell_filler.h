@@ -17,7 +17,7 @@ namespace relievo::pipeline {
 
 // `cells` must not touch the last column and row. `like`: empty, or on a head's chart the radii of
 // another surface, mm, see relax_thin_plate().
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope, std::span<const double> like,
-                std::pmr::memory_resource* memory);
+void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
+                std::span<const double> like, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

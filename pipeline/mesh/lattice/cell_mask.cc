@@ -17,7 +17,8 @@ std::size_t box_reach(float sigma_cells) {
 }
 
 // Means over windows of 2 reach + 1 along a line of `count` values, `stride` apart; `line` is room for it.
-void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, std::size_t reach, std::uint32_t* line) {
+void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, std::size_t reach,
+                  std::uint32_t* line) {
   for (std::size_t i = 0; i < count; ++i) line[i] = values[i * stride];
   std::uint32_t sum = 0;
   for (std::size_t i = 0; i < std::min(reach, count); ++i) sum += line[i];
@@ -32,15 +33,18 @@ void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, 
 
 MaskShaper::MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm,
                        std::pmr::memory_resource* memory)
-    : columns_(columns), rows_(rows), cell_width_mm_(cell_width_mm), cell_height_mm_(cell_height_mm),
+    : columns_(columns),
+      rows_(rows),
+      cell_width_mm_(cell_width_mm),
+      cell_height_mm_(cell_height_mm),
       along_row_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F, memory),
-      nearest_(static_cast<std::size_t>(columns), 0.0F, memory), piece_(memory), before_(along_row_.size(), 0, memory) {
+      nearest_(static_cast<std::size_t>(columns), 0.0F, memory),
+      piece_(memory),
+      before_(along_row_.size(), 0, memory) {
   piece_.reserve(along_row_.size());
 }
 
-void MaskShaper::dilate(CellMask& mask, float radius_mm) {
-  mark_within(mask, 1, false, radius_mm, mask);
-}
+void MaskShaper::dilate(CellMask& mask, float radius_mm) { mark_within(mask, 1, false, radius_mm, mask); }
 
 void MaskShaper::erode(CellMask& mask, float radius_mm) {
   mark_within(mask, 0, true, radius_mm, mask);
@@ -105,7 +109,8 @@ void MaskShaper::mark_within(const CellMask& mask, std::uint8_t wanted, bool bey
     for (int dr = -reach; dr <= reach; ++dr) {
       const float mm = static_cast<float>(dr) * cell_height_mm_;
       if (r + dr < 0 || r + dr >= rows_) {
-        if (beyond_border) std::fill(nearest_.begin(), nearest_.end(), 0.0F);  // within reach by the loop's bounds
+        if (beyond_border)
+          std::fill(nearest_.begin(), nearest_.end(), 0.0F);  // within reach by the loop's bounds
         continue;
       }
       const float* other = &along_row_[static_cast<std::size_t>(r + dr) * w];

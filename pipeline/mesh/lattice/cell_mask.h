@@ -18,7 +18,8 @@ using CellMask = std::pmr::vector<std::uint8_t>;
 
 class MaskShaper {
  public:
-  MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm, std::pmr::memory_resource* memory);
+  MaskShaper(int columns, int rows, float cell_width_mm, float cell_height_mm,
+             std::pmr::memory_resource* memory);
 
   void dilate(CellMask& mask, float radius_mm);
   void erode(CellMask& mask, float radius_mm);
@@ -36,7 +37,8 @@ class MaskShaper {
   void keep_largest_piece(CellMask& mask);
 
  private:
-  void mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm, CellMask& out);
+  void mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm,
+                   CellMask& out);
   void measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border);
   template <bool Corners>
   void flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, std::uint8_t to);

@@ -16,17 +16,19 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kEvery = 3;               // nodes of the lattice a node of the rough surface that shows where the head is
-constexpr float kRoomMm = 25;           // on the chart, around what was measured
-constexpr float kReachMm = 35;          // so far from what either side shows, at most, a face is continued to its outline
-constexpr float kSeamMm = 6;            // between what one side and what the generic head say
+constexpr int kEvery = 3;  // nodes of the lattice a node of the rough surface that shows where the head is
+constexpr float kRoomMm = 25;  // on the chart, around what was measured
+constexpr float kReachMm =
+    35;  // so far from what either side shows, at most, a face is continued to its outline
+constexpr float kSeamMm = 6;  // between what one side and what the generic head say
 constexpr double kHeadCellMm = 2, kHeadMisfitMm = 1.5;
-constexpr double kAboveJawMm = -35;     // from the tip of the nose: jaws differ too much
-constexpr float kUnsureMm = 8;          // of the outline, where that is only known about
-constexpr float kRimMm = 2;             // so near to a hole ...
-constexpr float kCrumbMm = 1;          // half the width of the narrowest strip that stays
-constexpr float kSteepRim = 1.5F;       // ... surface steeper than this tangent was measured worst and is laid anew
-constexpr double kStepCells = 8;        // of radius between neighbours, in widths of a cell: more is no slope
+constexpr double kAboveJawMm = -35;  // from the tip of the nose: jaws differ too much
+constexpr float kUnsureMm = 8;       // of the outline, where that is only known about
+constexpr float kRimMm = 2;          // so near to a hole ...
+constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
+constexpr float kSteepRim =
+    1.5F;                         // ... surface steeper than this tangent was measured worst and is laid anew
+constexpr double kStepCells = 8;  // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
 
@@ -64,20 +66,24 @@ FaceMesh rough_surface(const PointLattice& l, const LatticeSurface& surface, Are
 FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_camera, Arena& scratch) {
   FaceOutline outline{HeadChart(head_from_camera)};
   const auto profile = profile_of(rough, head_from_camera, &scratch);
-  if (const auto chin = find_profile_marks(profile).chin) outline.below_mm = std::clamp(kChinBelowPogonion - chin->y_mm, kShortest, kLongest);
+  if (const auto chin = find_profile_marks(profile).chin)
+    outline.below_mm = std::clamp(kChinBelowPogonion - chin->y_mm, kShortest, kLongest);
   return outline;
 }
 
-// The other side of the face: radii at every node, 0 where it shows nothing. Where surface stands before surface the step
-// between them is nobody's curvature.
+// The other side of the face: radii at every node, 0 where it shows nothing. Where surface stands before
+// surface the step between them is nobody's curvature.
 std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& surface, Arena& scratch) {
   std::pmr::vector<double> radius(l.size(), 0.0, &scratch);
   for (int r = 0; r < l.rows; ++r)
     for (int c = 0; c < l.columns; ++c)
-      if (l.node[l.index(c, r)] == Node::Measured && carries_surface(l, surface, c, r)) radius[l.index(l.columns - 1 - c, r)] = l.radius_mm(l.index(c, r));
+      if (l.node[l.index(c, r)] == Node::Measured && carries_surface(l, surface, c, r))
+        radius[l.index(l.columns - 1 - c, r)] = l.radius_mm(l.index(c, r));
   const std::pmr::vector<double> before(radius, &scratch);
   const double most = kStepCells * static_cast<double>(l.cell_width_mm);
-  const auto parts = [&](std::size_t a, std::size_t b) { return before[a] != 0 && before[b] != 0 && std::abs(before[a] - before[b]) > most; };
+  const auto parts = [&](std::size_t a, std::size_t b) {
+    return before[a] != 0 && before[b] != 0 && std::abs(before[a] - before[b]) > most;
+  };
   for (int r = 0; r + 1 < l.rows; ++r)
     for (int c = 0; c + 1 < l.columns; ++c) {
       const std::size_t k = l.index(c, r), below = l.index(c, r + 1);
@@ -87,28 +93,37 @@ std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& s
   return radius;
 }
 
-// Where neither side shows anything, the head that fits what was measured says how skin goes on. Not right beside what the other
-// side shows: between both nothing is known of how they meet.
-void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l, std::span<double> like, MaskShaper& shaper, Arena& scratch) {
+// Where neither side shows anything, the head that fits what was measured says how skin goes on. Not right
+// beside what the other side shows: between both nothing is known of how they meet.
+void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l,
+                      std::span<double> like, MaskShaper& shaper, Arena& scratch) {
   const UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
   const FaceRelief fitted = fit_generic_head(head, kHeadCellMm, kHeadMisfitMm).radius;
-  struct Place { Vec2f at; float radius_mm = 0; };
+  struct Place {
+    Vec2f at;
+    float radius_mm = 0;
+  };
   const auto place = [&](int c, int r) {
     const Vec3d p = rolled(fitted.x_mm(c), fitted.y_mm(r), static_cast<double>(fitted.z(c, r)));
-    const Vec3d from{p.x - HeadChart::kCentreMm.x, p.y - HeadChart::kCentreMm.y, p.z - HeadChart::kCentreMm.z};
+    const Vec3d from{p.x - HeadChart::kCentreMm.x, p.y - HeadChart::kCentreMm.y,
+                     p.z - HeadChart::kCentreMm.z};
     const Vec2d on_chart = HeadChart::place_in_head(from);
-    return Place{{static_cast<float>((on_chart.x - l.first_mm.x) / l.step_mm), static_cast<float>((on_chart.y - l.first_mm.y) / l.step_mm)},
+    return Place{{static_cast<float>((on_chart.x - l.first_mm.x) / l.step_mm),
+                  static_cast<float>((on_chart.y - l.first_mm.y) / l.step_mm)},
                  static_cast<float>(std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z))};
   };
   std::pmr::vector<float> radius(l.size(), 0.0F, &scratch);
   const auto draw = [&](const Place& a, const Place& b, const Place& c) {
     for_each_texel(a.at, b.at, c.at, l.columns, {0, l.rows}, [&](int x, int y, float wa, float wb, float wc) {
-      radius[l.index(x, y)] = std::max(radius[l.index(x, y)], wa * a.radius_mm + wb * b.radius_mm + wc * c.radius_mm);
+      radius[l.index(x, y)] =
+          std::max(radius[l.index(x, y)], wa * a.radius_mm + wb * b.radius_mm + wc * c.radius_mm);
     });
   };
   for (int r = 0; r + 1 < fitted.rows(); ++r)
     for (int c = 0; c + 1 < fitted.columns(); ++c) {
-      if (fitted.y_mm(r) < kAboveJawMm || std::isnan(fitted.z(c, r) + fitted.z(c + 1, r) + fitted.z(c, r + 1) + fitted.z(c + 1, r + 1))) continue;
+      if (fitted.y_mm(r) < kAboveJawMm ||
+          std::isnan(fitted.z(c, r) + fitted.z(c + 1, r) + fitted.z(c, r + 1) + fitted.z(c + 1, r + 1)))
+        continue;
       draw(place(c, r), place(c + 1, r), place(c, r + 1));
       draw(place(c + 1, r), place(c + 1, r + 1), place(c, r + 1));
     }
@@ -119,9 +134,10 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
     if (!shown[k]) like[k] = static_cast<double>(radius[k]);
 }
 
-// Before a gap the last rows of a nose's back, or of a cheek, are what the matcher's window mixed with what lies behind: they would
-// bend what is laid over the gap. So would crumbs in it.
-void drop_steep_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper, Arena& scratch) {
+// Before a gap the last rows of a nose's back, or of a cheek, are what the matcher's window mixed with what
+// lies behind: they would bend what is laid over the gap. So would crumbs in it.
+void drop_steep_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper,
+                     Arena& scratch) {
   CellMask kept(l.size(), 0, &scratch), near(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) {
     kept[k] = triangle_count(surface.cells[k]) == 2;
@@ -139,12 +155,14 @@ void drop_steep_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f
 // Surface that the outline's cut will not come near.
 void drop_beyond(const PointLattice& l, LatticeSurface& surface, const FaceOutline& outline) {
   for (std::size_t k = 0; k < l.size(); ++k)
-    if (surface.cells[k] != 0 && outline.depth_mm(l.at_mm[l.node[k] != Node::Empty ? k : k + 1]) < -kRimMm) surface.cells[k] = 0;
+    if (surface.cells[k] != 0 && outline.depth_mm(l.at_mm[l.node[k] != Node::Empty ? k : k + 1]) < -kRimMm)
+      surface.cells[k] = 0;
 }
 
-// The cells that shall carry surface and do not: what lies within the outline, as far as either side or what lies near it tells.
-CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const FaceOutline& outline, std::span<const double> mirror, MaskShaper& shaper,
-                    Arena& scratch) {
+// The cells that shall carry surface and do not: what lies within the outline, as far as either side or what
+// lies near it tells.
+CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const FaceOutline& outline,
+                    std::span<const double> mirror, MaskShaper& shaper, Arena& scratch) {
   std::pmr::vector<double> radius(mirror.begin(), mirror.end(), &scratch);  // about
   std::pmr::vector<std::uint32_t> ring(&scratch), next(&scratch);
   const auto within = [&](std::uint32_t k) { return outline.depth_mm(l.on_ray(k, radius[k])) > -kUnsureMm; };
@@ -157,7 +175,9 @@ CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const 
   CellMask open(l.size(), 0, &scratch);
   for (const std::uint32_t k : ring) open[k] = 1;
   const std::uint32_t w = static_cast<std::uint32_t>(l.columns);
-  const auto border = [&](std::uint32_t k) { return k % w < 2 || k % w + 3 > w || k / w < 2 || k / w + 3 > static_cast<std::uint32_t>(l.rows); };
+  const auto border = [&](std::uint32_t k) {
+    return k % w < 2 || k % w + 3 > w || k / w < 2 || k / w + 3 > static_cast<std::uint32_t>(l.rows);
+  };
   for (int turns = static_cast<int>(kReachMm / l.cell_width_mm); turns > 0 && !ring.empty(); --turns) {
     next.clear();
     for (const std::uint32_t k : ring)
@@ -171,14 +191,16 @@ CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const 
     std::swap(ring, next);
   }
   shaper.fill_holes(open);
-  for (std::uint32_t k = 0; k < l.size(); ++k) open[k] = open[k] && !border(k) && triangle_count(surface.cells[k]) != 2;
+  for (std::uint32_t k = 0; k < l.size(); ++k)
+    open[k] = open[k] && !border(k) && triangle_count(surface.cells[k]) != 2;
   return open;
 }
 
 }  // namespace
 
-Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& seen_surface, const Vec3d& right_camera_mm,
-                                             const LatticeLimits& limits, StageContext& context) {
+Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& seen_surface,
+                                             const Vec3d& right_camera_mm, const LatticeLimits& limits,
+                                             StageContext& context) {
   Arena& scratch = context.scratch;
   const FaceMesh rough = rough_surface(seen, seen_surface, scratch);
   const auto head = find_head_frame(rough, {}, context, right_camera_mm);
@@ -189,9 +211,12 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
   LatticeSurface surface = join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
-  const auto between_cameras = [&](double right, double centre) { return static_cast<float>(right / 2 - centre); };
+  const auto between_cameras = [&](double right, double centre) {
+    return static_cast<float>(right / 2 - centre);
+  };
   const Vec3d& centre = outline.chart.centre_mm;
-  const Vec3f from{between_cameras(right_camera_mm.x, centre.x), between_cameras(right_camera_mm.y, centre.y), between_cameras(right_camera_mm.z, centre.z)};
+  const Vec3f from{between_cameras(right_camera_mm.x, centre.x), between_cameras(right_camera_mm.y, centre.y),
+                   between_cameras(right_camera_mm.z, centre.z)};
   drop_steep_rims(l, surface, from, shaper, scratch);
   auto mirror = mirrored(l, surface, scratch);
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);

@@ -17,7 +17,9 @@ namespace {
 
 using mesh::edge_between, mesh::minus, mesh::plus, mesh::SightEdge, mesh::times;
 
-struct Cell { int c, r; };
+struct Cell {
+  int c, r;
+};
 
 constexpr float kSpeckMm2 = 4;
 constexpr float kPinholeRimMm = 1.2F;
@@ -27,8 +29,15 @@ class GapCloser {
  public:
   GapCloser(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
             std::pmr::memory_resource* memory)
-      : lattice_(lattice), surface_(surface), limits_(limits), shaper_(shaper), whole_(lattice.size(), 0, memory),
-        gap_(lattice.size(), 0, memory), was_gap_(lattice.size(), 0, memory), large_(lattice.size(), 0, memory), memory_(memory) {
+      : lattice_(lattice),
+        surface_(surface),
+        limits_(limits),
+        shaper_(shaper),
+        whole_(lattice.size(), 0, memory),
+        gap_(lattice.size(), 0, memory),
+        was_gap_(lattice.size(), 0, memory),
+        large_(lattice.size(), 0, memory),
+        memory_(memory) {
     cell_mm_ = std::min(lattice.cell_width_mm, lattice.cell_height_mm);
   }
 
@@ -49,7 +58,8 @@ class GapCloser {
     for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
     const float radius = limits_.max_width_mm / 2;
     const float area = lattice_.cell_width_mm * lattice_.cell_height_mm;
-    shaper_.drop_pieces_below(whole_, static_cast<std::size_t>(std::numbers::pi_v<float> * radius * radius / area));
+    shaper_.drop_pieces_below(whole_,
+                              static_cast<std::size_t>(std::numbers::pi_v<float> * radius * radius / area));
     gap_ = whole_;
     shaper_.dilate(gap_, 1.5F * std::max(lattice_.cell_width_mm, lattice_.cell_height_mm));
     for (std::size_t k = 0; k < gap_.size(); ++k)
@@ -62,7 +72,8 @@ class GapCloser {
     gap_ = whole_;
     shaper_.fill_holes(gap_);
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = large_[k] = gap_[k] && !whole_[k];
-    shaper_.drop_pieces_below(large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(
+        large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = gap_[k] && !large_[k];
     shaper_.dilate(gap_, kPinholeRimMm);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
@@ -78,7 +89,8 @@ class GapCloser {
     const float radius = (limits_.max_width_mm + cell_mm_) / 2;
     gap_ = whole_;
     shaper_.close(gap_, radius, radius + 0.75F * cell_mm_);
-    for (std::size_t k = 0; k < gap_.size(); ++k) gap_[k] = was_gap_[k] = gap_[k] && !whole_[k] ? kUndecided : kOpen;
+    for (std::size_t k = 0; k < gap_.size(); ++k)
+      gap_[k] = was_gap_[k] = gap_[k] && !whole_[k] ? kUndecided : kOpen;
   }
 
   // Whether the shortest way across the gap continues the surface on its two sides. Undecided where no
@@ -97,7 +109,8 @@ class GapCloser {
       const float width = std::hypot(edge.depth_mm, edge.across_mm) * (cells - 1) / cells;
       if (width > narrowest) continue;
       narrowest = width;
-      const bool continues = continues_both(edge, width, -slope_behind(*from, {-way.c, -way.r}), slope_behind(*to, way));
+      const bool continues =
+          continues_both(edge, width, -slope_behind(*from, {-way.c, -way.r}), slope_behind(*to, way));
       verdict = continues ? kBridged : kOpen;
     }
     return verdict;
@@ -128,14 +141,16 @@ class GapCloser {
   void bridge_specks(std::span<const std::uint32_t> opened) {
     std::fill(large_.begin(), large_.end(), std::uint8_t{0});
     for (const std::uint32_t k : opened) large_[k] = was_gap_[k];
-    shaper_.drop_pieces_below(large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(
+        large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
     for (const std::uint32_t k : opened)
       if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
   }
 
   // Not of the last column or row, which are no cells.
   bool inner(std::size_t k) const {
-    return lattice_.inside(static_cast<int>(k) % lattice_.columns + 1, static_cast<int>(k) / lattice_.columns + 1);
+    return lattice_.inside(static_cast<int>(k) % lattice_.columns + 1,
+                           static_cast<int>(k) / lattice_.columns + 1);
   }
 
   bool continues_both(const SightEdge& edge, float width, float before, float after) const {
@@ -147,7 +162,8 @@ class GapCloser {
 
   // The first cell of the surface that way, or none within reach.
   std::optional<Cell> rim(Cell at, Cell way) const {
-    const float mm = std::hypot(static_cast<float>(way.c) * lattice_.cell_width_mm, static_cast<float>(way.r) * lattice_.cell_height_mm);
+    const float mm = std::hypot(static_cast<float>(way.c) * lattice_.cell_width_mm,
+                                static_cast<float>(way.r) * lattice_.cell_height_mm);
     for (int n = static_cast<int>(limits_.max_width_mm / mm) + 1; n > 0; --n) {
       at = {at.c + way.c, at.r + way.r};
       if (!lattice_.inside(at.c, at.r)) return std::nullopt;
@@ -164,7 +180,8 @@ class GapCloser {
       if (!lattice_.inside(next.c, next.r) || !whole_[lattice_.index(next.c, next.r)]) break;
       back = next;
     }
-    const SightEdge edge = back.c == rim.c && back.r == rim.r ? across_cell(rim, way) : edge_between(middle(rim), middle(back));
+    const SightEdge edge =
+        back.c == rim.c && back.r == rim.r ? across_cell(rim, way) : edge_between(middle(rim), middle(back));
     return edge.depth_mm / edge.across_mm;
   }
 

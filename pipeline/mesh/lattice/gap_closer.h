@@ -17,10 +17,10 @@
 namespace relievo::pipeline {
 
 struct GapLimits {
-  float max_width_mm = 0;   // from rim to rim
-  float max_slope = 0;      // tangent of the steepest angle of incidence
-  float max_bend = 0;       // tangent of how far a bridge's slope may leave that of both sides ...
-  float min_step_mm = 0;    // ... once it has left it by so many millimetres
+  float max_width_mm = 0;  // from rim to rim
+  float max_slope = 0;     // tangent of the steepest angle of incidence
+  float max_bend = 0;      // tangent of how far a bridge's slope may leave that of both sides ...
+  float min_step_mm = 0;   // ... once it has left it by so many millimetres
 };
 
 // Closed cells get a thin plate (their new nodes become Node::Filled, with twice the rim's sigma). Specks

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// HeadChart: a head laid flat, as a camera at its back would see the skin of the face from inside: directions from a point
-// 220 mm behind the tip of the nose on an azimuthal equidistant map (Snyder 1987) about the way the face looks. Columns run to the person's
-// right, rows down. From there a face is seen about at right angles, wherever cameras stood and however it was turned: what
-// they did not see has its full width, and the face's other side is the map read backwards. Thread: any.
+// HeadChart: a head laid flat, as a camera at its back would see the skin of the face from inside: directions
+// from a point 220 mm behind the tip of the nose on an azimuthal equidistant map (Snyder 1987) about the way
+// the face looks. Columns run to the person's right, rows down. From there a face is seen about at right
+// angles, wherever cameras stood and however it was turned: what they did not see has its full width, and the
+// face's other side is the map read backwards. Thread: any.
 #pragma once
 
 #include <cmath>
@@ -14,21 +15,27 @@
 namespace relievo::pipeline {
 
 struct HeadChart {
-  // In the head's frame (head_frame.h): above the tip of the nose, so that its underside and the chin's are seen, too.
+  // In the head's frame (head_frame.h): above the tip of the nose, so that its underside and the chin's are
+  // seen, too.
   static constexpr Vec3d kCentreMm{0, 10, -220};
-  static constexpr double kRadiusMm = 210;  // turns angles into millimetres of the map: about the skin's own distance
+  static constexpr double kRadiusMm =
+      210;  // turns angles into millimetres of the map: about the skin's own distance
 
   explicit HeadChart(const RigidTransform& head_from_camera)
       : head_from_axes(head_from_camera.rotation), centre_mm(apply(inverse(head_from_camera), kCentreMm)) {}
 
   // Points run from the centre, along the left camera's axes.
   Vec3d in_head(const Vec3f& from_centre) const {
-    const Vec3d p = apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y), static_cast<double>(from_centre.z)});
+    const Vec3d p =
+        apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y),
+                                    static_cast<double>(from_centre.z)});
     return {p.x + kCentreMm.x, p.y + kCentreMm.y, p.z + kCentreMm.z};
   }
   // Millimetres on the map. The direction straight backwards has no place.
   Vec2d place(const Vec3f& from_centre) const {
-    return place_in_head(apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y), static_cast<double>(from_centre.z)}));
+    return place_in_head(
+        apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y),
+                                    static_cast<double>(from_centre.z)}));
   }
   // The same from the centre along the head's own axes.
   static Vec2d place_in_head(const Vec3d& from_centre) {
@@ -38,8 +45,10 @@ struct HeadChart {
   }
   Vec3f at(const Vec2d& place, double radius_mm) const {
     const double angle = std::hypot(place.x, place.y) / kRadiusMm;
-    const double scale = angle > 1e-9 ? radius_mm * std::sin(angle) / (angle * kRadiusMm) : radius_mm / kRadiusMm;
-    const Vec3d p = apply(transposed(head_from_axes), Vec3d{-place.x * scale, -place.y * scale, radius_mm * std::cos(angle)});
+    const double scale =
+        angle > 1e-9 ? radius_mm * std::sin(angle) / (angle * kRadiusMm) : radius_mm / kRadiusMm;
+    const Vec3d p = apply(transposed(head_from_axes),
+                          Vec3d{-place.x * scale, -place.y * scale, radius_mm * std::cos(angle)});
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   }
 

@@ -19,7 +19,10 @@ constexpr double kFarthest = 190;  // mm on a chart: behind the ears
 constexpr double kEvenPart = 0.4;  // of an axis, about its middle, that has cells of one size
 
 // A place between nodes: the cell, and how far into it.
-struct Place { int column, row; float tx, ty; };
+struct Place {
+  int column, row;
+  float tx, ty;
+};
 
 // The last node counts as the far end of the last cell.
 void split(float at, int nodes, int& cell, float& t) {
@@ -31,28 +34,41 @@ void split(float at, int nodes, int& cell, float& t) {
 std::array<float, 4> corner_weights(std::uint8_t cell, float tx, float ty) {
   switch (cell) {
     case kFalling:
-    case kRising: return {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
-    case kUnder: if (ty >= tx) return {1 - ty, 0, ty - tx, tx}; break;
-    case kOver: if (tx >= ty) return {1 - tx, tx - ty, 0, ty}; break;
-    case kLeft: if (tx + ty <= 1) return {1 - tx - ty, tx, ty, 0}; break;
-    case kRight: if (tx + ty >= 1) return {0, 1 - ty, 1 - tx, tx + ty - 1}; break;
-    default: break;
+    case kRising:
+      return {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
+    case kUnder:
+      if (ty >= tx) return {1 - ty, 0, ty - tx, tx};
+      break;
+    case kOver:
+      if (tx >= ty) return {1 - tx, tx - ty, 0, ty};
+      break;
+    case kLeft:
+      if (tx + ty <= 1) return {1 - tx - ty, tx, ty, 0};
+      break;
+    case kRight:
+      if (tx + ty >= 1) return {0, 1 - ty, 1 - tx, tx + ty - 1};
+      break;
+    default:
+      break;
   }
   return {};
 }
 
-// Of four nodes in a row, `t` of the way from the second to the third (Keys 1981, a = -1/2). At a node exactly that node.
+// Of four nodes in a row, `t` of the way from the second to the third (Keys 1981, a = -1/2). At a node
+// exactly that node.
 std::array<float, 4> cubic_weights(float t) {
   const float t2 = t * t;
   const float t3 = t2 * t;
-  return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t), 0.5F * (t3 - t2)};
+  return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t),
+          0.5F * (t3 - t2)};
 }
 
 bool whole(std::uint8_t cell) { return cell == kFalling || cell == kRising; }
 
 class Reader {
  public:
-  Reader(const PointLattice& lattice, const LatticeSurface& surface) : from_(lattice), cells_(surface.cells) {}
+  Reader(const PointLattice& lattice, const LatticeSurface& surface)
+      : from_(lattice), cells_(surface.cells) {}
 
   Place place(float u, float v) const {
     Place at{};
@@ -89,7 +105,8 @@ class Reader {
 
  private:
   bool smooth(const Place& at) const {
-    if (at.column < 1 || at.row < 1 || at.column + 2 >= from_.columns || at.row + 2 >= from_.rows) return false;
+    if (at.column < 1 || at.row < 1 || at.column + 2 >= from_.columns || at.row + 2 >= from_.rows)
+      return false;
     for (int r = -1; r <= 1; ++r)
       for (int c = -1; c <= 1; ++c)
         if (!whole(cells_[from_.index(at.column + c, at.row + r)])) return false;
@@ -103,7 +120,8 @@ class Reader {
     for (int r = 0; r < 4; ++r) {
       Vec3f row{};
       for (int c = 0; c < 4; ++c)
-        row = plus(row, times(from_.at_mm[from_.index(at.column + c - 1, at.row + r - 1)], wx[static_cast<std::size_t>(c)]));
+        row = plus(row, times(from_.at_mm[from_.index(at.column + c - 1, at.row + r - 1)],
+                              wx[static_cast<std::size_t>(c)]));
       sum = plus(sum, times(row, wy[static_cast<std::size_t>(r)]));
     }
     return sum;
@@ -113,33 +131,42 @@ class Reader {
   const std::pmr::vector<std::uint8_t>& cells_;
 };
 
-// How many times longer than in the middle a new cell is at `at` (0 .. 1 along the axis): 1 over kEvenPart, then smoothly up to `edge` at the ends.
+// How many times longer than in the middle a new cell is at `at` (0 .. 1 along the axis): 1 over kEvenPart,
+// then smoothly up to `edge` at the ends.
 double stretch(double at, double edge) {
   const double out = std::max(0.0, std::abs(2 * at - 1) - kEvenPart) / (1 - kEvenPart);
   return 1 + (edge - 1) * out * out * (3 - 2 * out);
 }
 
 // Where the new nodes of an axis lie on the old one: whole cells from end to end.
-std::pmr::vector<float> lay_nodes(int old_nodes, const LatticeSpacing& spacing, std::pmr::memory_resource* memory) {
+std::pmr::vector<float> lay_nodes(int old_nodes, const LatticeSpacing& spacing,
+                                  std::pmr::memory_resource* memory) {
   const int old_cells = old_nodes - 1;
-  std::pmr::vector<double> cells(static_cast<std::size_t>(old_nodes), 0.0, memory);  // new ones up to an old node
+  std::pmr::vector<double> cells(static_cast<std::size_t>(old_nodes), 0.0,
+                                 memory);  // new ones up to an old node
   for (std::size_t k = 1; k < cells.size(); ++k)
-    cells[k] = cells[k - 1] + 1 / stretch((static_cast<double>(k) - 0.5) / old_cells, static_cast<double>(spacing.edge));
-  const int wanted = std::max(1, static_cast<int>(std::lround(cells.back() / static_cast<double>(spacing.cells))));
+    cells[k] = cells[k - 1] +
+               1 / stretch((static_cast<double>(k) - 0.5) / old_cells, static_cast<double>(spacing.edge));
+  const int wanted =
+      std::max(1, static_cast<int>(std::lround(cells.back() / static_cast<double>(spacing.cells))));
   std::pmr::vector<float> at(static_cast<std::size_t>(wanted) + 1, static_cast<float>(old_cells), memory);
   std::size_t k = 1;
   for (std::size_t n = 0; n + 1 < at.size(); ++n) {
     const double reached = cells.back() * static_cast<double>(n) / wanted;
     while (k + 1 < cells.size() && cells[k] <= reached) ++k;
-    at[n] = static_cast<float>(static_cast<double>(k - 1) + (reached - cells[k - 1]) / (cells[k] - cells[k - 1]));
+    at[n] =
+        static_cast<float>(static_cast<double>(k - 1) + (reached - cells[k - 1]) / (cells[k] - cells[k - 1]));
   }
   return at;
 }
 
 // The new nodes, in cells of the old lattice.
-struct Nodes { std::pmr::vector<float> x, y; };
+struct Nodes {
+  std::pmr::vector<float> x, y;
+};
 
-Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to, std::pmr::memory_resource* memory) {
+Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to,
+                std::pmr::memory_resource* memory) {
   Nodes at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
   to.columns = static_cast<int>(at.x.size());
   to.rows = static_cast<int>(at.y.size());
@@ -162,9 +189,12 @@ void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to) {
 }
 
 // A cell of the new lattice in those of the old: its first corner, and how wide and high it is.
-struct Window { float x, y, width, height; };
+struct Window {
+  float x, y, width, height;
+};
 
-// Which of the four triangles of the new cell the old surface carries, by samples no further apart than half an old cell.
+// Which of the four triangles of the new cell the old surface carries, by samples no further apart than half
+// an old cell.
 std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
   const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(cell.width, cell.height)));
   std::uint8_t parts = kFalling | kRising;
@@ -188,7 +218,8 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, f
   const Vec3f &p = l.at_mm[a], &q = l.at_mm[a + 1], &o = l.at_mm[below], &d = l.at_mm[below + 1];
   if (parts == (kFalling | kRising)) {
     const std::uint8_t cut = best_cut(l, a, max_slope);
-    const bool completed = l.node[a] == Node::Filled || l.node[a + 1] == Node::Filled || l.node[below] == Node::Filled || l.node[below + 1] == Node::Filled;
+    const bool completed = l.node[a] == Node::Filled || l.node[a + 1] == Node::Filled ||
+                           l.node[below] == Node::Filled || l.node[below + 1] == Node::Filled;
     if (cut != 0 || !closed || !completed) return cut;
     return mesh::squared_distance(p, d) <= mesh::squared_distance(q, o) ? kFalling : kRising;
   }
@@ -208,13 +239,15 @@ double expected_triangles(const ShapedLattice& old, float edge) {
   for (int r = 0; r + 1 < l.rows; ++r) {
     double row = 0;
     for (int c = 0; c + 1 < l.columns; ++c)
-      row += triangle_count(old.surface.cells[l.index(c, r)]) / stretch((c + 0.5) / (l.columns - 1), static_cast<double>(edge));
+      row += triangle_count(old.surface.cells[l.index(c, r)]) /
+             stretch((c + 0.5) / (l.columns - 1), static_cast<double>(edge));
     sum += row / stretch((r + 0.5) / (l.rows - 1), static_cast<double>(edge));
   }
   return sum;
 }
 
-ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory) {
+ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
+                               std::pmr::memory_resource* memory) {
   ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory), old.closed};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old.lattice, old.surface);
@@ -236,10 +269,13 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
   return made;
 }
 
-PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart, float margin_mm, std::pmr::memory_resource* memory) {
+PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
+                         float margin_mm, std::pmr::memory_resource* memory) {
   PointLattice made(memory);
-  const Vec3f centre{static_cast<float>(chart.centre_mm.x), static_cast<float>(chart.centre_mm.y), static_cast<float>(chart.centre_mm.z)};
-  const double step = std::sqrt(static_cast<double>(old.cell_width_mm) * static_cast<double>(old.cell_height_mm));
+  const Vec3f centre{static_cast<float>(chart.centre_mm.x), static_cast<float>(chart.centre_mm.y),
+                     static_cast<float>(chart.centre_mm.z)};
+  const double step =
+      std::sqrt(static_cast<double>(old.cell_width_mm) * static_cast<double>(old.cell_height_mm));
   std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
   float aside = 0;
   float above = 0;
@@ -252,7 +288,10 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
     above = std::max(above, -place[k].y);
     below = std::max(below, place[k].y);
   }
-  const auto room = [&](float reach) { return static_cast<int>(std::ceil(std::min(reach + margin_mm / static_cast<float>(step), static_cast<float>(kFarthest / step)))); };
+  const auto room = [&](float reach) {
+    return static_cast<int>(std::ceil(
+        std::min(reach + margin_mm / static_cast<float>(step), static_cast<float>(kFarthest / step))));
+  };
   const int left = room(aside);
   const int top = room(above);
   made.columns = 2 * left + 1;
@@ -269,14 +308,19 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
   std::pmr::vector<float> radius(nodes, 0.0F, memory);
   for_each_triangle(old, surface, [&](const std::array<std::uint32_t, 3>& t) {
     const Vec2f &a = place[t[0]], &b = place[t[1]], &c = place[t[2]];
-    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0) return;  // seen from outside it turns away
-    const auto corner = [&](std::uint32_t k) { return Vec2f{static_cast<float>(k % static_cast<std::uint32_t>(old.columns)), static_cast<float>(k / static_cast<std::uint32_t>(old.columns))}; };
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0)
+      return;  // seen from outside it turns away
+    const auto corner = [&](std::uint32_t k) {
+      return Vec2f{static_cast<float>(k % static_cast<std::uint32_t>(old.columns)),
+                   static_cast<float>(k / static_cast<std::uint32_t>(old.columns))};
+    };
     const Vec2f oa = corner(t[0]), ob = corner(t[1]), oc = corner(t[2]);
     for_each_texel(a, b, c, made.columns, {0, made.rows}, [&](int x, int y, float wa, float wb, float wc) {
       const std::size_t k = made.index(x, y);
       Vec3f at{};
       float sigma = 0;
-      const Node node = reader.read(reader.place(wa * oa.x + wb * ob.x + wc * oc.x, wa * oa.y + wb * ob.y + wc * oc.y), at, sigma);
+      const Node node = reader.read(
+          reader.place(wa * oa.x + wb * ob.x + wc * oc.x, wa * oa.y + wb * ob.y + wc * oc.y), at, sigma);
       if (node != Node::Measured) return;
       at = mesh::minus(at, centre);
       const float away = mesh::length(at);

@@ -6,7 +6,8 @@
 // neighbourhood is surface on the cubic through 4 x 4 nodes (Keys 1981, a = -1/2), which does not flatten
 // what is curved between nodes, else on its cell or triangle. A new triangle is made only where the old
 // surface lies under all of it: no hole is filled, no step bridged, nothing put beyond the old edges.
-// The new cells may grow towards the lattice's edges, where a face's crop holds hair, neck and cheeks seen askew.
+// The new cells may grow towards the lattice's edges, where a face's crop holds hair, neck and cheeks seen
+// askew.
 #pragma once
 
 #include <memory_resource>
@@ -19,7 +20,7 @@ namespace relievo::pipeline {
 struct ShapedLattice {
   PointLattice lattice;
   LatticeSurface surface;
-  CellMask inside;  // what lies within the outline, holes included
+  CellMask inside;      // what lies within the outline, holes included
   bool closed = false;  // a closed face: what was completed may lie where the view does not see it
 };
 
@@ -28,14 +29,17 @@ struct LatticeSpacing {
   float edge = 1;   // how many times wider it is at the edges; 1 or more
 };
 
-// About how many triangles a lattice of cells as wide as the old ones, and so much wider at the edges, has of this surface.
+// About how many triangles a lattice of cells as wide as the old ones, and so much wider at the edges, has of
+// this surface.
 double expected_triangles(const ShapedLattice& old, float edge);
 
 // Throws std::bad_alloc when `memory` is used up.
-ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope, std::pmr::memory_resource* memory);
+ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
+                               std::pmr::memory_resource* memory);
 
-// Lays it on a head's chart, about as fine, with room around what there is: nodes alone, join_neighbours() joins them.
-// Throws std::bad_alloc when `memory` is used up.
-PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart, float margin_mm, std::pmr::memory_resource* memory);
+// Lays it on a head's chart, about as fine, with room around what there is: nodes alone, join_neighbours()
+// joins them. Throws std::bad_alloc when `memory` is used up.
+PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
+                         float margin_mm, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -25,8 +25,8 @@ class EdgeTest {
     const std::size_t b = lattice_.index(column + dx, row + dy);
     if (lattice_.node[a] == Node::Empty || lattice_.node[b] == Node::Empty) return false;
     const SightEdge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
-    const float noise = limits_.step_sigmas *
-        std::sqrt(lattice_.sigma_mm[a] * lattice_.sigma_mm[a] + lattice_.sigma_mm[b] * lattice_.sigma_mm[b]);
+    const float noise = limits_.step_sigmas * std::sqrt(lattice_.sigma_mm[a] * lattice_.sigma_mm[a] +
+                                                        lattice_.sigma_mm[b] * lattice_.sigma_mm[b]);
     const float depth = std::abs(edge.depth_mm);
     // Noise may excuse a slope, but never more than doubles what is allowed: a large sigma is no
     // licence to bridge a gap.
@@ -56,7 +56,9 @@ class EdgeTest {
   const LatticeLimits& limits_;
 };
 
-struct CellEdges { bool top, bottom, left, right, falling, rising; };
+struct CellEdges {
+  bool top, bottom, left, right, falling, rising;
+};
 
 std::uint8_t cut_cell(const PointLattice& l, int c, int r, const CellEdges& e, float min_cosine) {
   const Vec3f& a = l.at_mm[l.index(c, r)];
@@ -76,7 +78,8 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, const CellEdges& e, f
 
 }  // namespace
 
-bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx, int dy) {
+bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx,
+               int dy) {
   return EdgeTest(lattice, limits).joined(column, row, dx, dy);
 }
 

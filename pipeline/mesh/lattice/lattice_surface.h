@@ -25,7 +25,7 @@ inline constexpr std::uint8_t kUnder = 1, kOver = 2, kLeft = 4, kRight = 8;
 inline constexpr std::uint8_t kFalling = kUnder | kOver, kRising = kLeft | kRight;
 
 struct LatticeLimits {
-  float max_slope = 0;         // tangent of the steepest angle of incidence
+  float max_slope = 0;  // tangent of the steepest angle of incidence
   float step_sigmas = 0;
   float step_slope_ratio = 0;
   float min_step_mm = 0;
@@ -49,7 +49,9 @@ void for_each_triangle(const PointLattice& lattice, const LatticeSurface& surfac
   }
 }
 
-inline int triangle_count(std::uint8_t cell) { return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1; }
+inline int triangle_count(std::uint8_t cell) {
+  return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1;
+}
 
 // Whether the node (column, row) and its neighbour (column + dx, row + dy) continue one surface.
 bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx, int dy);

@@ -13,11 +13,13 @@ namespace {
 
 using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus;
 
-constexpr float kSlopeRadiusMm = 1.5F;   // a cell's slope is the mean so far around it
-constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much must be in to gain a cell, or to keep one: what was measured weighs more
-constexpr float kAgreeMm = 1;           // along the line of sight, where it is steep: a third of it across the surface
-constexpr float kRimMm = 6;             // a hole so near to the outside is a nick in the outline
-constexpr float kChannelShare = 0.5F;   // steep channels narrower than this share of min_width_mm let nothing in
+constexpr float kSlopeRadiusMm = 1.5F;         // a cell's slope is the mean so far around it
+constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much must be in to gain a cell, or
+                                               // to keep one: what was measured weighs more
+constexpr float kAgreeMm = 1;  // along the line of sight, where it is steep: a third of it across the surface
+constexpr float kRimMm = 6;    // a hole so near to the outside is a nick in the outline
+constexpr float kChannelShare =
+    0.5F;  // steep channels narrower than this share of min_width_mm let nothing in
 
 // Sums along rows over windows of 2 reach + 1, in place.
 void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr::memory_resource* memory) {
@@ -35,14 +37,16 @@ void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr
 
 // What the outline gains by being straightened continues the surface within it. Where something was
 // measured that continues it too, the measurement stays; the last rows before the horizon often do not.
-void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted, float max_slope,
-          MaskShaper& shaper, std::pmr::memory_resource* memory) {
+void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted,
+          float max_slope, MaskShaper& shaper, std::pmr::memory_resource* memory) {
   CellMask gained = before;
-  shaper.erode(gained, 1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
+  shaper.erode(gained,
+               1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (!before[k]) surface.cells[k] = 0;
     gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
-                l.inside(static_cast<int>(k) % l.columns + 1, static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
+                l.inside(static_cast<int>(k) % l.columns + 1,
+                         static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
   }
   const PointLattice measured(l, memory);
   fill_cells(l, surface, gained, max_slope, {}, memory);
@@ -58,17 +62,20 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
 }
 
 // See outline.h; `bow_mm` is the radius of the disc.
-void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper, std::pmr::memory_resource* memory) {
+void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper,
+                     std::pmr::memory_resource* memory) {
   CellMask near_outside(kept, memory);
   for (std::uint8_t& cell : near_outside) cell ^= 1;
   shaper.dilate(near_outside, kRimMm);
-  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
   shaper.open(kept, bow_mm);
 }
 
 }  // namespace
 
-CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope, const Vec3f& from_mm, std::pmr::memory_resource* memory) {
+CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope,
+                     const Vec3f& from_mm, std::pmr::memory_resource* memory) {
   std::pmr::vector<Vec3f> normal(l.size(), Vec3f{}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (triangle_count(surface.cells[k]) != 2) continue;
@@ -85,16 +92,18 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
       const std::size_t k = l.index(c, r);
       if (surface.cells[k] == 0) continue;
       Vec3f n{};
-      for (int y = std::max(r - reach, 0); y <= std::min(r + reach, l.rows - 1); ++y) n = plus(n, normal[l.index(c, y)]);
-      const Vec3f p = minus(l.at_mm[l.node[k] != Node::Empty ? k : k + 1], from_mm);  // a triangle holds one of the upper nodes
+      for (int y = std::max(r - reach, 0); y <= std::min(r + reach, l.rows - 1); ++y)
+        n = plus(n, normal[l.index(c, y)]);
+      const Vec3f p = minus(l.at_mm[l.node[k] != Node::Empty ? k : k + 1],
+                            from_mm);  // a triangle holds one of the upper nodes
       const float towards = dot(n, p);
       steep[k] = towards * towards < cosine * cosine * dot(n, n) * dot(p, p);
     }
   return steep;
 }
 
-CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits, MaskShaper& shaper,
-                      std::pmr::memory_resource* memory) {
+CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits,
+                      MaskShaper& shaper, std::pmr::memory_resource* memory) {
   CellMask all(l.size(), 0, memory);
   for (std::size_t k = 0; k < l.size(); ++k) all[k] = surface.cells[k] != 0;
   shaper.fill_holes(all);

@@ -15,7 +15,7 @@ using mesh::minus, mesh::plus, mesh::times;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr float kInsetCells = 0.6F;   // how far inside a straight edge a line runs at least ...
-constexpr float kInsetSigmas = 0.1F; // ... and at least: it may only take away, and waves have two sides
+constexpr float kInsetSigmas = 0.1F;  // ... and at least: it may only take away, and waves have two sides
 constexpr float kSnap = 0.25F;        // of an edge
 
 // A Gaussian sampled half-way between whole steps, one side, all of both sides summing to 1.
@@ -69,7 +69,9 @@ std::pmr::vector<float> depth_inside(const PointLattice& l, Halves&& halves, flo
 struct Place {
   std::uint32_t from, to;
   friend bool operator==(const Place&, const Place&) = default;
-  friend bool operator<(const Place& a, const Place& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; }
+  friend bool operator<(const Place& a, const Place& b) {
+    return a.from != b.from ? a.from < b.from : a.to < b.to;
+  }
 };
 
 struct Point {
@@ -80,18 +82,29 @@ struct Point {
 
 class Cutter {
  public:
-  Cutter(const PointLattice& lattice, const LatticeSurface& surface, float max_slope, std::pmr::memory_resource* memory)
-      : lattice_(lattice), surface_(surface), min_cosine_(cosine_of_slope(max_slope)), over_(lattice.size(), 1.0F, memory),
-        snaps_(lattice.size(), Snap{}, memory), number_(lattice.size(), kNone, memory), cuts_(memory) {}
+  Cutter(const PointLattice& lattice, const LatticeSurface& surface, float max_slope,
+         std::pmr::memory_resource* memory)
+      : lattice_(lattice),
+        surface_(surface),
+        min_cosine_(cosine_of_slope(max_slope)),
+        over_(lattice.size(), 1.0F, memory),
+        snaps_(lattice.size(), Snap{}, memory),
+        number_(lattice.size(), kNone, memory),
+        cuts_(memory) {}
 
-  void draw_lines(const CellMask& inside, const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, std::pmr::memory_resource* memory) {
+  void draw_lines(const CellMask& inside, const OutlineSmoothing& smoothing,
+                  const std::optional<FaceOutline>& outline, std::pmr::memory_resource* memory) {
     if (outline)
       for (std::size_t k = 0; k < over_.size(); ++k)
-        if (lattice_.node[k] != Node::Empty) over_[k] = std::min(over_[k], outline->depth_mm(lattice_.at_mm[k]));
+        if (lattice_.node[k] != Node::Empty)
+          over_[k] = std::min(over_[k], outline->depth_mm(lattice_.at_mm[k]));
     if (smoothing.outline_mm > 0)
-      take_least(depth_inside(lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
+      take_least(depth_inside(
+          lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
     if (smoothing.rims_mm > 0)
-      take_least(depth_inside(lattice_, [&](std::size_t k) { return triangle_count(surface_.cells[k]); }, smoothing.rims_mm, memory));
+      take_least(depth_inside(
+          lattice_, [&](std::size_t k) { return triangle_count(surface_.cells[k]); }, smoothing.rims_mm,
+          memory));
     for_each_triangle(lattice_, surface_, [this](const Triangle& t) {
       for (std::size_t i = 0; i < 3; ++i) pull_together(t[i], t[(i + 1) % 3]);
     });
@@ -177,7 +190,9 @@ class Cutter {
     visit(std::array<Place, 3>{pa, over_[b] < 0 ? Place{a, b} : pb, over_[c] < 0 ? Place{a, c} : pc});
   }
 
-  float squared(const Place& a, const Place& b) const { return mesh::squared_distance(at(a).at_mm, at(b).at_mm); }
+  float squared(const Place& a, const Place& b) const {
+    return mesh::squared_distance(at(a).at_mm, at(b).at_mm);
+  }
 
   Point at(const Place& p) const {
     if (p.from != p.to) return between(p.from, p.to, over_[p.from] / (over_[p.from] - over_[p.to]));
@@ -223,7 +238,8 @@ class Cutter {
 
   std::uint32_t number(const Place& p) const {
     if (p.from == p.to) return number_[p.from];
-    return first_cut_ + static_cast<std::uint32_t>(std::lower_bound(cuts_.begin(), cuts_.end(), p) - cuts_.begin());
+    return first_cut_ +
+           static_cast<std::uint32_t>(std::lower_bound(cuts_.begin(), cuts_.end(), p) - cuts_.begin());
   }
 
   const PointLattice& lattice_;
@@ -239,8 +255,8 @@ class Cutter {
 }  // namespace
 
 CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, float max_slope,
-                       std::pmr::memory_resource* memory) {
+                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
+                       float max_slope, std::pmr::memory_resource* memory) {
   Cutter cutter(lattice, surface, max_slope, memory);
   if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, outline, memory);
   return cutter.cut(memory);

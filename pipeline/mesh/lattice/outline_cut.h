@@ -22,7 +22,8 @@ namespace relievo::pipeline {
 
 // Only vertices that a triangle uses. Frame: left camera, millimetres.
 struct CutSurface {
-  explicit CutSurface(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
+  explicit CutSurface(std::pmr::memory_resource* memory)
+      : at_mm(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
   std::pmr::vector<Vec3f> at_mm;
   std::pmr::vector<float> sigma_mm;         // along the line of sight
   std::pmr::vector<std::uint8_t> measured;  // 1 where both nodes of the edge it lies on are
@@ -36,9 +37,10 @@ struct OutlineSmoothing {
 };
 
 // `inside` is what lies within the outline, holes included. Triangles that the move would make steeper
-// than `max_slope` are left out. `outline`: nothing beyond this curve is kept. Throws std::bad_alloc when `memory` is used up.
+// than `max_slope` are left out. `outline`: nothing beyond this curve is kept. Throws std::bad_alloc when
+// `memory` is used up.
 CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline, float max_slope,
-                       std::pmr::memory_resource* memory);
+                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
+                       float max_slope, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -13,12 +13,14 @@ namespace {
 constexpr float kLargestPixel = 100'000;  // beyond this a pixel is a mistake, not a picture
 
 bool usable(const CloudPoint& p) {
-  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && p.at_mm.z > 0 &&
-         std::isfinite(p.at_mm.z) && std::isfinite(p.sigma_mm) && p.sigma_mm >= 0 &&
-         std::abs(p.left_px.x) < kLargestPixel && std::abs(p.left_px.y) < kLargestPixel;
+  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && p.at_mm.z > 0 && std::isfinite(p.at_mm.z) &&
+         std::isfinite(p.sigma_mm) && p.sigma_mm >= 0 && std::abs(p.left_px.x) < kLargestPixel &&
+         std::abs(p.left_px.y) < kLargestPixel;
 }
 
-struct Box { float left = kLargestPixel, top = kLargestPixel, right = -kLargestPixel, bottom = -kLargestPixel; };
+struct Box {
+  float left = kLargestPixel, top = kLargestPixel, right = -kLargestPixel, bottom = -kLargestPixel;
+};
 
 Box bounds(const PointCloud& cloud) {
   Box box;
@@ -61,10 +63,13 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
   if (box.right < box.left) return lattice;
 
   const float step = static_cast<float>(cloud.lattice_step_px);
-  const auto steps = [step](float from, float to) { return static_cast<int>(std::lround((to - from) / step)); };
+  const auto steps = [step](float from, float to) {
+    return static_cast<int>(std::lround((to - from) / step));
+  };
   lattice.columns = steps(box.left, box.right) + 1;
   lattice.rows = steps(box.top, box.bottom) + 1;
-  const std::size_t nodes = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
+  const std::size_t nodes =
+      static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
   lattice.sigma_mm.assign(nodes, 0.0F);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::int32_t kNone = -1;
 constexpr std::size_t kCoarsest = 5000;  // free places that are solved for without a coarser grid
-constexpr int kMostTurns = 300, kTurnsBelow = 12;  // of conjugate gradients, on the coarsest grid and on those below
+constexpr int kMostTurns = 300,
+              kTurnsBelow = 12;  // of conjugate gradients, on the coarsest grid and on those below
 
 // One second difference: weights times places.
 struct Difference {
@@ -29,10 +30,21 @@ double squared(const std::pmr::vector<double>& v) {
 
 class Plate {
  public:
-  Plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free, std::span<const std::uint8_t> known,
-        std::span<const double> like, std::pmr::memory_resource* memory)
-      : value_(value), grid_(grid), free_(free), known_(known), like_(like), place_(value.size(), kNone, memory), placed_(known.begin(), known.end(), memory),
-        differences_(memory), step_(free.size(), 0.0, memory), slope_(free.size(), 0.0, memory), residual_(memory), change_(memory), memory_(memory) {
+  Plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
+        std::span<const std::uint8_t> known, std::span<const double> like, std::pmr::memory_resource* memory)
+      : value_(value),
+        grid_(grid),
+        free_(free),
+        known_(known),
+        like_(like),
+        place_(value.size(), kNone, memory),
+        placed_(known.begin(), known.end(), memory),
+        differences_(memory),
+        step_(free.size(), 0.0, memory),
+        slope_(free.size(), 0.0, memory),
+        residual_(memory),
+        change_(memory),
+        memory_(memory) {
     for (std::size_t i = 0; i < free.size(); ++i) place_[free[i]] = static_cast<std::int32_t>(i);
   }
 
@@ -45,7 +57,10 @@ class Plate {
   }
 
  private:
-  std::size_t index(int c, int r) const { return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) + static_cast<std::size_t>(c); }
+  std::size_t index(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) +
+           static_cast<std::size_t>(c);
+  }
   bool inside(int c, int r) const { return c >= 0 && r >= 0 && c < grid_.columns && r < grid_.rows; }
   int column(std::size_t k) const { return static_cast<int>(k) % grid_.columns; }
   int row(std::size_t k) const { return static_cast<int>(k) / grid_.columns; }
@@ -53,14 +68,16 @@ class Plate {
 
   // Every second place of every second row is a plate of its own; between them lies the mean of those around.
   void start_from_coarser() {
-    const PlateGrid coarse{(grid_.columns + 1) / 2, (grid_.rows + 1) / 2, grid_.height_to_width, 2 * grid_.tension, 4 * grid_.bow};
+    const PlateGrid coarse{(grid_.columns + 1) / 2, (grid_.rows + 1) / 2, grid_.height_to_width,
+                           2 * grid_.tension, 4 * grid_.bow};
     const std::size_t size = static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows);
     std::pmr::vector<double> value(size, 0.0, memory_), like(like_.empty() ? 0 : size, 0.0, memory_);
     std::pmr::vector<std::uint8_t> known(size, 0, memory_);
     std::pmr::vector<std::uint32_t> free(memory_);
     free.reserve(free_.size() / 2);
     for (std::size_t k = 0; k < size; ++k) {
-      const std::size_t here = index(2 * (static_cast<int>(k) % coarse.columns), 2 * (static_cast<int>(k) / coarse.columns));
+      const std::size_t here =
+          index(2 * (static_cast<int>(k) % coarse.columns), 2 * (static_cast<int>(k) / coarse.columns));
       value[k] = value_[here];
       known[k] = known_[here];
       if (!like_.empty()) like[k] = like_[here];
@@ -76,7 +93,9 @@ class Plate {
           const int c = 2 * (column(k) / 2 + dc);
           const int r = 2 * (row(k) / 2 + dr);
           if (!inside(c, r) || (known_[index(c, r)] == 0 && place_[index(c, r)] == kNone)) continue;
-          const std::size_t from = static_cast<std::size_t>(r / 2) * static_cast<std::size_t>(coarse.columns) + static_cast<std::size_t>(c / 2);
+          const std::size_t from =
+              static_cast<std::size_t>(r / 2) * static_cast<std::size_t>(coarse.columns) +
+              static_cast<std::size_t>(c / 2);
           sum += value[from] + (guided(k) && guided(index(c, r)) ? like_[k] - like_[index(c, r)] : 0);
           count += 1;
         }
@@ -130,8 +149,10 @@ class Plate {
       const int c = column(k);
       const int r = row(k);
       for (int d = -1; d <= 1; ++d) {
-        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, {across, -across, across, -across}, across * grid_.bow, visit);
-        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, {1 / across, -1 / across, 1 / across, -1 / across}, across * grid_.bow, visit);
+        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}},
+             {across, -across, across, -across}, across * grid_.bow, visit);
+        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}},
+             {1 / across, -1 / across, 1 / across, -1 / across}, across * grid_.bow, visit);
       }
       if (grid_.tension > 0 && guided(k))
         for (int d = -1; d <= 0; ++d) {
@@ -153,7 +174,8 @@ class Plate {
       const auto& at = differences_[i].at;
       const bool bent = std::all_of(at.begin(), at.end(), [this](std::uint32_t k) { return guided(k); });
       residual_[i] = bent ? 0 : differences_[i].wanted;
-      for (std::size_t j = 0; j < 4; ++j) residual_[i] -= differences_[i].weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
+      for (std::size_t j = 0; j < 4; ++j)
+        residual_[i] -= differences_[i].weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
     }
     descend();
     step_ = slope_;
@@ -172,11 +194,14 @@ class Plate {
     }
   }
 
-  struct Place { int c, r; };
+  struct Place {
+    int c, r;
+  };
 
   // Each difference once: by the first of its free places.
   template <typename Visit>
-  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights, double wanted, Visit&& visit) const {
+  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights,
+            double wanted, Visit&& visit) const {
     Difference difference;
     difference.weight = weights;
     difference.wanted = wanted;
@@ -211,7 +236,8 @@ class Plate {
     for (std::size_t i = 0; i < differences_.size(); ++i)
       for (std::size_t j = 0; j < 4; ++j) {
         const std::int32_t place = place_[differences_[i].at[j]];
-        if (place != kNone) slope_[static_cast<std::size_t>(place)] += differences_[i].weight[j] * residual_[i];
+        if (place != kNone)
+          slope_[static_cast<std::size_t>(place)] += differences_[i].weight[j] * residual_[i];
       }
   }
 
@@ -223,15 +249,16 @@ class Plate {
   std::pmr::vector<std::int32_t> place_;   // of a place among the free ones
   std::pmr::vector<std::uint8_t> placed_;  // 1 where it has a value
   std::pmr::vector<Difference> differences_;
-  std::pmr::vector<double> step_, slope_;        // one a free place
-  std::pmr::vector<double> residual_, change_;   // one a difference
+  std::pmr::vector<double> step_, slope_;       // one a free place
+  std::pmr::vector<double> residual_, change_;  // one a difference
   std::pmr::memory_resource* memory_;
 };
 
 }  // namespace
 
-void relax_thin_plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free, std::span<const std::uint8_t> known,
-                      std::span<const double> like, std::pmr::memory_resource* memory) {
+void relax_thin_plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
+                      std::span<const std::uint8_t> known, std::span<const double> like,
+                      std::pmr::memory_resource* memory) {
   if (!free.empty()) Plate(value, grid, free, known, like, memory).relax();
 }
 

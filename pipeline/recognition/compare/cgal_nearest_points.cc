@@ -16,14 +16,17 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Numbered = std::pair<Kernel::Point_3, std::uint32_t>;
-using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_property_map<Numbered>, CGAL::Search_traits_3<Kernel>>;
+using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_property_map<Numbered>,
+                                           CGAL::Search_traits_3<Kernel>>;
 using Search = CGAL::Orthogonal_k_neighbor_search<Traits>;
 
 std::vector<Numbered> numbered(std::span<const Vec3f> points) {
   std::vector<Numbered> out;
   out.reserve(points.size());
   for (const Vec3f& p : points)
-    out.emplace_back(Kernel::Point_3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)), static_cast<std::uint32_t>(out.size()));
+    out.emplace_back(
+        Kernel::Point_3(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)),
+        static_cast<std::uint32_t>(out.size()));
   return out;
 }
 
@@ -34,7 +37,8 @@ struct NearestPoints::Tree {
   Search::Tree of;  // built before the first question: building later would not be safe among threads
 };
 
-NearestPoints::NearestPoints(std::span<const Vec3f> points_mm) : tree_(std::make_unique<const Tree>(numbered(points_mm))) {}
+NearestPoints::NearestPoints(std::span<const Vec3f> points_mm)
+    : tree_(std::make_unique<const Tree>(numbered(points_mm))) {}
 NearestPoints::~NearestPoints() = default;
 NearestPoints::NearestPoints(NearestPoints&&) noexcept = default;
 NearestPoints& NearestPoints::operator=(NearestPoints&&) noexcept = default;

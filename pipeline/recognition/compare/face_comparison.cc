@@ -18,12 +18,12 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kFewestPoints = 400;
-constexpr double kFewestShared = 0.35;     // of the smaller face: less is no comparison
-constexpr double kKept = 0.9;              // of the pairs: the rest is hair, lids, expression
-constexpr double kBesideMm = 2.5;          // a counterpart further along the surface is another place
-constexpr double kReachMm = 12;            // along the normal
-constexpr double kAlike = 0.6;             // cosine between the normals
-constexpr std::size_t kWhileMoving = 700;  // points of each face until the motion settles
+constexpr double kFewestShared = 0.35;       // of the smaller face: less is no comparison
+constexpr double kKept = 0.9;                // of the pairs: the rest is hair, lids, expression
+constexpr double kBesideMm = 2.5;            // a counterpart further along the surface is another place
+constexpr double kReachMm = 12;              // along the normal
+constexpr double kAlike = 0.6;               // cosine between the normals
+constexpr std::size_t kWhileMoving = 700;    // points of each face until the motion settles
 constexpr std::size_t kToSettle = 1U << 20;  // all
 constexpr int kTurns = 30;
 
@@ -38,11 +38,14 @@ struct Pair {
   Vector6d slope;
 };
 
-Vector3d to_eigen(const Vec3f& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Vector3d to_eigen(const Vec3f& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 // From the points of `from`, moved, to the surface of `to`. Returns how many were asked.
 template <typename Take>
-std::size_t meet(const RigidFace& from, const ComparableFace& to, const Motion& to_from_from, std::size_t every, Take&& take) {
+std::size_t meet(const RigidFace& from, const ComparableFace& to, const Motion& to_from_from,
+                 std::size_t every, Take&& take) {
   std::size_t asked = 0;
   for (std::size_t i = 0; i < from.points_mm.size(); i += every, ++asked) {
     const Vector3d p = to_from_from.turn * to_eigen(from.points_mm[i]) + to_from_from.shift;
@@ -63,23 +66,31 @@ struct Meeting {
 };
 
 // Both ways: a's points on b, and b's on a, whose motion is the inverse.
-void meet_both(const ComparableFace& a, const ComparableFace& b, const Motion& m, std::size_t wanted, Meeting& out) {
+void meet_both(const ComparableFace& a, const ComparableFace& b, const Motion& m, std::size_t wanted,
+               Meeting& out) {
   out.pairs.clear();
-  const auto every = [&](const ComparableFace& f) { return std::max<std::size_t>(1, f.face().points_mm.size() / wanted); };
-  const std::size_t of_a = meet(a.face(), b, m, every(a), [&](const Vector3d& p, const Vector3d& n, double r) {
-    Pair pair{r, {}};
-    pair.slope << p.cross(n), n;
-    out.pairs.push_back(pair);
-  });
+  const auto every = [&](const ComparableFace& f) {
+    return std::max<std::size_t>(1, f.face().points_mm.size() / wanted);
+  };
+  const std::size_t of_a =
+      meet(a.face(), b, m, every(a), [&](const Vector3d& p, const Vector3d& n, double r) {
+        Pair pair{r, {}};
+        pair.slope << p.cross(n), n;
+        out.pairs.push_back(pair);
+      });
   const std::size_t met = out.pairs.size();
   const Motion back{m.turn.transpose(), -(m.turn.transpose() * m.shift)};
-  const std::size_t of_b = meet(b.face(), a, back, every(b), [&](const Vector3d& p, const Vector3d& n, double r) {
-    const Vector3d turned = m.turn * n, at = m.turn * p + m.shift;  // in b's frame, where the motion is corrected
-    Pair pair{r, {}};
-    pair.slope << -at.cross(turned), -turned;
-    out.pairs.push_back(pair);
-  });
-  const auto share = [](std::size_t part, std::size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); };
+  const std::size_t of_b =
+      meet(b.face(), a, back, every(b), [&](const Vector3d& p, const Vector3d& n, double r) {
+        const Vector3d turned = m.turn * n,
+                       at = m.turn * p + m.shift;  // in b's frame, where the motion is corrected
+        Pair pair{r, {}};
+        pair.slope << -at.cross(turned), -turned;
+        out.pairs.push_back(pair);
+      });
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return static_cast<double>(part) / static_cast<double>(whole);
+  };
   out.shared = std::min(share(met, of_a), share(out.pairs.size() - met, of_b));
 }
 
@@ -103,7 +114,8 @@ double correct(Meeting& meeting, Motion& m) {
   const Vector6d step = a.ldlt().solve(b);
   const Vector3d turn = step.head<3>();
   const double angle = turn.norm();
-  const Matrix3d by = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Matrix3d(Matrix3d::Identity());
+  const Matrix3d by =
+      angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Matrix3d(Matrix3d::Identity());
   m = {by * m.turn, by * m.shift + step.tail<3>()};
   return 80 * angle + step.tail<3>().norm();
 }
@@ -119,7 +131,9 @@ RigidTransform to_transform(const Motion& m) {
 }  // namespace
 
 Result<ComparableFace> ComparableFace::make(RigidFace face) {
-  if (face.points_mm.size() < kFewestPoints) return Error{Errc::PoorGeometry, "too little of nose, brow and cheekbones was measured to compare this face"};
+  if (face.points_mm.size() < kFewestPoints)
+    return Error{Errc::PoorGeometry,
+                 "too little of nose, brow and cheekbones was measured to compare this face"};
   NearestPoints tree(face.points_mm);
   return ComparableFace(std::move(face), std::move(tree));
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How much two measured faces differ in shape: the rigid parts are laid on each other (trimmed iterative
-// closest points, point to plane, both ways at once: Chen, Medioni 1992; Chetverikov, Svirko, Stepanov, Krsek,
-// ICPR 2002), started from the head frames, and what is left between them is the difference. Plain: nothing is
-// learned and nothing is invented where one of them was not measured.
+// closest points, point to plane, both ways at once: Chen, Medioni 1992; Chetverikov, Svirko, Stepanov,
+// Krsek, ICPR 2002), started from the head frames, and what is left between them is the difference. Plain:
+// nothing is learned and nothing is invented where one of them was not measured.
 //
 //   the same head twice:  tenths of a millimetre, what the measurements' noise leaves
 //   two people:           mostly more than half a millimetre (figures: tests/bench/recognition/README.md)
@@ -20,9 +20,9 @@
 namespace relievo::pipeline {
 
 struct FaceDifference {
-  double rms_mm = 0;           // trimmed, symmetric: of the distances along the normal, a to b and b to a
-  double shared = 0;           // share of the one face's points that meet the other: the smaller of both ways
-  RigidTransform b_from_a;     // how the head frames had to be moved
+  double rms_mm = 0;        // trimmed, symmetric: of the distances along the normal, a to b and b to a
+  double shared = 0;        // share of the one face's points that meet the other: the smaller of both ways
+  RigidTransform b_from_a;  // how the head frames had to be moved
 };
 
 // A face ready to be compared with many others.

@@ -8,8 +8,8 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kEvery = 5;        // texels between samples
-constexpr int kDark = 8;         // black and blown-out pixels say nothing about exposure
+constexpr int kEvery = 5;  // texels between samples
+constexpr int kDark = 8;   // black and blown-out pixels say nothing about exposure
 constexpr int kBright = 246;
 constexpr int kRounds = 8;
 
@@ -21,12 +21,14 @@ void for_each_sample(const Chart& chart, const ShotPlanes& planes, std::size_t c
       if (planes.say_left[k] < 255 || planes.say_right[k] < 255) continue;
       const std::uint8_t l = planes.left[3 * k + channel];
       const std::uint8_t r = planes.right[3 * k + channel];
-      if (std::min(l, r) >= kDark && std::max(l, r) <= kBright) visit(static_cast<double>(l), static_cast<double>(r));
+      if (std::min(l, r) >= kDark && std::max(l, r) <= kBright)
+        visit(static_cast<double>(l), static_cast<double>(r));
     }
 }
 
 // 1.4826 times the median of the absolute residuals, from a histogram of quarters of a grey level.
-double robust_sigma(const Chart& chart, const ShotPlanes& planes, std::size_t channel, double gain, double offset) {
+double robust_sigma(const Chart& chart, const ShotPlanes& planes, std::size_t channel, double gain,
+                    double offset) {
   std::array<int, 1024> histogram{};
   int count = 0;
   for_each_sample(chart, planes, channel, [&](double l, double r) {
@@ -41,9 +43,12 @@ double robust_sigma(const Chart& chart, const ShotPlanes& planes, std::size_t ch
   return 0;
 }
 
-struct Moments { double weight = 0, l = 0, r = 0, ll = 0, rr = 0, lr = 0; };
+struct Moments {
+  double weight = 0, l = 0, r = 0, ll = 0, rr = 0, lr = 0;
+};
 
-Moments weighted_moments(const Chart& chart, const ShotPlanes& planes, std::size_t channel, double gain, double offset, double limit) {
+Moments weighted_moments(const Chart& chart, const ShotPlanes& planes, std::size_t channel, double gain,
+                         double offset, double limit) {
   Moments m;
   for_each_sample(chart, planes, channel, [&](double l, double r) {
     const double u = (l - gain * r - offset) / limit;
@@ -63,7 +68,7 @@ Moments weighted_moments(const Chart& chart, const ShotPlanes& planes, std::size
 
 ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
   constexpr double kTukey = 4.685;
-  constexpr double kLeastSpread = 6;   // grey levels: below, skin is too even to tell gain from offset
+  constexpr double kLeastSpread = 6;  // grey levels: below, skin is too even to tell gain from offset
   ExposureMatch match;
   for (std::size_t c = 0; c < 3; ++c) {
     Moments m = weighted_moments(chart, planes, c, 1, 0, 1e9);
@@ -79,7 +84,8 @@ ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
       const double r = m.r / m.weight;
       const double spread_l = std::sqrt(std::max(m.ll / m.weight - l * l, 0.0));
       const double spread_r = std::sqrt(std::max(m.rr / m.weight - r * r, 0.0));
-      const bool tells = spread_r > kLeastSpread && spread_l > kLeastSpread && m.lr / m.weight - l * r > 0.5 * spread_l * spread_r;
+      const bool tells = spread_r > kLeastSpread && spread_l > kLeastSpread &&
+                         m.lr / m.weight - l * r > 0.5 * spread_l * spread_r;
       gain = std::clamp(tells ? spread_l / spread_r : l / r, 0.25, 4.0);
       offset = tells ? std::clamp(l - gain * r, -64.0, 64.0) : 0.0;
     }

@@ -9,7 +9,8 @@ namespace relievo::pipeline {
 
 LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
                        std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory)
-    : columns_((chart.width_px + kLevelCell - 1) / kLevelCell), rows_((chart.height_px + kLevelCell - 1) / kLevelCell),
+    : columns_((chart.width_px + kLevelCell - 1) / kLevelCell),
+      rows_((chart.height_px + kLevelCell - 1) / kLevelCell),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Cell{}, memory) {
   constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
   for (int y = 0; y < chart.height_px; ++y)
@@ -17,9 +18,11 @@ LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const Expos
       const std::size_t k = chart.index(x, y);
       if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
       Level d;
-      for (std::size_t c = 0; c < 3; ++c) d[c] = exposure.matched(c, planes.right[3 * k + c]) - static_cast<float>(planes.left[3 * k + c]);
+      for (std::size_t c = 0; c < 3; ++c)
+        d[c] = exposure.matched(c, planes.right[3 * k + c]) - static_cast<float>(planes.left[3 * k + c]);
       if (std::abs(d[1]) > kFarthest) continue;
-      Cell& to = cells_[static_cast<std::size_t>(y / kLevelCell) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x / kLevelCell)];
+      Cell& to = cells_[static_cast<std::size_t>(y / kLevelCell) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(x / kLevelCell)];
       for (std::size_t c = 0; c < 3; ++c) to.sum[c] += d[c];
       to.weight += 1;
     }
@@ -42,7 +45,8 @@ void LevelField::smooth(std::pmr::memory_resource* memory) {
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += w * from.sum[c];
             sum.weight += w * from.weight;
           }
-        next[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)] = sum;
+        next[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)] =
+            sum;
       }
     std::swap(cells_, next);
   }
@@ -59,13 +63,15 @@ void LevelField::extend(std::pmr::memory_resource* memory) {
   const int largest = std::max(columns_, rows_);
   for (int y = 0; y < rows_; ++y)
     for (int x = 0; x < columns_; ++x) {
-      Cell& here = cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
+      Cell& here = cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(x)];
       Cell sum = here;
       for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
         sum = {};
         for (int v = std::max(0, y - radius); v <= std::min(rows_ - 1, y + radius); ++v)
           for (int u = std::max(0, x - radius); u <= std::min(columns_ - 1, x + radius); ++u) {
-            const Cell& from = known[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(u)];
+            const Cell& from = known[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
+                                     static_cast<std::size_t>(u)];
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += from.sum[c];
             sum.weight += from.weight;
           }

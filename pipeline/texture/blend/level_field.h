@@ -25,13 +25,19 @@ class LevelField {
  public:
   using Level = std::array<float, 3>;
   // `shines`: one a texel, 1 where a highlight makes the views incomparable.
-  LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure, std::span<const std::uint8_t> shines,
-             std::pmr::memory_resource* memory);
+  LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+             std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory);
   Level at(float texel_x, float texel_y) const;
 
  private:
-  struct Cell { Level sum{0, 0, 0}; float weight = 0; };
-  const Cell& cell(int x, int y) const { return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]; }
+  struct Cell {
+    Level sum{0, 0, 0};
+    float weight = 0;
+  };
+  const Cell& cell(int x, int y) const {
+    return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(x)];
+  }
   void smooth(std::pmr::memory_resource* memory);
   void extend(std::pmr::memory_resource* memory);
   int columns_, rows_;

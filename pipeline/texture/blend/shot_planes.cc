@@ -14,10 +14,11 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kLeastCosine = 0.2F;  // completed surface that a view would only graze may lie behind what that view shows there
+constexpr float kLeastCosine =
+    0.2F;  // completed surface that a view would only graze may lie behind what that view shows there
 constexpr float kLevels = 3, kShare = 0.17F;  // by which colour may leave that beside it ...
-constexpr float kHue = 0.025F;                 // of a channel's part in all three
-constexpr float kMemory = 0.93F;               // ... which remembers so much of where it came from
+constexpr float kHue = 0.025F;                // of a channel's part in all three
+constexpr float kMemory = 0.93F;              // ... which remembers so much of where it came from
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -30,7 +31,8 @@ std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::m
   return found;
 }
 
-// Calls step(from, to) along edges until no call says that it changed anything. Triangles run along rows: a pass each way reaches far.
+// Calls step(from, to) along edges until no call says that it changed anything. Triangles run along rows: a
+// pass each way reaches far.
 template <typename Step>
 void sweep(std::span<const Triangle> triangles, Step&& step) {
   bool changed = true;
@@ -46,20 +48,28 @@ void sweep(std::span<const Triangle> triangles, Step&& step) {
 }
 
 // 1 at vertices that were completed and are joined by such to the surface's border nearby.
-std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh, std::span<const Triangle> completed_parts, std::pmr::memory_resource* memory) {
+std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
+                                                   std::span<const Triangle> completed_parts,
+                                                   std::pmr::memory_resource* memory) {
   constexpr float kReachMm = 38;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // 0 where the triangles around a vertex close
+  std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0,
+                                      memory);  // 0 where the triangles around a vertex close
   for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+    for (std::size_t i = 0; i < 3; ++i)
+      turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
   std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // the nearest vertex of it
   const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
   for (std::uint32_t v = 0; v < border.size(); ++v)
     if (turn[v] != 0 && completed(v)) border[v] = v;
-  const auto squared_mm = [&](std::uint32_t v, std::uint32_t at_border) { return mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]); };
+  const auto squared_mm = [&](std::uint32_t v, std::uint32_t at_border) {
+    return mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]);
+  };
   sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
     if (border[from] == kNone || border[to] == border[from] || !completed(to)) return false;
-    if (squared_mm(to, border[from]) >= (border[to] == kNone ? kReachMm * kReachMm : squared_mm(to, border[to]))) return false;
+    if (squared_mm(to, border[from]) >=
+        (border[to] == kNone ? kReachMm * kReachMm : squared_mm(to, border[to])))
+      return false;
     border[to] = border[from];
     return true;
   });
@@ -68,10 +78,12 @@ std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh, std::sp
   return marked;
 }
 
-// Surface that was completed up to the border lies somewhat off: a photograph may show hair or the room there. What it shows belongs
-// to the face as far as its colour goes on from what was measured; beyond, the view is taken for not seeing it.
+// Surface that was completed up to the border lies somewhat off: a photograph may show hair or the room
+// there. What it shows belongs to the face as far as its colour goes on from what was measured; beyond, the
+// view is taken for not seeing it.
 template <typename Colour>
-void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::span<const std::uint8_t> beyond, std::uint8_t bit, Colour&& colour, std::span<std::uint8_t> seen,
+void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::span<const std::uint8_t> beyond,
+                             std::uint8_t bit, Colour&& colour, std::span<std::uint8_t> seen,
                              std::pmr::memory_resource* memory) {
   using Rgb = std::array<float, 3>;
   std::pmr::vector<Rgb> usual(seen.size(), Rgb{-1, 0, 0}, memory);
@@ -81,9 +93,12 @@ void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::spa
   sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
     if (!known(from) || known(to) || (seen[to] & bit) == 0) return false;
     const Rgb here = colour(to);
-    const float light = here[0] + here[1] + here[2] + 1, usual_light = usual[from][0] + usual[from][1] + usual[from][2] + 1;
+    const float light = here[0] + here[1] + here[2] + 1,
+                usual_light = usual[from][0] + usual[from][1] + usual[from][2] + 1;
     for (std::size_t c = 0; c < 3; ++c)
-      if (std::abs(here[c] - usual[from][c]) > kLevels + kShare * usual[from][c] || std::abs(here[c] / light - usual[from][c] / usual_light) > kHue) return false;
+      if (std::abs(here[c] - usual[from][c]) > kLevels + kShare * usual[from][c] ||
+          std::abs(here[c] / light - usual[from][c] / usual_light) > kHue)
+        return false;
     for (std::size_t c = 0; c < 3; ++c) usual[to][c] = kMemory * usual[from][c] + (1 - kMemory) * here[c];
     return true;
   });
@@ -101,7 +116,9 @@ bool covered(const RectifiedView& view, const RectifiedPair& pair, float x, floa
   const int column = static_cast<int>(std::lround(x));
   const int row = static_cast<int>(std::lround(y));
   if (column < 0 || row < 0 || column >= pair.width_px || row >= pair.height_px) return false;
-  return view.valid.empty() || view.valid[static_cast<std::size_t>(row) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(column)] != 0;
+  return view.valid.empty() ||
+         view.valid[static_cast<std::size_t>(row) * static_cast<std::size_t>(pair.width_px) +
+                    static_cast<std::size_t>(column)] != 0;
 }
 
 // Everything a band of rows needs; one reference fits into the pool's callable without an allocation.
@@ -115,8 +132,8 @@ struct Shooting {
   std::span<const std::uint8_t> kept;
   const ShotOptions& options;
   ShotPlanes& planes;
-  std::span<float> rows;           // two picture rows a band
-  std::span<BoxSum> columns;       // one chart row a band
+  std::span<float> rows;      // two picture rows a band
+  std::span<BoxSum> columns;  // one chart row a band
   StageContext& context;
 
   PhotoRow row_of(const RectifiedView& view, int band, int which) const {
@@ -125,7 +142,13 @@ struct Shooting {
     const int from = static_cast<int>(first) - 4;
     const int to = static_cast<int>(first + static_cast<float>(map.width_px) / map.scale) + 4;
     const std::size_t size = 3 * static_cast<std::size_t>(pair.width_px);
-    return {view, pair.width_px, pair.height_px, from, to, rows.subspan((2 * static_cast<std::size_t>(band) + static_cast<std::size_t>(which)) * size, size)};
+    return {
+        view,
+        pair.width_px,
+        pair.height_px,
+        from,
+        to,
+        rows.subspan((2 * static_cast<std::size_t>(band) + static_cast<std::size_t>(which)) * size, size)};
   }
 
   void shoot_band(int band) const {
@@ -138,12 +161,14 @@ struct Shooting {
       for (int x = 0; x < chart.width_px; ++x) {
         const std::size_t k = chart.index(x, y);
         const std::uint32_t owner = maps[0].owner[k];
-        if (owner != kNoTriangle && kept[owner] != 0) shoot_texel(k, x, y, mesh.triangles[owner], left, right);
+        if (owner != kNoTriangle && kept[owner] != 0)
+          shoot_texel(k, x, y, mesh.triangles[owner], left, right);
       }
     }
   }
 
-  void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left, const PhotoRow& right) const {
+  void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left,
+                   const PhotoRow& right) const {
     const Vec2f at{static_cast<float>(x), static_cast<float>(y)};
     const float disparity = maps[0].nearest[k];
     const std::uint8_t may = views.seen[t[0]] | views.seen[t[1]] | views.seen[t[2]];
@@ -153,12 +178,16 @@ struct Shooting {
     const float left_x = chart.view_x(at.x, disparity, kLeftSide);
     left.read(left_x, rgb);
     for (std::size_t i = 0; i < 3; ++i) planes.left[3 * k + i] = to_byte(rgb[i]);
-    if ((may & kSeenLeft) != 0 && covered(pair.left, pair, left_x, row) && maps[1].sees(at, disparity, options.occlusion_px)) seen |= kSeenLeft;
+    if ((may & kSeenLeft) != 0 && covered(pair.left, pair, left_x, row) &&
+        maps[1].sees(at, disparity, options.occlusion_px))
+      seen |= kSeenLeft;
     if (!options.left_only) {
       const float right_x = chart.view_x(at.x, disparity, kRightSide);
       right.read(right_x, rgb);
       for (std::size_t i = 0; i < 3; ++i) planes.right[3 * k + i] = to_byte(rgb[i]);
-      if ((may & kSeenRight) != 0 && covered(pair.right, pair, right_x, row) && maps[2].sees(at, disparity, options.occlusion_px)) seen |= kSeenRight;
+      if ((may & kSeenRight) != 0 && covered(pair.right, pair, right_x, row) &&
+          maps[2].sees(at, disparity, options.occlusion_px))
+        seen |= kSeenRight;
     }
     planes.seen[k] = seen;
     planes.share[k] = to_byte(255 * share_at(at, t));
@@ -177,16 +206,20 @@ struct Shooting {
   // A view has its full say where all of the window around is seen by it, and none where more than a
   // tenth is not: a photograph mixes front and back on the last pixels before an occlusion.
   void feather_band(int band) const {
-    const int radius = std::max(1, static_cast<int>(std::lround(options.feather_px * static_cast<float>(chart.texels_per_px))));
+    const int radius = std::max(
+        1, static_cast<int>(std::lround(options.feather_px * static_cast<float>(chart.texels_per_px))));
     const auto blind = [&](int x, int y) {
       const std::uint8_t seen = planes.seen[chart.index(x, y)];
       if ((seen & kSurface) == 0) return BoxSum{};
       return BoxSum{(seen & kSeenLeft) == 0 ? 1 : 0, (seen & kSeenRight) == 0 ? 1 : 0};
     };
     const float area = static_cast<float>((2 * radius + 1) * (2 * radius + 1));
-    const auto say = [area](int blind_texels) { return to_byte(255 * (1 - 2.5F * static_cast<float>(blind_texels) / area)); };
+    const auto say = [area](int blind_texels) {
+      return to_byte(255 * (1 - 2.5F * static_cast<float>(blind_texels) / area));
+    };
     const std::size_t width = static_cast<std::size_t>(chart.width_px);
-    slide_box(chart.width_px, chart.height_px, radius, bands.rows(band), columns.subspan(static_cast<std::size_t>(band) * width, width), blind,
+    slide_box(chart.width_px, chart.height_px, radius, bands.rows(band),
+              columns.subspan(static_cast<std::size_t>(band) * width, width), blind,
               [&](int x, int y, const BoxSum& sum) {
                 const std::size_t k = chart.index(x, y);
                 planes.say_left[k] = (planes.seen[k] & kSeenLeft) != 0 ? say(sum.first) : std::uint8_t{0};
@@ -197,8 +230,9 @@ struct Shooting {
 
 }  // namespace
 
-VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const FrontMap& left,
-                             const FrontMap& right, const ShotOptions& options, std::pmr::memory_resource* memory) {
+VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart,
+                             const FrontMap& left, const FrontMap& right, const ShotOptions& options,
+                             std::pmr::memory_resource* memory) {
   const std::size_t n = mesh.vertices_mm.size();
   const Vec3d c = inverse(pair.right_from_left).translation_mm;
   const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
@@ -210,8 +244,11 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     const float towards_right = cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]);
     const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : kLeastCosine;
     if (chart.placed[v] != 0) {
-      if (towards_left >= least && left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenLeft;
-      if (!options.left_only && towards_right >= least && right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px)) views.seen[v] |= kSeenRight;
+      if (towards_left >= least && left.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px))
+        views.seen[v] |= kSeenLeft;
+      if (!options.left_only && towards_right >= least &&
+          right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px))
+        views.seen[v] |= kSeenRight;
     }
     if (options.left_only) continue;
     const float l = std::pow(towards_left, options.angle_power);
@@ -222,11 +259,15 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   const auto beyond = completed_to_border(mesh, parts, memory);
   const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit) {
     const PhotoSampler photo(view, pair.width_px, pair.height_px);
-    forget_what_lies_behind(parts, beyond, bit, [&](std::uint32_t v) {
-      float rgb[3];
-      photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side), chart.view_y(chart.texel[v].y), rgb);
-      return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
-    }, views.seen, memory);
+    forget_what_lies_behind(
+        parts, beyond, bit,
+        [&](std::uint32_t v) {
+          float rgb[3];
+          photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side),
+                     chart.view_y(chart.texel[v].y), rgb);
+          return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
+        },
+        views.seen, memory);
   };
   look(pair.left, kLeftSide, kSeenLeft);
   if (!options.left_only) look(pair.right, kRightSide, kSeenRight);
@@ -238,8 +279,10 @@ ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& c
                  const ShotOptions& options, StageContext& context) {
   ShotPlanes planes(chart.size(), &context.scratch);
   const std::size_t band_count = static_cast<std::size_t>(bands.count());
-  std::pmr::vector<float> rows(band_count * 6 * static_cast<std::size_t>(pair.width_px), 0.0F, &context.scratch);
-  std::pmr::vector<BoxSum> columns(band_count * static_cast<std::size_t>(chart.width_px), BoxSum{}, &context.scratch);
+  std::pmr::vector<float> rows(band_count * 6 * static_cast<std::size_t>(pair.width_px), 0.0F,
+                               &context.scratch);
+  std::pmr::vector<BoxSum> columns(band_count * static_cast<std::size_t>(chart.width_px), BoxSum{},
+                                   &context.scratch);
   Shooting shooting{mesh, pair, chart, bands, maps, views, kept, options, planes, rows, columns, context};
   context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
     for (int band = begin; band < end; ++band) shooting.shoot_band(band);

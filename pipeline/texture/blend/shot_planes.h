@@ -32,13 +32,18 @@ struct VertexViews {
   std::pmr::vector<float> share;        // of the right view by the angles alone, 0 to 1
   std::pmr::vector<std::uint8_t> seen;  // kSeenLeft | kSeenRight
 };
-VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const FrontMap& left,
-                             const FrontMap& right, const ShotOptions& options, std::pmr::memory_resource* memory);
+VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart,
+                             const FrontMap& left, const FrontMap& right, const ShotOptions& options,
+                             std::pmr::memory_resource* memory);
 
 struct ShotPlanes {
   ShotPlanes(std::size_t texels, std::pmr::memory_resource* memory)
-      : left(3 * texels, 0, memory), right(3 * texels, 0, memory), seen(texels, 0, memory), share(texels, 0, memory),
-        say_left(texels, 0, memory), say_right(texels, 0, memory) {}
+      : left(3 * texels, 0, memory),
+        right(3 * texels, 0, memory),
+        seen(texels, 0, memory),
+        share(texels, 0, memory),
+        say_left(texels, 0, memory),
+        say_right(texels, 0, memory) {}
   std::pmr::vector<std::uint8_t> left, right;          // 3 a texel
   std::pmr::vector<std::uint8_t> seen;                 // kSeenLeft | kSeenRight | kSurface
   std::pmr::vector<std::uint8_t> share;                // of the right view by the angles alone, 0 to 255

@@ -10,12 +10,18 @@
 
 namespace relievo::pipeline {
 
-ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, float margin_px, StageContext& context)
-    : chart_(chart), planes_(planes), exposure_(match_exposure(chart, planes)), excess_(chart.size(), std::int16_t{0}, &context.scratch),
+ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands,
+                     float highlight_level, float margin_px, StageContext& context)
+    : chart_(chart),
+      planes_(planes),
+      exposure_(match_exposure(chart, planes)),
+      excess_(chart.size(), std::int16_t{0}, &context.scratch),
       shines_(chart.size(), std::uint8_t{0}, &context.scratch) {
   // Noise and what is left between the exposures are no highlight, whatever was asked for.
   constexpr float kSigmas = 3;
-  if (highlight_level > 0) level_ = std::max(highlight_level, kSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
+  if (highlight_level > 0)
+    level_ = std::max(highlight_level,
+                      kSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
   if (level_ > 0) find_highlights(bands, context);
   if (context.stop()) return;
   field_.emplace(chart, planes, exposure_, shines_, &context.scratch);
@@ -42,38 +48,45 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
   };
   constexpr std::int16_t kUnknown = -32768;
   std::pmr::vector<std::int16_t> raw(chart_.size(), kUnknown, &context.scratch);
-  std::pmr::vector<BoxSum> columns(static_cast<std::size_t>(bands.count()) * static_cast<std::size_t>(chart_.width_px), BoxSum{}, &context.scratch);
+  std::pmr::vector<BoxSum> columns(
+      static_cast<std::size_t>(bands.count()) * static_cast<std::size_t>(chart_.width_px), BoxSum{},
+      &context.scratch);
   Work work{*this, bands, raw, columns};
   context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
     const ShotPlanes& planes = work.self.planes_;
     const auto width = static_cast<std::size_t>(work.self.chart_.width_px);
-    for (std::size_t k = static_cast<std::size_t>(work.bands.rows(begin).begin) * width; k < static_cast<std::size_t>(work.bands.rows(end - 1).end) * width; ++k)
+    for (std::size_t k = static_cast<std::size_t>(work.bands.rows(begin).begin) * width;
+         k < static_cast<std::size_t>(work.bands.rows(end - 1).end) * width; ++k)
       if (planes.say_left[k] != 0 && planes.say_right[k] != 0)
-        work.raw[k] = static_cast<std::int16_t>(16 * work.self.excess_of(&planes.left[3 * k], &planes.right[3 * k]));
+        work.raw[k] =
+            static_cast<std::int16_t>(16 * work.self.excess_of(&planes.left[3 * k], &planes.right[3 * k]));
   });
   context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
     constexpr int kRadius = 2;  // texels: noise and a tenth of a pixel of misplacement are smoothed away
     ViewBlend& self = work.self;
     const auto width = static_cast<std::size_t>(self.chart_.width_px);
     for (int band = begin; band < end; ++band)
-      slide_box(self.chart_.width_px, self.chart_.height_px, kRadius, work.bands.rows(band), work.columns.subspan(static_cast<std::size_t>(band) * width, width),
-                [&](int x, int y) {
-                  const std::int16_t d = work.raw[self.chart_.index(x, y)];
-                  return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
-                },
-                [&](int x, int y, const BoxSum& sum) {
-                  const std::size_t k = self.chart_.index(x, y);
-                  if (work.raw[k] == kUnknown || sum.second == 0) return;
-                  self.excess_[k] = static_cast<std::int16_t>(sum.first / sum.second);
-                  self.shines_[k] = static_cast<float>(std::abs(self.excess_[k])) > 16 * self.level_ ? 1 : 0;
-                });
+      slide_box(
+          self.chart_.width_px, self.chart_.height_px, kRadius, work.bands.rows(band),
+          work.columns.subspan(static_cast<std::size_t>(band) * width, width),
+          [&](int x, int y) {
+            const std::int16_t d = work.raw[self.chart_.index(x, y)];
+            return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
+          },
+          [&](int x, int y, const BoxSum& sum) {
+            const std::size_t k = self.chart_.index(x, y);
+            if (work.raw[k] == kUnknown || sum.second == 0) return;
+            self.excess_[k] = static_cast<std::int16_t>(sum.first / sum.second);
+            self.shines_[k] = static_cast<float>(std::abs(self.excess_[k])) > 16 * self.level_ ? 1 : 0;
+          });
   });
 }
 
 ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) const {
   constexpr float kLeast = 0.004F;  // of a view not chosen: it shows what the chosen one cannot see
   const ViewChoice::Choice choice = choice_ ? choice_->at(texel_x, texel_y) : ViewChoice::Choice{};
-  float share = std::clamp(v.share * (1 - choice.strength) + choice.right, kLeast * choice.strength, 1 - kLeast * choice.strength);
+  float share = std::clamp(v.share * (1 - choice.strength) + choice.right, kLeast * choice.strength,
+                           1 - kLeast * choice.strength);
   const float by_left = (1 - share) * static_cast<float>(v.say_left);
   const float by_right = share * static_cast<float>(v.say_right);
   if (by_left + by_right > 0) {
@@ -97,9 +110,10 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
 }
 
 ViewBlend::Colour ViewBlend::mix(std::size_t k, int x, int y) const {
-  return mix(Views{&planes_.left[3 * k], &planes_.right[3 * k], static_cast<float>(planes_.share[k]) / 255, planes_.say_left[k], planes_.say_right[k],
-              planes_.seen[k], static_cast<float>(excess_[k]) / 16},
-             static_cast<float>(x), static_cast<float>(y));
+  return mix(
+      Views{&planes_.left[3 * k], &planes_.right[3 * k], static_cast<float>(planes_.share[k]) / 255,
+            planes_.say_left[k], planes_.say_right[k], planes_.seen[k], static_cast<float>(excess_[k]) / 16},
+      static_cast<float>(x), static_cast<float>(y));
 }
 
 }  // namespace relievo::pipeline

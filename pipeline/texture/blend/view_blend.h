@@ -3,8 +3,8 @@
 //
 // ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel,
 // after the exposures are matched, it shows light mirrored towards that camera (Shafer: Using color to
-// separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the skin. Where they
-// disagree otherwise, something moved: one camera shows the whole of it (view_choice.h).
+// separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the
+// skin. Where they disagree otherwise, something moved: one camera shows the whole of it (view_choice.h).
 // Thread: prepared by one, then mix() by any number.
 #pragma once
 
@@ -21,12 +21,23 @@ namespace relievo::pipeline {
 
 class ViewBlend {
  public:
-  // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both. `margin_px`: see ViewChoice.
-  ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level, float margin_px, StageContext& context);
+  // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both.
+  // `margin_px`: see ViewChoice.
+  ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level,
+            float margin_px, StageContext& context);
 
-  struct Colour { float rgb[3]; float share; };  // share of the right photograph in it
+  struct Colour {
+    float rgb[3];
+    float share;
+  };  // share of the right photograph in it
   // Where a photograph shows the surface: say_* 0 to 255, `excess` how much brighter the left one is.
-  struct Views { const std::uint8_t* left; const std::uint8_t* right; float share; std::uint8_t say_left, say_right, seen; float excess; };
+  struct Views {
+    const std::uint8_t* left;
+    const std::uint8_t* right;
+    float share;
+    std::uint8_t say_left, say_right, seen;
+    float excess;
+  };
   Colour mix(const Views& views, float texel_x, float texel_y) const;
   Colour mix(std::size_t k, int x, int y) const;  // of a texel of the chart
 
@@ -39,11 +50,11 @@ class ViewBlend {
   const Chart& chart_;
   const ShotPlanes& planes_;
   ExposureMatch exposure_;
-  float level_ = 0;                      // 0: highlights are kept
-  std::pmr::vector<std::int16_t> excess_; // sixteenths of a grey level, smoothed
+  float level_ = 0;                        // 0: highlights are kept
+  std::pmr::vector<std::int16_t> excess_;  // sixteenths of a grey level, smoothed
   std::pmr::vector<std::uint8_t> shines_;
   std::optional<LevelField> field_;
-  std::optional<ViewChoice> choice_;     // none where one view alone counts
+  std::optional<ViewChoice> choice_;  // none where one view alone counts
 };
 
 }  // namespace relievo::pipeline

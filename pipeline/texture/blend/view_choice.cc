@@ -8,23 +8,25 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBlock = 4;               // texels a block and side
-constexpr float kSigmas = 2.5F;         // a block's mean difference beyond this many sigmas of a texel's ...
-constexpr float kLeastLevels = 3;       // ... and beyond this many grey levels is no noise
+constexpr int kBlock = 4;          // texels a block and side
+constexpr float kSigmas = 2.5F;    // a block's mean difference beyond this many sigmas of a texel's ...
+constexpr float kLeastLevels = 3;  // ... and beyond this many grey levels is no noise
 constexpr std::size_t kFewestBlocks = 12;
-constexpr float kOneSided = 0.8F;       // of the difference, on one side: a reflection, not a movement
+constexpr float kOneSided = 0.8F;  // of the difference, on one side: a reflection, not a movement
 
 }  // namespace
 
-ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure, const LevelField& field, float margin_px,
-                       std::pmr::memory_resource* memory)
-    : columns_((chart.width_px + kBlock - 1) / kBlock), rows_((chart.height_px + kBlock - 1) / kBlock),
+ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                       const LevelField& field, float margin_px, std::pmr::memory_resource* memory)
+    : columns_((chart.width_px + kBlock - 1) / kBlock),
+      rows_((chart.height_px + kBlock - 1) / kBlock),
       blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Choice{}, memory) {
   std::pmr::vector<float> excess(blocks_.size(), 0.0F, memory);      // of the left view, mean over the block
   std::pmr::vector<float> difference(blocks_.size(), 0.0F, memory);  // its size, mean over the block
   for (int v = 0; v < rows_; ++v)
     for (int u = 0; u < columns_; ++u) {
-      const LevelField::Level level = field.at(static_cast<float>(kBlock * u) + 1.5F, static_cast<float>(kBlock * v) + 1.5F);
+      const LevelField::Level level =
+          field.at(static_cast<float>(kBlock * u) + 1.5F, static_cast<float>(kBlock * v) + 1.5F);
       float signed_sum = 0;
       float sum = 0;
       float count = 0;
@@ -33,7 +35,8 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
           const std::size_t k = chart.index(x, y);
           if (planes.say_left[k] == 0 || planes.say_right[k] == 0) continue;
           for (std::size_t c = 0; c < 3; ++c) {
-            const float d = static_cast<float>(planes.left[3 * k + c]) + level[c] - exposure.matched(c, planes.right[3 * k + c]);
+            const float d = static_cast<float>(planes.left[3 * k + c]) + level[c] -
+                            exposure.matched(c, planes.right[3 * k + c]);
             signed_sum += d / 3;
             sum += std::abs(d) / 3;
           }
@@ -51,8 +54,8 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
 }
 
 // Every patch of differing blocks, joined through sides and corners, gets its camera.
-void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess, std::span<const float> difference, float limit,
-                        std::pmr::memory_resource* memory) {
+void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
+                        std::span<const float> difference, float limit, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint8_t> taken(blocks_.size(), 0, memory);
   std::pmr::vector<std::uint32_t> patch(memory);
   patch.reserve(blocks_.size());
@@ -69,7 +72,8 @@ void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<
       const int v = static_cast<int>(patch[next]) / columns_;
       one_way += excess[patch[next]];
       all += difference[patch[next]];
-      const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1), std::min(kBlock * v + 1, chart.height_px - 1));
+      const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1),
+                                        std::min(kBlock * v + 1, chart.height_px - 1));
       const float share = static_cast<float>(planes.share[k]) / 255;
       left += static_cast<float>(planes.say_left[k]) * (1 - share);
       right += static_cast<float>(planes.say_right[k]) * share;

@@ -11,12 +11,15 @@
 
 namespace relievo::pipeline {
 
-struct BoxSum { int first = 0, second = 0; };
+struct BoxSum {
+  int first = 0, second = 0;
+};
 
 // emit(x, y, sum) for every texel of `rows`; the window reaches `radius` texels each way and is cut at
 // the plane's borders. value(x, y) gives what is summed. `columns`: one a column, for this call alone.
 template <typename Value, typename Emit>
-void slide_box(int width, int height, int radius, RowRange rows, std::span<BoxSum> columns, Value&& value, Emit&& emit) {
+void slide_box(int width, int height, int radius, RowRange rows, std::span<BoxSum> columns, Value&& value,
+               Emit&& emit) {
   std::fill(columns.begin(), columns.end(), BoxSum{});
   const auto add_row = [&](int y, int sign) {
     if (y < 0 || y >= height) return;

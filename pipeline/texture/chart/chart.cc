@@ -11,7 +11,8 @@ namespace relievo::pipeline {
 namespace {
 
 bool all_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  return mesh.measured.empty() || (mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0);
+  return mesh.measured.empty() ||
+         (mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0);
 }
 
 // Whether the chart must reach a vertex: measured, or completed and turned to the camera.
@@ -25,7 +26,8 @@ bool frames(const FaceMesh& mesh, std::size_t v) {
 void project(const FaceMesh& mesh, const RectifiedPair& pair, Chart& chart) {
   constexpr double kNearestMm = 1;  // nothing is measured within a millimetre of the lens
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(pair.rectified_from_left, Vec3d{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+    const Vec3d p = apply(pair.rectified_from_left, Vec3d{static_cast<double>(v.x), static_cast<double>(v.y),
+                                                          static_cast<double>(v.z)});
     const double z = std::max(p.z, kNearestMm);
     const double left_x = pair.left_centre_px.x + pair.focal_px * p.x / z;
     const double y = pair.left_centre_px.y + pair.focal_px * p.y / z;
@@ -53,7 +55,8 @@ double pixels_a_pixel(const FaceMesh& mesh, const Chart& chart) {
     const Vec2f& a = chart.texel[t[0]];
     const double db = static_cast<double>(chart.disparity_px[t[1]] - chart.disparity_px[t[0]]);
     const double dc = static_cast<double>(chart.disparity_px[t[2]] - chart.disparity_px[t[0]]);
-    const double lean = std::abs(0.5 * (db * static_cast<double>(chart.texel[t[2]].y - a.y) - dc * static_cast<double>(chart.texel[t[1]].y - a.y)));
+    const double lean = std::abs(0.5 * (db * static_cast<double>(chart.texel[t[2]].y - a.y) -
+                                        dc * static_cast<double>(chart.texel[t[1]].y - a.y)));
     const double ratio = std::clamp(1 + lean / middle, 1.0, 2.0);
     area[std::min(kBins - 1, static_cast<std::size_t>((ratio - 1) * kBins))] += middle;
     all += middle;
@@ -70,9 +73,11 @@ double pixels_a_pixel(const FaceMesh& mesh, const Chart& chart) {
 
 Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair) {
   const std::size_t n = mesh.vertices_mm.size();
-  if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n || (!mesh.measured.empty() && mesh.measured.size() != n))
+  if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n ||
+      (!mesh.measured.empty() && mesh.measured.size() != n))
     return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
-  const std::size_t bytes = 3 * static_cast<std::size_t>(std::max(pair.width_px, 0)) * static_cast<std::size_t>(std::max(pair.height_px, 0));
+  const std::size_t bytes = 3 * static_cast<std::size_t>(std::max(pair.width_px, 0)) *
+                            static_cast<std::size_t>(std::max(pair.height_px, 0));
   if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
     return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
   return {};
@@ -98,7 +103,8 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
   // An eighth of the width is kept for what does not fit into this chart.
   const double high = options.max_px - 2 * options.margin_px - 2;
   const double wide = options.max_px - options.max_px / 8 - 2 * options.margin_px - 2;
-  chart.texels_per_px = std::min({options.finer * std::sqrt(pixels_a_pixel(mesh, chart)), wide / std::max(to.x - from.x, 1.0), high / std::max(to.y - from.y, 1.0)});
+  chart.texels_per_px = std::min({options.finer * std::sqrt(pixels_a_pixel(mesh, chart)),
+                                  wide / std::max(to.x - from.x, 1.0), high / std::max(to.y - from.y, 1.0)});
   const double scale = chart.texels_per_px;
   chart.origin_px = {from.x - options.margin_px / scale, from.y - options.margin_px / scale};
   chart.width_px = static_cast<int>(std::ceil((to.x - from.x) * scale)) + 2 * options.margin_px + 1;
@@ -108,7 +114,8 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
     t = {static_cast<float>((static_cast<double>(t.x) - chart.origin_px.x) * scale),
          static_cast<float>((static_cast<double>(t.y) - chart.origin_px.y) * scale)};
     // Half a texel of the frame is left to the filter that reads the texture.
-    if (!(t.x >= 0.5F && t.y >= 0.5F && t.x <= static_cast<float>(chart.width_px) - 1.5F && t.y <= static_cast<float>(chart.height_px) - 1.5F))
+    if (!(t.x >= 0.5F && t.y >= 0.5F && t.x <= static_cast<float>(chart.width_px) - 1.5F &&
+          t.y <= static_cast<float>(chart.height_px) - 1.5F))
       chart.placed[v] = 0;
   }
   return chart;

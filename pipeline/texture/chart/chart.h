@@ -22,22 +22,24 @@
 namespace relievo::pipeline {
 
 struct ChartOptions {
-  int max_px = 2048;   // widest and highest
-  int margin_px = 8;   // texels left free around the face
-  double finer = 1;    // texels a pixel and side of the better photograph
+  int max_px = 2048;  // widest and highest
+  int margin_px = 8;  // texels left free around the face
+  double finer = 1;   // texels a pixel and side of the better photograph
 };
 
 struct Chart {
   explicit Chart(std::pmr::memory_resource* memory) : texel(memory), disparity_px(memory), placed(memory) {}
   int width_px = 0;
   int height_px = 0;
-  double texels_per_px = 1;              // of the photographs
-  Vec2d origin_px;                       // where texel (0, 0) lies in the middle view
-  std::pmr::vector<Vec2f> texel;         // one a vertex
-  std::pmr::vector<float> disparity_px;  // one a vertex
-  std::pmr::vector<std::uint8_t> placed; // one a vertex: 1 where it lies within the chart
+  double texels_per_px = 1;               // of the photographs
+  Vec2d origin_px;                        // where texel (0, 0) lies in the middle view
+  std::pmr::vector<Vec2f> texel;          // one a vertex
+  std::pmr::vector<float> disparity_px;   // one a vertex
+  std::pmr::vector<std::uint8_t> placed;  // one a vertex: 1 where it lies within the chart
 
-  std::size_t size() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px); }
+  std::size_t size() const {
+    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
   }
@@ -53,14 +55,15 @@ struct Chart {
   }
 };
 
-inline constexpr float kLeftSide = 0.5F;    // of a disparity, from the middle view's column
+inline constexpr float kLeftSide = 0.5F;  // of a disparity, from the middle view's column
 inline constexpr float kRightSide = -0.5F;
 
 // What no texturer can work with: InvalidInput.
 Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
 
 // `finer` times as fine as the better photograph on 95 % of the measured surface; coarser where
-// `max_px` asks for it. Its frame is that of the vertices both windows can see, measured or turned to the cameras.
+// `max_px` asks for it. Its frame is that of the vertices both windows can see, measured or turned to the
+// cameras.
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory);
 

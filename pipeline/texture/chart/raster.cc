@@ -5,22 +5,26 @@
 namespace relievo::pipeline {
 
 RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr::memory_resource* memory)
-    : bands_(std::clamp(bands, 1, std::max(chart.height_px, 1))), height_(chart.height_px),
-      first_(static_cast<std::size_t>(bands_) + 1, 0, memory), triangles_(memory) {
+    : bands_(std::clamp(bands, 1, std::max(chart.height_px, 1))),
+      height_(chart.height_px),
+      first_(static_cast<std::size_t>(bands_) + 1, 0, memory),
+      triangles_(memory) {
   const auto for_each_band = [&](const std::array<std::uint32_t, 3>& t, auto&& visit) {
     if (!chart.placed_all(t)) return;
     const float a = chart.texel[t[0]].y;
     const float b = chart.texel[t[1]].y;
     const float c = chart.texel[t[2]].y;
     const int last = band_of(std::max({a, b, c}) + 1);
-    for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band) visit(static_cast<std::size_t>(band));
+    for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band)
+      visit(static_cast<std::size_t>(band));
   };
   for (const auto& t : mesh.triangles) for_each_band(t, [&](std::size_t band) { ++first_[band + 1]; });
   for (std::size_t band = 1; band < first_.size(); ++band) first_[band] += first_[band - 1];
   triangles_.resize(first_.back());
   std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, memory);
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
-    for_each_band(mesh.triangles[k], [&](std::size_t band) { triangles_[next[band]++] = static_cast<std::uint32_t>(k); });
+    for_each_band(mesh.triangles[k],
+                  [&](std::size_t band) { triangles_[next[band]++] = static_cast<std::uint32_t>(k); });
 }
 
 // The band whose rows hold this one; as rows() cuts them.
@@ -32,7 +36,11 @@ int RowBands::band_of(float y) const {
 }
 
 FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource* memory)
-    : side(at_side), scale(static_cast<float>(chart.texels_per_px)), height_px(chart.height_px), nearest(memory), owner(memory) {
+    : side(at_side),
+      scale(static_cast<float>(chart.texels_per_px)),
+      height_px(chart.height_px),
+      nearest(memory),
+      owner(memory) {
   float least = 1e30F;
   float most = -1e30F;
   for (std::size_t v = 0; v < chart.texel.size(); ++v) {
@@ -42,7 +50,8 @@ FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource*
   }
   const bool middle = side == 0.0F;
   shift = middle || most < least ? 0.0F : std::floor(least) - 1;
-  // A view is a picture's part: what would be wider is no surface of one (disparities are bounded by the windows).
+  // A view is a picture's part: what would be wider is no surface of one (disparities are bounded by the
+  // windows).
   width_px = middle ? chart.width_px : static_cast<int>(std::clamp(most - least, 0.0F, 16384.0F)) + 4;
   const std::size_t size = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   nearest.assign(size, kNoDisparity);
@@ -53,31 +62,39 @@ bool FrontMap::sees(const Vec2f& texel, float disparity, float tolerance_px) con
   const int x = static_cast<int>(std::lround(column(texel.x, disparity)));
   const int y = static_cast<int>(std::lround(texel.y));
   if (x < 0 || y < 0 || x >= width_px || y >= height_px) return true;
-  return nearest[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)] <= disparity + tolerance_px;
+  return nearest[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                 static_cast<std::size_t>(x)] <= disparity + tolerance_px;
 }
 
 namespace {
 
-void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_t> triangles, RowRange rows, FrontMap& map) {
+void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_t> triangles, RowRange rows,
+          FrontMap& map) {
   for (const std::uint32_t k : triangles) {
     const auto& t = mesh.triangles[k];
     const float da = chart.disparity_px[t[0]];
     const float db = chart.disparity_px[t[1]];
     const float dc = chart.disparity_px[t[2]];
-    const auto at = [&](std::uint32_t v, float d) { return Vec2f{map.column(chart.texel[v].x, d), chart.texel[v].y}; };
-    for_each_texel(at(t[0], da), at(t[1], db), at(t[2], dc), map.width_px, rows, [&](int x, int y, float wa, float wb, float wc) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width_px) + static_cast<std::size_t>(x);
-      const float d = wa * da + wb * db + wc * dc;
-      if (d <= map.nearest[i]) return;
-      map.nearest[i] = d;
-      if (!map.owner.empty()) map.owner[i] = k;
-    });
+    const auto at = [&](std::uint32_t v, float d) {
+      return Vec2f{map.column(chart.texel[v].x, d), chart.texel[v].y};
+    };
+    for_each_texel(at(t[0], da), at(t[1], db), at(t[2], dc), map.width_px, rows,
+                   [&](int x, int y, float wa, float wb, float wc) {
+                     const std::size_t i =
+                         static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width_px) +
+                         static_cast<std::size_t>(x);
+                     const float d = wa * da + wb * db + wc * dc;
+                     if (d <= map.nearest[i]) return;
+                     map.nearest[i] = d;
+                     if (!map.owner.empty()) map.owner[i] = k;
+                   });
   }
 }
 
 }  // namespace
 
-void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands, std::span<FrontMap> maps, StageContext& context) {
+void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands,
+                     std::span<FrontMap> maps, StageContext& context) {
   struct Work {
     const FaceMesh& mesh;
     const Chart& chart;
@@ -87,7 +104,8 @@ void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& b
   } work{mesh, chart, bands, maps, context};
   context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
     for (int band = begin; band < end && !work.context.stop(); ++band)
-      for (FrontMap& map : work.maps) draw(work.mesh, work.chart, work.bands.triangles(band), work.bands.rows(band), map);
+      for (FrontMap& map : work.maps)
+        draw(work.mesh, work.chart, work.bands.triangles(band), work.bands.rows(band), map);
   });
 }
 

@@ -41,12 +41,12 @@ inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 // What stands in front in one view: the largest disparity on each of its texels.
 struct FrontMap {
   FrontMap(const Chart& chart, float side, std::pmr::memory_resource* memory);
-  float side;            // 0 the middle view, kLeftSide, kRightSide
-  float scale;           // texels a pixel
-  float shift = 0;       // of its columns against the chart's
+  float side;       // 0 the middle view, kLeftSide, kRightSide
+  float scale;      // texels a pixel
+  float shift = 0;  // of its columns against the chart's
   int width_px = 0, height_px = 0;
-  std::pmr::vector<float> nearest;      // kNoDisparity where nothing is
-  std::pmr::vector<std::uint32_t> owner; // the triangle it belongs to; kept for the middle view alone
+  std::pmr::vector<float> nearest;        // kNoDisparity where nothing is
+  std::pmr::vector<std::uint32_t> owner;  // the triangle it belongs to; kept for the middle view alone
 
   float column(float texel_x, float disparity) const { return texel_x + side * disparity * scale - shift; }
   // Whether a point of the chart is hidden by something nearer by more than `tolerance_px` of disparity.
@@ -54,6 +54,7 @@ struct FrontMap {
 };
 
 // Fills the maps band by band; every band writes its own rows. Stops early when the stage is stopped.
-void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands, std::span<FrontMap> maps, StageContext& context);
+void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands,
+                     std::span<FrontMap> maps, StageContext& context);
 
 }  // namespace relievo::pipeline

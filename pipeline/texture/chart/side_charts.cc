@@ -10,32 +10,46 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kSameWay = 0.5F;          // cosine: a chart's triangles face within 60 degrees of its first
+constexpr float kSameWay = 0.5F;  // cosine: a chart's triangles face within 60 degrees of its first
 constexpr float kPaddingPx = 2;
 constexpr double kFilledPxPerMm = 1;
 
-struct Piece { std::uint32_t first, count; float width, height, x, y; };  // of a chart; x and y: its place
+struct Piece {
+  std::uint32_t first, count;
+  float width, height, x, y;
+};  // of a chart; x and y: its place
 
 Vec3f normal_of(const FaceMesh& mesh, std::uint32_t triangle) {
   const auto& t = mesh.triangles[triangle];
   const Vec3f& a = mesh.vertices_mm[t[0]];
-  return mesh::unit(mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], a), mesh::minus(mesh.vertices_mm[t[2]], a)));
+  return mesh::unit(
+      mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], a), mesh::minus(mesh.vertices_mm[t[2]], a)));
 }
 
 class Builder {
  public:
-  Builder(const FaceMesh& mesh, std::span<const std::uint8_t> kept, std::span<const std::uint8_t> photographed, std::pmr::memory_resource* memory)
-      : mesh_(mesh), kept_(kept), photographed_(photographed), first_(mesh.vertices_mm.size() + 1, 0, memory), around_(memory),
-        taken_(kept.begin(), kept.end(), memory), pieces_(memory) {
+  Builder(const FaceMesh& mesh, std::span<const std::uint8_t> kept,
+          std::span<const std::uint8_t> photographed, std::pmr::memory_resource* memory)
+      : mesh_(mesh),
+        kept_(kept),
+        photographed_(photographed),
+        first_(mesh.vertices_mm.size() + 1, 0, memory),
+        around_(memory),
+        taken_(kept.begin(), kept.end(), memory),
+        pieces_(memory) {
     const auto for_each_side = [&](auto&& visit) {
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (kept[t] == 0) visit(t);
     };
-    for_each_side([&](std::uint32_t t) { for (const std::uint32_t v : mesh.triangles[t]) ++first_[v + 1]; });
+    for_each_side([&](std::uint32_t t) {
+      for (const std::uint32_t v : mesh.triangles[t]) ++first_[v + 1];
+    });
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
     around_.resize(first_.back());
     std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, memory);
-    for_each_side([&](std::uint32_t t) { for (const std::uint32_t v : mesh.triangles[t]) around_[next[v]++] = t; });
+    for_each_side([&](std::uint32_t t) {
+      for (const std::uint32_t v : mesh.triangles[t]) around_[next[v]++] = t;
+    });
   }
 
   void grow_all(SideCharts& sides) {
@@ -64,7 +78,8 @@ class Builder {
       for (const std::uint32_t v : t)
         for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
           const std::uint32_t other = around_[i];
-          if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other])) continue;
+          if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other]))
+            continue;
           if (mesh::dot(normal_of(mesh_, other), axis) < kSameWay) continue;
           taken_[other] = 1;
           sides.triangles.push_back(other);
@@ -93,8 +108,11 @@ class Builder {
         low = {std::min(low.x, at.x), std::min(low.y, at.y)};
         high = {std::max(high.x, at.x), std::max(high.y, at.y)};
       }
-    for (std::size_t k = 3 * from; k < sides.corner.size(); ++k) sides.corner[k] = {sides.corner[k].x - low.x, sides.corner[k].y - low.y};
-    pieces_.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(sides.triangles.size() - from), high.x - low.x, high.y - low.y, 0, 0});
+    for (std::size_t k = 3 * from; k < sides.corner.size(); ++k)
+      sides.corner[k] = {sides.corner[k].x - low.x, sides.corner[k].y - low.y};
+    pieces_.push_back({static_cast<std::uint32_t>(from),
+                       static_cast<std::uint32_t>(sides.triangles.size() - from), high.x - low.x,
+                       high.y - low.y, 0, 0});
   }
 
   const FaceMesh& mesh_;
@@ -104,10 +122,14 @@ class Builder {
   std::pmr::vector<Piece> pieces_;
 };
 
-struct Scale { float seen, filled; };  // texels a millimetre
+struct Scale {
+  float seen, filled;
+};  // texels a millimetre
 
-// Columns of charts, the widest first; returns the width they take. A chart larger than the room is pressed into it.
-float pack(std::span<Piece> pieces, const Builder& builder, const SideCharts& sides, Scale scale, float height_px) {
+// Columns of charts, the widest first; returns the width they take. A chart larger than the room is pressed
+// into it.
+float pack(std::span<Piece> pieces, const Builder& builder, const SideCharts& sides, Scale scale,
+           float height_px) {
   float column_x = 0;
   float column_width = 0;
   float y = 0;
@@ -137,7 +159,9 @@ SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<cons
   Builder builder(mesh, kept, photographed, memory);
   builder.grow_all(sides);
   auto& pieces = builder.pieces();
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.width != b.width ? a.width > b.width : a.first < b.first; });
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return a.width != b.width ? a.width > b.width : a.first < b.first;
+  });
 
   // Halved until all of it finds room; a chart's extent has a limit, however far away a vertex is.
   const float room = static_cast<float>(max_px - main.width_px);

@@ -10,8 +10,8 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/format/number_text.h"
-#include "storage/export/placed_landmarks.h"
 #include "storage/export/format/seam_split.h"
+#include "storage/export/placed_landmarks.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
 // The numbers of the format: glTF 2.0 specification, sections 3.6 (accessors) and 4 (GLB).
@@ -157,7 +157,8 @@ std::string add_material(Buffer& to, std::span<const std::byte> png) {
          "\"metallicFactor\":0,\"roughnessFactor\":1}}]," + texture;
 }
 
-// What is known of the model, for programs that ask: numbers of the report, millimetres but where the name says otherwise.
+// What is known of the model, for programs that ask: numbers of the report, millimetres but where the name
+// says otherwise.
 std::string quality_text(const pipeline::ModelQuality& q) {
   std::string text;
   const auto add = [&text](const char* name, double value) {
@@ -200,8 +201,10 @@ std::string landmark_text(const ExportMesh& mesh) {
 }
 
 std::string about(const ExportMesh& mesh) {
-  return "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo" + (mesh.version.empty() ? std::string() : " " + std::string(mesh.version)) +
-         "\",\"extras\":{\"units\":\"metres\",\"quality\":{" + quality_text(mesh.model.quality) + "},\"landmarks\":{" + landmark_text(mesh) + "},\"frame\":\"" +
+  return "\"asset\":{\"version\":\"2.0\",\"generator\":\"Relievo" +
+         (mesh.version.empty() ? std::string() : " " + std::string(mesh.version)) +
+         "\",\"extras\":{\"units\":\"metres\",\"quality\":{" + quality_text(mesh.model.quality) +
+         "},\"landmarks\":{" + landmark_text(mesh) + "},\"frame\":\"" +
          (mesh.frame == ExportFrame::Head
               ? "head: origin at the tip of the nose, x to the person's left, y up, z out of the face"
               : "camera: origin at the left camera, x right, y up, z towards the camera") +

@@ -8,7 +8,8 @@
 namespace relievo::storage {
 namespace {
 
-// What the file is good for and no more: a thousandth of a millimetre, a fiftieth of a texel of the largest atlas.
+// What the file is good for and no more: a thousandth of a millimetre, a fiftieth of a texel of the largest
+// atlas.
 constexpr int kPlaceDecimals = 3, kTextureDecimals = 5;
 
 template <typename... Numbers>
@@ -30,7 +31,8 @@ std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
   text.append("mtllib ").append(mtl_name).append("\no face\n");
   for (const auto& v : mesh.vertices_mm) add_line(text, "v", kPlaceDecimals, v.x, v.y, v.z);
   if (mesh.textured()) {
-    for (const auto& entry : split.entries) add_line(text, "vt", kTextureDecimals, entry.uv.x, 1.0f - entry.uv.y);
+    for (const auto& entry : split.entries)
+      add_line(text, "vt", kTextureDecimals, entry.uv.x, 1.0f - entry.uv.y);
   }
   text += "usemtl face\ns 1\n";
   for (const auto& triangle : split.triangles) {

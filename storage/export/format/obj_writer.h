@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Wavefront OBJ with its material. Millimetres, in the mesh's frame; texture coordinates from the
-// lower left, as the format wants. Rounded to a thousandth of a millimetre. One smoothing group instead of normals: a reader works them
-// out of so fine a mesh, and the file is a third smaller (GLB and PLY carry ours).
-// May throw std::bad_alloc. Thread: any.
+// lower left, as the format wants. Rounded to a thousandth of a millimetre. One smoothing group instead of
+// normals: a reader works them out of so fine a mesh, and the file is a third smaller (GLB and PLY carry
+// ours). May throw std::bad_alloc. Thread: any.
 #pragma once
 
 #include <string>

@@ -17,7 +17,8 @@ namespace relievo::storage {
 
 Result<std::vector<std::byte>> png_of_rgb(int width_px, int height_px, std::span<const std::uint8_t> rgb);
 Result<std::vector<std::byte>> png_of_grey(int width_px, int height_px, std::span<const std::uint8_t> grey);
-Result<std::vector<std::byte>> png_of_grey16(int width_px, int height_px, std::span<const std::uint16_t> grey);
+Result<std::vector<std::byte>> png_of_grey16(int width_px, int height_px,
+                                             std::span<const std::uint16_t> grey);
 
 inline Result<std::vector<std::byte>> png_bytes(const pipeline::TextureAtlas& texture) {
   return png_of_rgb(texture.width_px, texture.height_px, texture.rgb);

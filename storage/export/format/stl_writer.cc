@@ -28,7 +28,8 @@ std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
   std::vector<std::byte> out;
   out.reserve(kHeaderBytes + 4 + triangles.size() * kFaceBytes);
   ByteWriter to(out);
-  std::string header = "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
+  std::string header =
+      "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
   header.resize(kHeaderBytes, ' ');
   to.put(bytes_of(header));
   to.put(static_cast<std::uint32_t>(triangles.size()));

@@ -50,13 +50,18 @@ struct Photograph {
   BoardCorners truth;  // not-a-number outside the picture
 };
 
-sim::BoardPose pose_of(const sim::BoardPattern& b, const sim::SimView& view, const Condition& c, sim::Random& random) {
-  const double tilt = sim::radians(random.uniform(c.tilt_deg.from, c.tilt_deg.to)), compass = random.uniform(0, 6.2832);
+sim::BoardPose pose_of(const sim::BoardPattern& b, const sim::SimView& view, const Condition& c,
+                       sim::Random& random) {
+  const double tilt = sim::radians(random.uniform(c.tilt_deg.from, c.tilt_deg.to)),
+               compass = random.uniform(0, 6.2832);
   sim::BoardPose pose;
-  pose.world_from_board = sim::rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.5, 0.5));
+  pose.world_from_board =
+      sim::rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.5, 0.5));
   const sim::Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
-  const sim::Vec3 aim = view.ray(view.width_px * random.uniform(0.35, 0.65), view.height_px * random.uniform(0.4, 0.6));
-  pose.origin_mm = view.centre() + aim * random.uniform(c.distance_mm.from, c.distance_mm.to) - pose.world_from_board * middle;
+  const sim::Vec3 aim =
+      view.ray(view.width_px * random.uniform(0.35, 0.65), view.height_px * random.uniform(0.4, 0.6));
+  pose.origin_mm = view.centre() + aim * random.uniform(c.distance_mm.from, c.distance_mm.to) -
+                   pose.world_from_board * middle;
   return pose;
 }
 
@@ -65,12 +70,14 @@ bool whole(const sim::BoardPattern& b, const sim::SimView& view, const sim::Boar
     for (const double y : {-1.2, b.corners_y + 0.2}) {
       const sim::Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
       const sim::Pixel q = view.project(p);
-      if (view.depth_mm(p) < 50 || q.x < 0 || q.y < 0 || q.x > view.width_px - 1 || q.y > view.height_px - 1) return false;
+      if (view.depth_mm(p) < 50 || q.x < 0 || q.y < 0 || q.x > view.width_px - 1 || q.y > view.height_px - 1)
+        return false;
     }
   return true;
 }
 
-Photograph photograph(const Condition& c, sim::BoardKind kind, bool cut_off, std::uint32_t seed, ThreadPool& pool) {
+Photograph photograph(const Condition& c, sim::BoardKind kind, bool cut_off, std::uint32_t seed,
+                      ThreadPool& pool) {
   sim::Random random(seed);
   sim::RigOptions rig_options;
   rig_options.seed = seed;
@@ -100,7 +107,8 @@ Photograph photograph(const Condition& c, sim::BoardKind kind, bool cut_off, std
   out.picture = sim::read_sensor(sim::expose(scene, view, sensor, pool), sensor, seed);
   for (int row = 0; row < c.corners_y; ++row)
     for (int column = 0; column < c.corners_x; ++column) {
-      const sim::Pixel at = view.project(pose.to_world({column * out.pattern.square_mm, row * out.pattern.square_mm, 0}));
+      const sim::Pixel at =
+          view.project(pose.to_world({column * out.pattern.square_mm, row * out.pattern.square_mm, 0}));
       const bool inside = at.x > 0 && at.y > 0 && at.x < view.width_px - 1 && at.y < view.height_px - 1;
       out.truth.push_back(inside ? pipeline::Vec2d{at.x, at.y} : pipeline::Vec2d{std::nan(""), std::nan("")});
     }
@@ -120,7 +128,8 @@ struct Score {
     ++found;
     std::vector<pipeline::Vec2d> best = off_from(corners, truth);
     // A chessboard's first corner may be open; the nearest order is meant.
-    if (BoardCorners turned(corners.rbegin(), corners.rend()); any_turn && sum(off_from(turned, truth)) < sum(best))
+    if (BoardCorners turned(corners.rbegin(), corners.rend());
+        any_turn && sum(off_from(turned, truth)) < sum(best))
       best = off_from(turned, truth);
     off.insert(off.end(), best.begin(), best.end());
   }
@@ -133,9 +142,11 @@ struct Score {
       mean = {mean.x + d.x / count, mean.y + d.y / count};
     }
     const double squares = sum(off) / count;
-    std::printf("  %-20s found %3d of %3d, corners %5zu of %5ld, rms %.4f px, without its mean %.4f, worst %.3f, %6.1f ms\n", finder,
-                found, boards, off.size(), corners_seen, std::sqrt(squares),
-                std::sqrt(std::max(0.0, squares - mean.x * mean.x - mean.y * mean.y)), worst, ms / std::max(boards, 1));
+    std::printf(
+        "  %-20s found %3d of %3d, corners %5zu of %5ld, rms %.4f px, without its mean %.4f, worst %.3f, %6.1f ms\n",
+        finder, found, boards, off.size(), corners_seen, std::sqrt(squares),
+        std::sqrt(std::max(0.0, squares - mean.x * mean.x - mean.y * mean.y)), worst,
+        ms / std::max(boards, 1));
   }
 
  private:
@@ -143,8 +154,9 @@ struct Score {
     std::vector<pipeline::Vec2d> gap;
     for (std::size_t i = 0; i < truth.size(); ++i)
       if (pipeline::seen(corners[i]))
-        gap.push_back(pipeline::seen(truth[i]) ? pipeline::Vec2d{corners[i].x - truth[i].x, corners[i].y - truth[i].y}
-                                               : pipeline::Vec2d{99, 99});
+        gap.push_back(pipeline::seen(truth[i])
+                          ? pipeline::Vec2d{corners[i].x - truth[i].x, corners[i].y - truth[i].y}
+                          : pipeline::Vec2d{99, 99});
     return gap;
   }
   static double sum(const std::vector<pipeline::Vec2d>& all) {
@@ -168,10 +180,12 @@ struct Wish {
 
 void run(const Condition& condition, sim::BoardKind kind, bool cut_off, const Wish& wish, ThreadPool& pool) {
   std::vector<Contender> contenders;
-  contenders.push_back({"ours", [](const ImageView& picture, const pipeline::BoardPattern& pattern) {
+  contenders.push_back({"ours",
+                        [](const ImageView& picture, const pipeline::BoardPattern& pattern) {
                           auto found = pipeline::find_board(picture, pattern);
                           return found ? *found : BoardCorners{};
-                        }, {}});
+                        },
+                        {}});
   const bool chessboard = kind == sim::BoardKind::Chessboard;
   if (wish.peers && chessboard) contenders.push_back({"OpenCV sector-based", sector_based_board, {}});
   if (wish.classic && chessboard) contenders.push_back({"OpenCV classic", classic_board, {}});
@@ -187,7 +201,8 @@ void run(const Condition& condition, sim::BoardKind kind, bool cut_off, const Wi
       one.score.add(corners, shot.truth, chessboard);
     }
   }
-  std::printf("%s: %s%s\n", chessboard ? "chessboard" : "ChArUco", condition.name, cut_off ? ", partly outside" : "");
+  std::printf("%s: %s%s\n", chessboard ? "chessboard" : "ChArUco", condition.name,
+              cut_off ? ", partly outside" : "");
   for (Contender& one : contenders) one.score.print(one.name);
   std::fflush(stdout);
 }
@@ -206,7 +221,9 @@ std::vector<Condition> conditions() {
   with("noise x 4", [](Condition& c) { c.noise = {4, 4}; });
   with("blur 1.5 px, noise x 4", [](Condition& c) { c.blur_px = {1.5, 1.5}, c.noise = {4, 4}; });
   with("lamp on one side, 80 % lost", [](Condition& c) { c.look.lamp = 0.8; });
-  with("lamp, noise x 4, blur 1.5", [](Condition& c) { c.look.lamp = 0.8, c.noise = {4, 4}, c.blur_px = {1.5, 1.5}; });
+  with("lamp, noise x 4, blur 1.5", [](Condition& c) {
+    c.look.lamp = 0.8, c.noise = {4, 4}, c.blur_px = {1.5, 1.5};
+  });
   with("a third in a shadow, 80 % lost", [](Condition& c) { c.look.shadow = 0.8; });
   with("a highlight", [](Condition& c) { c.look.highlight = 8; });
   with("tilted 50 to 55 degrees", [](Condition& c) { c.tilt_deg = {50, 55}; });
@@ -229,7 +246,8 @@ int main(int argc, char** argv) {
   bench::Wish wish;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (const int number = std::atoi(argv[i]); number > 0 && word.find('x') == std::string::npos) wish.boards = number;
+    if (const int number = std::atoi(argv[i]); number > 0 && word.find('x') == std::string::npos)
+      wish.boards = number;
     else if (word == "ours") wish.peers = false;
     else if (word == "classic") wish.classic = true;
     else wish.only = word;

@@ -21,12 +21,14 @@ int main(int argc, char** argv) {
   for (int seed = 1; seed <= rigs; ++seed) {
     const double noise_px = std::exp(log_noise(random));
     const int count = views(random);
-    if (!error.add(static_cast<unsigned>(seed), noise_px, count)) std::printf("rig %d was not calibrated\n", seed);
+    if (!error.add(static_cast<unsigned>(seed), noise_px, count))
+      std::printf("rig %d was not calibrated\n", seed);
   }
   bool honest = true;
   std::printf("%-28s %12s %12s %10s\n", "", "one sigma", "95 % band", "cases");
   for (const auto* band : {&error.near, &error.face, &error.far, &error.scale, &error.projection}) {
-    std::printf("%-28s %10.1f %% %10.1f %% %10d\n", band->name.c_str(), 100 * band->share_one(), 100 * band->share_95(), band->cases);
+    std::printf("%-28s %10.1f %% %10.1f %% %10d\n", band->name.c_str(), 100 * band->share_one(),
+                100 * band->share_95(), band->cases);
     honest = honest && band->share_95() >= 0.92 && band->share_95() <= 0.98;
   }
   std::printf("%d of %d good views left out\n", error.left_out, error.given);

@@ -82,21 +82,28 @@ class Proof {
   }
 
   bool report() const {
-    std::printf("%-34s %7s %9s %10s %10s %10s %11s\n", "the right camera", "cases", "noticed", "median T", "least T", "most T", "median px");
+    std::printf("%-34s %7s %9s %10s %10s %10s %11s\n", "the right camera", "cases", "noticed", "median T",
+                "least T", "most T", "median px");
     bool good = true;
     for (const Tally* t : {&still_, &nodded_, &rolled_, &panned_, &knocked_}) {
-      std::printf("%-34s %7d %9d %10.2f %10.2f %10.2f %11.3f%s%s\n", t->name, t->cases, t->noticed, Tally::quantile(t->statistics, 0.5),
-                  Tally::quantile(t->statistics, 0), Tally::quantile(t->statistics, 1), Tally::quantile(t->residuals, 0.5),
+      std::printf("%-34s %7d %9d %10.2f %10.2f %10.2f %11.3f%s%s\n", t->name, t->cases, t->noticed,
+                  Tally::quantile(t->statistics, 0.5), Tally::quantile(t->statistics, 0),
+                  Tally::quantile(t->statistics, 1), Tally::quantile(t->residuals, 0.5),
                   t->wrong.empty() ? "" : "  wrong:", t->wrong.c_str());
-      if (t != &panned_) good = good && t->cases > 0 && (t->should_notice ? t->share() >= 0.99 : t->share() <= 0.01);
+      if (t != &panned_)
+        good = good && t->cases > 0 && (t->should_notice ? t->share() >= 0.99 : t->share() <= 0.01);
     }
-    std::printf("promised: median %.4f px, most %.4f px; uncertainty of one face: median %.4f px, most %.4f px; not judged: %d\n",
-                Tally::quantile(promises_, 0.5), Tally::quantile(promises_, 1), Tally::quantile(sigmas_, 0.5), Tally::quantile(sigmas_, 1), failed_);
+    std::printf(
+        "promised: median %.4f px, most %.4f px; uncertainty of one face: median %.4f px, most %.4f px; not judged: %d\n",
+        Tally::quantile(promises_, 0.5), Tally::quantile(promises_, 1), Tally::quantile(sigmas_, 0.5),
+        Tally::quantile(sigmas_, 1), failed_);
     return good;
   }
 
  private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
 
   // The same boards with new noise, another choice of them every time.
   std::vector<StereoCalibration> calibrate_often(const sim::SimRig& rig, std::uint32_t seed) {
@@ -107,7 +114,8 @@ class Proof {
     sensor.grey = true;
     for (const sim::BoardPose& pose : *poses) {
       const sim::BoardScene scene(printed, pose, {}, 1 / rig.left.fx_px);
-      light.push_back({sim::expose(scene, rig.left, sensor, bench_.pool), sim::expose(scene, rig.right, sensor, bench_.pool)});
+      light.push_back({sim::expose(scene, rig.left, sensor, bench_.pool),
+                       sim::expose(scene, rig.right, sensor, bench_.pool)});
     }
     std::vector<StereoCalibration> calibrations;
     for (int round = 0; round < kCalibrations; ++round) {
@@ -131,10 +139,13 @@ class Proof {
     return calibrations;
   }
 
-  void photograph(const sim::SimRig& rig, std::uint32_t who, int captures, const std::vector<StereoCalibration>& calibrations) {
+  void photograph(const sim::SimRig& rig, std::uint32_t who, int captures,
+                  const std::vector<StereoCalibration>& calibrations) {
     who_ = who;
-    const sim::HeadPose pose{uniform(-20, 20), uniform(-10, 10), uniform(-8, 8), uniform(510, 620), uniform(-15, 15), uniform(-15, 15)};
-    const auto scene = sim::make_head_scene(sim::make_head(sim::traits_of(who), bench_.pool), pose, bench_.pool);
+    const sim::HeadPose pose{uniform(-20, 20),  uniform(-10, 10), uniform(-8, 8),
+                             uniform(510, 620), uniform(-15, 15), uniform(-15, 15)};
+    const auto scene =
+        sim::make_head_scene(sim::make_head(sim::traits_of(who), bench_.pool), pose, bench_.pool);
     sim::SensorOptions left, right;
     left.defocus_px *= uniform(0.8, 1.3);
     right.defocus_px *= uniform(0.8, 1.3);
@@ -147,7 +158,10 @@ class Proof {
       const hal::Picture l = sim::read_sensor(left_light, left, random_());
       const hal::Picture r = sim::read_sensor(right_light, right, random_());
       const StereoFrame frame{l.view(), r.view(), 0, 0};
-      judge_all(frame, calibrations[static_cast<std::size_t>(uniform(0, static_cast<double>(calibrations.size()) - 1e-9))], k);
+      judge_all(
+          frame,
+          calibrations[static_cast<std::size_t>(uniform(0, static_cast<double>(calibrations.size()) - 1e-9))],
+          k);
     }
   }
 
@@ -161,13 +175,17 @@ class Proof {
     // Where the right camera's optical axis stands in its window: there a roll moves nothing.
     const Vec3d axis = apply(pair.rectified_from_right, {0, 0, 1});
     const double middle = pair.right_centre_px.x + pair.focal_px * axis.x / axis.z;
-    judge(frame, test::turned(calibration, 0, 0, way * kShiftPx / std::hypot(face.spread_x_px, face.middle_x_px - middle)), rolled_);
+    judge(frame,
+          test::turned(calibration, 0, 0,
+                       way * kShiftPx / std::hypot(face.spread_x_px, face.middle_x_px - middle)),
+          rolled_);
     if (k > 0) return;
     judge(frame, test::turned(calibration, 0, kShiftPx / focal, 0), panned_);
     judge(frame, test::turned(calibration, 2 / focal, 0, 0), knocked_);
   }
 
-  bool judge(const StereoFrame& frame, const StereoCalibration& calibration, Tally& tally, EpipolarShift* face = nullptr, RectifiedPair* seen = nullptr) {
+  bool judge(const StereoFrame& frame, const StereoCalibration& calibration, Tally& tally,
+             EpipolarShift* face = nullptr, RectifiedPair* seen = nullptr) {
     bench_.output.reset();
     const auto pipeline = Pipeline::make({}, calibration);
     auto pair = pipeline->rectify(frame, bench_.context);
@@ -187,7 +205,8 @@ class Proof {
   }
 
   double scale_;
-  test::StageBench bench_{std::size_t{640} << 20, std::size_t{768} << 20, static_cast<int>(std::thread::hardware_concurrency())};
+  test::StageBench bench_{std::size_t{640} << 20, std::size_t{768} << 20,
+                          static_cast<int>(std::thread::hardware_concurrency())};
   std::mt19937 random_{7};
   std::uint32_t who_ = 0;
   std::vector<double> promises_, sigmas_;
@@ -209,7 +228,9 @@ int main(int argc, char** argv) {
   const int first = argc > 4 ? std::atoi(argv[4]) : 1;
   relievo::bench::Proof proof(scale);
   for (int rig = 0; rig < relievo::bench::kRigs; ++rig)
-    proof.run_rig(static_cast<std::uint32_t>(first + rig), (people + relievo::bench::kRigs - 1 - rig) / relievo::bench::kRigs, captures);
-  std::printf("pictures %.2f times the usual size, %d people before %d rigs, %d captures each\n", scale, people, relievo::bench::kRigs, captures);
+    proof.run_rig(static_cast<std::uint32_t>(first + rig),
+                  (people + relievo::bench::kRigs - 1 - rig) / relievo::bench::kRigs, captures);
+  std::printf("pictures %.2f times the usual size, %d people before %d rigs, %d captures each\n", scale,
+              people, relievo::bench::kRigs, captures);
   return proof.report() ? 0 : 1;
 }

@@ -111,8 +111,9 @@ class Record {
     std::sort(pairs_.begin(), pairs_.end());
     std::printf("%s: %d of %d reached the goal; views: median %d, most %d; pairs: median %d, most %d\n", who,
                 reached_, hands(), middle(views_), views_.back(), middle(pairs_), pairs_.back());
-    std::printf("  predicted error %.4f mm; true over predicted: rms %.2f, within 1 sigma %.0f %%, 2 sigma %.0f %%\n",
-                error_mm_ / hands(), rms_ratio(), 100.0 * within_one_ / hands(), 100.0 * within_two_ / hands());
+    std::printf(
+        "  predicted error %.4f mm; true over predicted: rms %.2f, within 1 sigma %.0f %%, 2 sigma %.0f %%\n",
+        error_mm_ / hands(), rms_ratio(), 100.0 * within_one_ / hands(), 100.0 * within_two_ / hands());
   }
 
  private:

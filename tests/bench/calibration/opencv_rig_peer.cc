@@ -21,7 +21,8 @@ pipeline::CameraIntrinsics camera_of(const cv::Mat& k, const cv::Mat& d, int wid
 
 std::vector<cv::Point2f> points_of(const pipeline::BoardCorners& corners) {
   std::vector<cv::Point2f> points;
-  for (const pipeline::Vec2d& at : corners) points.emplace_back(static_cast<float>(at.x), static_cast<float>(at.y));
+  for (const pipeline::Vec2d& at : corners)
+    points.emplace_back(static_cast<float>(at.x), static_cast<float>(at.y));
   return points;
 }
 
@@ -35,10 +36,12 @@ pipeline::BoardCorners peer_corners(const ImageView& picture, const pipeline::Bo
   if (grey) plain = view;
   else cv::cvtColor(view, plain, cv::COLOR_RGB2GRAY);
   std::vector<cv::Point2f> found;
-  if (!cv::findChessboardCornersSB(plain, {pattern.columns, pattern.rows}, found, cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY))
+  if (!cv::findChessboardCornersSB(plain, {pattern.columns, pattern.rows}, found,
+                                   cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY))
     return {};
   pipeline::BoardCorners corners;
-  for (const cv::Point2f& at : found) corners.push_back({static_cast<double>(at.x), static_cast<double>(at.y)});
+  for (const cv::Point2f& at : found)
+    corners.push_back({static_cast<double>(at.x), static_cast<double>(at.y)});
   return corners;
 }
 

@@ -14,7 +14,8 @@
 
 namespace relievo::bench {
 
-pipeline::BoardCorners peer_corners(const ImageView& picture, const pipeline::BoardPattern& pattern);  // empty: none
+pipeline::BoardCorners peer_corners(const ImageView& picture,
+                                    const pipeline::BoardPattern& pattern);  // empty: none
 
 struct PeerViews {
   pipeline::BoardPattern pattern;

@@ -105,7 +105,8 @@ double worst_depth_mm(const hal::sim::SimRig& truth, const pipeline::StereoCalib
 std::vector<std::size_t> places(int good, bool bumped) {
   std::vector<std::size_t> chosen;
   for (int v = 0; v < good; ++v) {
-    if (bumped && (v == good / 3 || v == 2 * good / 3)) chosen.push_back(static_cast<std::size_t>(v == good / 3 ? kGood : kGood + 1));
+    if (bumped && (v == good / 3 || v == 2 * good / 3))
+      chosen.push_back(static_cast<std::size_t>(v == good / 3 ? kGood : kGood + 1));
     chosen.push_back(static_cast<std::size_t>(v));
   }
   return chosen;
@@ -167,7 +168,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "rig %d of %d\n", seed, rigs);
   }
   bool held = true;
-  std::printf("%-26s %14s %22s %8s %18s\n", "views", "ours, mm", "peer (better of two)", "ratio", "corners rejected");
+  std::printf("%-26s %14s %22s %8s %18s\n", "views", "ours, mm", "peer (better of two)", "ratio",
+              "corners rejected");
   for (int i = 0; i < 3; ++i)
     for (const int bumped : {0, 1}) {
       const Tally& t = tally[i][bumped];
@@ -175,7 +177,8 @@ int main(int argc, char** argv) {
       const double peer = t.peer_mm / std::max(1, t.trials - t.peer_failed);
       const double rejected = static_cast<double>(t.rejected) / static_cast<double>(std::max(1L, t.corners));
       std::printf("%2d%-24s %11.4f %22.4f %8.2f %15.1f %%   failed: ours %d, peer %d of %d\n", kViews[i],
-                  bumped != 0 ? " and two bumped" : "", ours, peer, ours / peer, 100 * rejected, t.ours_failed, t.peer_failed, t.trials);
+                  bumped != 0 ? " and two bumped" : "", ours, peer, ours / peer, 100 * rejected,
+                  t.ours_failed, t.peer_failed, t.trials);
       held = held && t.ours_failed == 0 && ours <= peer * (bumped != 0 ? 0.5 : 1.0) && rejected <= 0.1;
     }
   return held ? 0 : 1;

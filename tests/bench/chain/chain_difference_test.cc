@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What says that two processors made the same face must see a byte that differs, and say of differences how large they are.
+// What says that two processors made the same face must see a byte that differs, and say of differences how
+// large they are.
 #include "tests/bench/chain/chain_difference.h"
 
 #include <gtest/gtest.h>

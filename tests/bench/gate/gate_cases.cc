@@ -11,7 +11,7 @@ using pipeline::Advice;
 using test::Extra;
 using test::standing;
 
-constexpr double kOily = 8;            // times the person's own shine: a face wet with sweat
+constexpr double kOily = 8;         // times the person's own shine: a face wet with sweat
 constexpr double kPaleSkin = 0.45;  // mean linear reflectance
 
 test::Guise oily() {
@@ -24,21 +24,45 @@ test::Guise oily() {
 
 const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int variant) {
   const bool other = variant != 0;
-  if (fault.clutter) return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::WallBehind);
+  if (fault.clutter)
+    return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::WallBehind);
   switch (fault.expected) {
-    case Advice::NoFace: return album_.shoot(0, {0, 0, 0, 0, 0, 0});
-    case Advice::MoreThanOneFace: return album_.shoot(person, other ? standing(540, 35, 5, -3) : standing(560, -40), Extra::Friend);
-    case Advice::TooClose: return album_.shoot(person, other ? standing(385, 15, -10, 6, 4, 3) : standing(400));
-    case Advice::TooFar: return album_.shoot(person, other ? standing(740, -15, 0, -4) : standing(760, 20, 10, 5, 5, -8));
-    case Advice::OffCentre: return album_.shoot(person, other ? standing(570, -80, 10, 4) : standing(560, 85));
-    case Advice::TurnedAside: return album_.shoot(person, other ? standing(580, 8, 4, -25, 2, 2) : standing(560, 0, 0, 25));
-    case Advice::LooksUpOrDown: return album_.shoot(person, standing(560, 0, 0, 0, other ? -20 : 20));
-    case Advice::Tilted: return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
-    case Advice::FaceHidden: return album_.shoot(person, standing(560), other ? Extra::HandOnCheek : Extra::HandBefore);
-    case Advice::Background: return album_.shoot(person, other ? standing(590, 30, -5, -3, 2, 2) : standing(545, -30, 5, 3), Extra::BagBeside);
-    case Advice::Highlights: return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::None, oily());
-    case Advice::None: case Advice::Moved: case Advice::TooDark: case Advice::TooBright: case Advice::UnevenLight:
-    case Advice::Blurred: case Advice::EyesHidden: case Advice::EyesClosed: case Advice::GlassesGlare: case Advice::MouthOpen: case Advice::NotNeutral: break;
+    case Advice::NoFace:
+      return album_.shoot(0, {0, 0, 0, 0, 0, 0});
+    case Advice::MoreThanOneFace:
+      return album_.shoot(person, other ? standing(540, 35, 5, -3) : standing(560, -40), Extra::Friend);
+    case Advice::TooClose:
+      return album_.shoot(person, other ? standing(385, 15, -10, 6, 4, 3) : standing(400));
+    case Advice::TooFar:
+      return album_.shoot(person, other ? standing(740, -15, 0, -4) : standing(760, 20, 10, 5, 5, -8));
+    case Advice::OffCentre:
+      return album_.shoot(person, other ? standing(570, -80, 10, 4) : standing(560, 85));
+    case Advice::TurnedAside:
+      return album_.shoot(person, other ? standing(580, 8, 4, -25, 2, 2) : standing(560, 0, 0, 25));
+    case Advice::LooksUpOrDown:
+      return album_.shoot(person, standing(560, 0, 0, 0, other ? -20 : 20));
+    case Advice::Tilted:
+      return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
+    case Advice::FaceHidden:
+      return album_.shoot(person, standing(560), other ? Extra::HandOnCheek : Extra::HandBefore);
+    case Advice::Background:
+      return album_.shoot(person, other ? standing(590, 30, -5, -3, 2, 2) : standing(545, -30, 5, 3),
+                          Extra::BagBeside);
+    case Advice::Highlights:
+      return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::None,
+                          oily());
+    case Advice::None:
+    case Advice::Moved:
+    case Advice::TooDark:
+    case Advice::TooBright:
+    case Advice::UnevenLight:
+    case Advice::Blurred:
+    case Advice::EyesHidden:
+    case Advice::EyesClosed:
+    case Advice::GlassesGlare:
+    case Advice::MouthOpen:
+    case Advice::NotNeutral:
+      break;
   }
   return other ? album_.shoot(person, standing(600, -12, 8, -4, 3, 3)) : album_.shoot(person, standing(560));
 }
@@ -56,7 +80,8 @@ test::Developing GateTrial::developing(Advice fault, std::uint32_t person, hal::
   return how;
 }
 
-pipeline::GateAnswer GateTrial::look(const test::Shot& shot, const test::Developing& how, pipeline::GateTime now, pipeline::GateHistory& history) {
+pipeline::GateAnswer GateTrial::look(const test::Shot& shot, const test::Developing& how,
+                                     pipeline::GateTime now, pipeline::GateHistory& history) {
   return gate_.look(album_, shot, how, now, history).answer;
 }
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How the gate does on simulated people its limits were not set with: for every kind of advice how often it is given when its
-// fault is there (hit) and when it is not (false alarm), and whole visits (gate_visits.h).
+// How the gate does on simulated people its limits were not set with: for every kind of advice how often it
+// is given when its fault is there (hit) and when it is not (false alarm), and whole visits (gate_visits.h).
 //   gate_proof PEOPLE CASES VISITS [FIRST_SEED] [ALBUM] [CASE]
-// PEOPLE are drawn from FIRST_SEED (21) on; each is photographed in two ways a fault, once (kept in the folder ALBUM, when named);
-// CASES a fault and person differ in exposure and noise, and in how strong the fault is where developing makes it. Everything is drawn from
-// the person's own seed: ten runs of one person each add up to one run of ten. CASE, a name of the table, leaves out all other rows.
+// PEOPLE are drawn from FIRST_SEED (21) on; each is photographed in two ways a fault, once (kept in the
+// folder ALBUM, when named); CASES a fault and person differ in exposure and noise, and in how strong the
+// fault is where developing makes it. Everything is drawn from the person's own seed: ten runs of one person
+// each add up to one run of ten. CASE, a name of the table, leaves out all other rows.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -18,8 +19,8 @@
 namespace relievo::bench {
 namespace {
 
-using pipeline::Advice;
 using hal::sim::Random;
+using pipeline::Advice;
 
 constexpr pipeline::GateTime kFrame = std::chrono::milliseconds(66);
 
@@ -30,7 +31,9 @@ Advice case_of(GateTrial& trial, const Fault& fault, std::uint32_t person, int v
   pipeline::GateAnswer answer;
   for (int i = 0; i < 2; ++i) {
     how.noise_seed += 1;
-    answer = trial.look(trial.shot(fault, person, fault.expected == Advice::Moved ? (i + variant) % kVariants : variant), how, (i + 1) * kFrame, history);
+    answer = trial.look(
+        trial.shot(fault, person, fault.expected == Advice::Moved ? (i + variant) % kVariants : variant), how,
+        (i + 1) * kFrame, history);
   }
   return answer.reason;
 }
@@ -47,16 +50,20 @@ void print_table(GateTrial& trial, std::uint32_t first, int people, int cases, c
     const std::uint32_t person = first + 2 * static_cast<std::uint32_t>(k);
     Random random(Random(person).next());
     for (std::size_t f = 0; f < kFaults.size(); ++f)
-      for (int i = 0; i < cases && (only.empty() || only == kFaults[f].name); ++i) ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f], person, i % kVariants, random))];
+      for (int i = 0; i < cases && (only.empty() || only == kFaults[f].name); ++i)
+        ++given[f][static_cast<std::size_t>(case_of(trial, kFaults[f], person, i % kVariants, random))];
   }
-  std::printf("| case | cases | hit | taken as good | the advice where there is no such fault | else said |\n| --- | --- | --- | --- | --- | --- |\n");
+  std::printf(
+      "| case | cases | hit | taken as good | the advice where there is no such fault | else said |\n| --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t f = 0; f < kFaults.size(); ++f) {
     if (!only.empty() && only != kFaults[f].name) continue;
     const auto own = static_cast<std::size_t>(kFaults[f].expected);
     int elsewhere = 0, others = 0;
     for (std::size_t g = 0; g < kFaults.size(); ++g)
-      if (only.empty() && kFaults[g].expected != kFaults[f].expected) elsewhere += given[g][own], others += people * cases;
-    std::printf("| %s | %d | %d | %d | %d of %d |", kFaults[f].name, people * cases, given[f][own], given[f][0], elsewhere, others);
+      if (only.empty() && kFaults[g].expected != kFaults[f].expected)
+        elsewhere += given[g][own], others += people * cases;
+    std::printf("| %s | %d | %d | %d | %d of %d |", kFaults[f].name, people * cases, given[f][own],
+                given[f][0], elsewhere, others);
     for (std::size_t a = 1; a < given[f].size(); ++a)
       if (given[f][a] > 0 && a != own) std::printf(" %s %d", name_of(static_cast<Advice>(a)), given[f][a]);
     std::printf(" |\n");
@@ -70,7 +77,8 @@ void print_visits(GateTrial& trial, std::uint32_t first, int people, int visits)
   std::map<std::string, int> with_fault;
   for (int i = 0; i < visits; ++i) {
     const std::uint32_t person = first + 2 * static_cast<std::uint32_t>(i % people);
-    const VisitEnd end = run_visit(trial, person, 1000 * static_cast<std::uint64_t>(person) + static_cast<std::uint64_t>(i / people));
+    const VisitEnd end = run_visit(
+        trial, person, 1000 * static_cast<std::uint64_t>(person) + static_cast<std::uint64_t>(i / people));
     behaved += end.well_behaved;
     in_time += end.well_behaved && end.captured;
     others_right += !end.well_behaved && end.stood_right;
@@ -82,9 +90,11 @@ void print_visits(GateTrial& trial, std::uint32_t first, int people, int visits)
   const auto seconds = [](pipeline::GateTime t) { return std::chrono::duration<double>(t).count(); };
   int wrong = 0;
   for (const auto& [name, n] : with_fault) wrong += n;
-  std::printf("%d visits: %d well-behaved, %d of them captured within %.0f s of standing right; of %d others who stood right in the end %d; the slowest after %.1f s\n", visits,
-              behaved, in_time, seconds(kAllowed), others_right, others_in_time, seconds(longest));
-  std::printf("captured with a fault: %d; without a reason for %.1f s while a fault was there: %d\n", wrong, seconds(kNearly), nearly);
+  std::printf(
+      "%d visits: %d well-behaved, %d of them captured within %.0f s of standing right; of %d others who stood right in the end %d; the slowest after %.1f s\n",
+      visits, behaved, in_time, seconds(kAllowed), others_right, others_in_time, seconds(longest));
+  std::printf("captured with a fault: %d; without a reason for %.1f s while a fault was there: %d\n", wrong,
+              seconds(kNearly), nearly);
   for (const auto& [name, n] : with_fault) std::printf("  %s %d\n", name.c_str(), n);
 }
 

@@ -7,15 +7,17 @@
 namespace relievo::bench {
 namespace {
 
-using pipeline::Advice;
 using hal::sim::Random;
+using pipeline::Advice;
 
 struct Phase {
   const Fault* fault = &kFaults[0];
   int looks = 1;
 };
 
-int between(Random& random, int least, int most) { return least + static_cast<int>(random.uniform(0, most - least + 0.999)); }
+int between(Random& random, int least, int most) {
+  return least + static_cast<int>(random.uniform(0, most - least + 0.999));
+}
 const Fault& named(Advice advice) {
   for (const Fault& fault : kFaults)
     if (fault.expected == advice) return fault;
@@ -32,7 +34,8 @@ std::vector<Phase> well_behaved(Random& random) {
 std::vector<Phase> misbehaved(Random& random) {
   std::vector<Phase> script{{&named(Advice::NoFace), 1}};
   for (int faults = between(random, 1, 4); faults > 0; --faults) {
-    script.push_back({&kFaults[static_cast<std::size_t>(between(random, 2, kFaultsOfVisits - 1))], between(random, 2, 5)});
+    script.push_back(
+        {&kFaults[static_cast<std::size_t>(between(random, 2, kFaultsOfVisits - 1))], between(random, 2, 5)});
     if (random.uniform() < 0.25) script.push_back({&kFaults[0], between(random, 1, 3)});
   }
   return script;
@@ -85,6 +88,8 @@ VisitEnd Visit::run() {
 
 }  // namespace
 
-VisitEnd run_visit(GateTrial& trial, std::uint32_t person, std::uint64_t seed) { return Visit{trial, person, Random(Random(seed).next()), {}, {}}.run(); }
+VisitEnd run_visit(GateTrial& trial, std::uint32_t person, std::uint64_t seed) {
+  return Visit{trial, person, Random(Random(seed).next()), {}, {}}.run();
+}
 
 }  // namespace relievo::bench

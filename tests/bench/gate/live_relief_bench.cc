@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What one live relief and one whole look of the gate cost, with OpenCV's semi-global matcher (three-way mode) on the same
-// quarter-size pair in the same run. Compare processor times and their ratio; wall times on a busy machine say little.
+// What one live relief and one whole look of the gate cost, with OpenCV's semi-global matcher (three-way
+// mode) on the same quarter-size pair in the same run. Compare processor times and their ratio; wall times on
+// a busy machine say little.
 //   live_relief_bench LEFT RIGHT RIG.yml [ROUNDS] [OUT.png]
 // OUT.png: the depth as grey values, near is bright, black is unknown.
 #include <algorithm>
@@ -33,7 +34,9 @@ T need(Result<T> result) {
   std::exit(1);
 }
 
-struct Time { double cpu_ms, wall_ms; };
+struct Time {
+  double cpu_ms, wall_ms;
+};
 
 template <typename Work>
 Time median_of(int rounds, Work&& work) {
@@ -44,8 +47,10 @@ Time median_of(int rounds, Work&& work) {
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &a);
     work();
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
-    cpu.push_back(1e3 * static_cast<double>(b.tv_sec - a.tv_sec) + 1e-6 * static_cast<double>(b.tv_nsec - a.tv_nsec));
-    wall.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    cpu.push_back(1e3 * static_cast<double>(b.tv_sec - a.tv_sec) +
+                  1e-6 * static_cast<double>(b.tv_nsec - a.tv_nsec));
+    wall.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
   }
   std::sort(cpu.begin(), cpu.end());
   std::sort(wall.begin(), wall.end());
@@ -55,7 +60,9 @@ Time median_of(int rounds, Work&& work) {
 void draw(const pipeline::Relief& relief, const std::string& file) {
   std::vector<std::byte> grey(relief.depth_mm.size());
   pipeline::draw_relief(relief, 400, 1100, reinterpret_cast<std::uint8_t*>(grey.data()));
-  if (!hal::write_picture(file, {grey.data(), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8})) std::exit(1);
+  if (!hal::write_picture(
+          file, {grey.data(), relief.width_px, relief.height_px, relief.width_px, PixelFormat::Grey8}))
+    std::exit(1);
 }
 
 int run(int argc, char** argv) {
@@ -72,29 +79,36 @@ int run(int argc, char** argv) {
   const pipeline::StereoFrame frame{left.view(), right.view()};
   const auto look = [&] {
     work.output.reset();
-    return need(pipeline::run_stage(work.context, [&](auto& context) { return live.look(frame, calibration, context); }));
+    return need(pipeline::run_stage(work.context,
+                                    [&](auto& context) { return live.look(frame, calibration, context); }));
   };
   const Time ours = median_of(rounds, [&] { look(); });
-  std::printf("live relief   %6.1f ms processor, %6.1f ms wall: %.1f a second on two free cores or more; scratch %.1f MB, output %.1f MB\n", ours.cpu_ms,
-              ours.wall_ms, 2000 / ours.cpu_ms, 1e-6 * static_cast<double>(work.scratch.high_water()), 1e-6 * static_cast<double>(work.output.high_water()));
+  std::printf(
+      "live relief   %6.1f ms processor, %6.1f ms wall: %.1f a second on two free cores or more; scratch %.1f MB, output %.1f MB\n",
+      ours.cpu_ms, ours.wall_ms, 2000 / ours.cpu_ms, 1e-6 * static_cast<double>(work.scratch.high_water()),
+      1e-6 * static_cast<double>(work.output.high_water()));
   auto gate = need(pipeline::CaptureGate::open());
   pipeline::GateHistory history;
   pipeline::GateTime now{};
   const Time whole = median_of(2 * rounds, [&] {
     work.output.reset();
     now += std::chrono::milliseconds(66);
-    need(pipeline::run_stage(work.context, [&](auto& context) { return gate.look(frame, calibration, now, history, context); }));
+    need(pipeline::run_stage(
+        work.context, [&](auto& context) { return gate.look(frame, calibration, now, history, context); }));
   });
-  std::printf("whole look    %6.1f ms processor, %6.1f ms wall: %.1f a second on one core\n", whole.cpu_ms, whole.wall_ms, 1000 / whole.cpu_ms);
+  std::printf("whole look    %6.1f ms processor, %6.1f ms wall: %.1f a second on one core\n", whole.cpu_ms,
+              whole.wall_ms, 1000 / whole.cpu_ms);
   if (argc > 5) draw(look(), argv[5]);
   work.output.reset();
   pipeline::StageContext& c = work.context;
   pipeline::RectifierOptions volume;
   volume.near_mm = options.near_mm, volume.far_mm = options.far_mm;
-  const pipeline::StereoFrame small{pipeline::reduced(frame.left, 4, c), pipeline::reduced(frame.right, 4, c)};
+  const pipeline::StereoFrame small{pipeline::reduced(frame.left, 4, c),
+                                    pipeline::reduced(frame.right, 4, c)};
   const auto pair = need(pipeline::Rectifier(volume).rectify(small, pipeline::reduced(calibration, 4), c));
   const Time peer = median_of(rounds, [&] { match_like_the_peer(pair); });
-  std::printf("peer, matching alone %6.1f ms processor, %6.1f ms wall; ratio %.2f\n", peer.cpu_ms, peer.wall_ms, ours.cpu_ms / peer.cpu_ms);
+  std::printf("peer, matching alone %6.1f ms processor, %6.1f ms wall; ratio %.2f\n", peer.cpu_ms,
+              peer.wall_ms, ours.cpu_ms / peer.cpu_ms);
   return 0;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a visit's pictures to a face that can be compared: rectify, match, reconstruct, mesh (kept as mesh.bin),
-// head frame, rigid part. Errors: those of the pipeline. Thread: one caller; uses the room's pool.
+// From a visit's pictures to a face that can be compared: rectify, match, reconstruct, mesh (kept as
+// mesh.bin), head frame, rigid part. Errors: those of the pipeline. Thread: one caller; uses the room's pool.
 #pragma once
 
 #include <filesystem>

@@ -21,7 +21,8 @@ struct Head {
 
 template <typename T>
 void put(std::ofstream& out, const std::pmr::vector<T>& values) {
-  out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
 template <typename T>
@@ -47,7 +48,8 @@ Result<void> write_surface(const std::filesystem::path& file, const SeenSurface&
   }
   std::error_code failed;
   std::filesystem::rename(unfinished, file, failed);
-  if (failed) return Error{Errc::IoFailed, "cannot give this file its name", failed.value()}.at(file.string());
+  if (failed)
+    return Error{Errc::IoFailed, "cannot give this file its name", failed.value()}.at(file.string());
   return {};
 }
 
@@ -68,7 +70,8 @@ Result<SeenSurface> read_surface(const std::filesystem::path& file, std::pmr::me
   if (!in) return Error{Errc::InvalidInput, "is cut short: remove it"}.at(file.string());
   for (const auto& t : surface.mesh.triangles)
     for (const std::uint32_t v : t)
-      if (v >= head.vertices) return Error{Errc::InvalidInput, "is no surface of this proof: remove it"}.at(file.string());
+      if (v >= head.vertices)
+        return Error{Errc::InvalidInput, "is no surface of this proof: remove it"}.at(file.string());
   return surface;
 }
 

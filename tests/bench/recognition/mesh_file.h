@@ -18,7 +18,7 @@ namespace relievo::bench {
 struct SeenSurface {
   explicit SeenSurface(std::pmr::memory_resource* memory) : mesh(memory) {}
   pipeline::FaceMesh mesh;
-  pipeline::Vec3d across;   // from the left camera to the right one, as the frame's finder takes it
+  pipeline::Vec3d across;  // from the left camera to the right one, as the frame's finder takes it
 };
 
 Result<void> write_surface(const std::filesystem::path& file, const SeenSurface& surface);

@@ -39,8 +39,8 @@ class Photographer {
   std::filesystem::path folder_;
   OtherMaker other_;
   ThreadPool& pool_;
-  Visit shown_;                                        // whose head is at hand
-  std::shared_ptr<const hal::sim::HeadModel> head_;    // making one takes longer than photographing it
+  Visit shown_;                                      // whose head is at hand
+  std::shared_ptr<const hal::sim::HeadModel> head_;  // making one takes longer than photographing it
 };
 
 }  // namespace relievo::bench

@@ -16,7 +16,9 @@ constexpr std::array<double, kProbes> kYaw{-30, -18, 8, 18, 30};
 class Draw {
  public:
   explicit Draw(std::uint32_t seed) : engine_(seed) {}
-  double between(double least, double most) { return least + (most - least) * static_cast<double>(engine_()) / 4294967295.0; }
+  double between(double least, double most) {
+    return least + (most - least) * static_cast<double>(engine_()) / 4294967295.0;
+  }
   bool chance(double share) { return between(0, 1) < share; }
 
  private:

@@ -20,13 +20,13 @@ constexpr int kProbes = 5;
 enum class Maker : std::uint8_t { Own, Other };
 
 struct Visit {
-  std::string name;             // of its folder: PERSON_enrol, PERSON_p1 ..
+  std::string name;  // of its folder: PERSON_enrol, PERSON_p1 ..
   Maker maker = Maker::Own;
   std::uint32_t person_seed = 1, visit_seed = 1;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0, distance_mm = 560;
-  double noise = 1;             // of the sensor's own
-  double right_gain = 0;        // of the right camera over the left one, share (other maker)
-  double smile = 0, squint = 0; // 0 .. 1 (own)
+  double noise = 1;              // of the sensor's own
+  double right_gain = 0;         // of the right camera over the left one, share (other maker)
+  double smile = 0, squint = 0;  // 0 .. 1 (own)
   double light_left = 1, light_right = 1, light_below = 1;  // of the kiosk's panels (own)
 };
 
@@ -34,7 +34,7 @@ struct Person {
   std::string name;
   Maker maker = Maker::Own;
   Visit enrolment;
-  std::vector<Visit> probes;    // kProbes; the first and last at -30 and +30 degrees of yaw
+  std::vector<Visit> probes;  // kProbes; the first and last at -30 and +30 degrees of yaw
 };
 
 std::vector<Person> make_population(int own, int other);

@@ -16,7 +16,7 @@
 namespace relievo::bench {
 
 struct Failure {
-  std::string visit, why;   // could not be reconstructed
+  std::string visit, why;  // could not be reconstructed
 };
 
 struct Proof {

@@ -19,19 +19,24 @@ std::vector<double> distances(std::span<const Score> scores, bool same) {
 }
 
 int count(std::span<const Score> scores, bool same) {
-  return static_cast<int>(std::count_if(scores.begin(), scores.end(), [&](const Score& s) { return s.same() == same; }));
+  return static_cast<int>(
+      std::count_if(scores.begin(), scores.end(), [&](const Score& s) { return s.same() == same; }));
 }
 
 // Logarithms: distances are positive, and their logarithms nearly normal.
 std::pair<double, double> mean_and_variance(const std::vector<double>& values) {
   double mean = 0, variance = 0;
   for (const double v : values) mean += std::log(v) / static_cast<double>(values.size());
-  for (const double v : values) variance += (std::log(v) - mean) * (std::log(v) - mean) / static_cast<double>(values.size());
+  for (const double v : values)
+    variance += (std::log(v) - mean) * (std::log(v) - mean) / static_cast<double>(values.size());
   return {mean, variance};
 }
 
 double share_up_to(const std::vector<double>& sorted, double threshold, int of) {
-  return of == 0 ? 0 : static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), threshold) - sorted.begin()) / of;
+  return of == 0 ? 0
+                 : static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), threshold) -
+                                       sorted.begin()) /
+                       of;
 }
 
 int right_first(std::span<const Score> scores, int& probes) {
@@ -41,7 +46,8 @@ int right_first(std::span<const Score> scores, int& probes) {
     if (b == nullptr || (s.rms_mm && (!b->rms_mm || *s.rms_mm < *b->rms_mm))) b = &s;
   }
   probes = static_cast<int>(best.size());
-  return static_cast<int>(std::count_if(best.begin(), best.end(), [](const auto& b) { return b.second->rms_mm && b.second->same(); }));
+  return static_cast<int>(std::count_if(best.begin(), best.end(),
+                                        [](const auto& b) { return b.second->rms_mm && b.second->same(); }));
 }
 
 }  // namespace
@@ -55,7 +61,8 @@ std::vector<ErrorRates> error_rates(std::span<const Score> scores) {
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
   std::vector<ErrorRates> rates;
   rates.reserve(thresholds.size());
-  for (const double t : thresholds) rates.push_back({t, share_up_to(different, t, all_different), 1 - share_up_to(same, t, all_same)});
+  for (const double t : thresholds)
+    rates.push_back({t, share_up_to(different, t, all_different), 1 - share_up_to(same, t, all_same)});
   return rates;
 }
 
@@ -63,7 +70,8 @@ Verdict judge(std::span<const Score> scores) {
   Verdict v;
   v.same = count(scores, true);
   v.different = count(scores, false);
-  v.not_compared = static_cast<int>(std::count_if(scores.begin(), scores.end(), [](const Score& s) { return !s.rms_mm; }));
+  v.not_compared =
+      static_cast<int>(std::count_if(scores.begin(), scores.end(), [](const Score& s) { return !s.rms_mm; }));
   v.right_first = right_first(scores, v.probes);
   double nearest = 2;
   v.non_match_at_thousandth = 1;
@@ -74,7 +82,8 @@ Verdict judge(std::span<const Score> scores) {
       v.equal_error = 0.5 * (r.false_match + r.false_non_match);
       v.equal_error_mm = r.threshold_mm;
     }
-    if (r.false_match <= 0.001) v.non_match_at_thousandth = std::min(v.non_match_at_thousandth, r.false_non_match);
+    if (r.false_match <= 0.001)
+      v.non_match_at_thousandth = std::min(v.non_match_at_thousandth, r.false_non_match);
   }
   const std::vector<double> same = distances(scores, true), different = distances(scores, false);
   if (same.empty() || different.empty()) return v;

@@ -14,15 +14,15 @@ namespace relievo::bench {
 
 struct Score {
   int gallery = 0, probe_person = 0, probe = 0;
-  std::optional<double> rms_mm;     // none: could not be compared
+  std::optional<double> rms_mm;  // none: could not be compared
   double shared = 0;
   bool same() const { return gallery == probe_person; }
 };
 
 struct ErrorRates {
   double threshold_mm = 0;
-  double false_match = 0;           // of different persons, share at or below the threshold
-  double false_non_match = 0;       // of the same person, share above it
+  double false_match = 0;      // of different persons, share at or below the threshold
+  double false_non_match = 0;  // of the same person, share above it
 };
 
 struct Verdict {
@@ -30,8 +30,9 @@ struct Verdict {
   int same = 0, different = 0;      // comparisons
   int not_compared = 0;
   double equal_error = 0, equal_error_mm = 0;
-  double non_match_at_thousandth = 0;  // false non-match where one in a thousand of the different match falsely
-  double d_prime = 0;               // distance of the two means in deviations, of ln(rms)
+  double non_match_at_thousandth =
+      0;               // false non-match where one in a thousand of the different match falsely
+  double d_prime = 0;  // distance of the two means in deviations, of ln(rms)
   double greatest_same_mm = 0, least_different_mm = 0;
   double median_same_mm = 0, median_different_mm = 0;
 };

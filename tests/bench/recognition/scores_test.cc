@@ -9,14 +9,16 @@
 namespace relievo::bench {
 namespace {
 
-Score score(int gallery, int person, int probe, std::optional<double> mm) { return {gallery, person, probe, mm, 1}; }
+Score score(int gallery, int person, int probe, std::optional<double> mm) {
+  return {gallery, person, probe, mm, 1};
+}
 
 TEST(RecognitionScores, TheNearestCountsAndWhoCannotBeComparedIsMissed) {
   const std::vector<Score> scores{
-      score(0, 0, 0, 0.1), score(1, 0, 0, 0.4),             // right
-      score(0, 1, 0, 0.2), score(1, 1, 0, 0.3),             // wrong
-      score(0, 1, 1, std::nullopt), score(1, 1, 1, 0.3),    // right: the other could not be compared
-      score(0, 0, 1, 0.5), score(1, 0, 1, std::nullopt),    // right
+      score(0, 0, 0, 0.1),          score(1, 0, 0, 0.4),           // right
+      score(0, 1, 0, 0.2),          score(1, 1, 0, 0.3),           // wrong
+      score(0, 1, 1, std::nullopt), score(1, 1, 1, 0.3),           // right: the other could not be compared
+      score(0, 0, 1, 0.5),          score(1, 0, 1, std::nullopt),  // right
       score(0, 0, 2, std::nullopt), score(1, 0, 2, std::nullopt),  // missed
   };
   const Verdict v = judge(scores);
@@ -29,8 +31,9 @@ TEST(RecognitionScores, TheNearestCountsAndWhoCannotBeComparedIsMissed) {
 
 TEST(RecognitionScores, RatesAreSharesOfAllComparisons) {
   // Same: 0.1, 0.2, 0.3 and one that failed. Different: 0.25, 0.5, 0.6, 0.7.
-  const std::vector<Score> scores{score(0, 0, 0, 0.1), score(0, 0, 1, 0.2), score(0, 0, 2, 0.3), score(0, 0, 3, std::nullopt),
-                                  score(1, 0, 0, 0.25), score(1, 0, 1, 0.5), score(1, 0, 2, 0.6), score(1, 0, 3, 0.7)};
+  const std::vector<Score> scores{score(0, 0, 0, 0.1),          score(0, 0, 1, 0.2),  score(0, 0, 2, 0.3),
+                                  score(0, 0, 3, std::nullopt), score(1, 0, 0, 0.25), score(1, 0, 1, 0.5),
+                                  score(1, 0, 2, 0.6),          score(1, 0, 3, 0.7)};
   const auto rates = error_rates(scores);
   ASSERT_EQ(rates.size(), 7u);
   EXPECT_DOUBLE_EQ(rates[1].threshold_mm, 0.2);
@@ -49,8 +52,8 @@ TEST(RecognitionScores, RatesAreSharesOfAllComparisons) {
 TEST(RecognitionScores, DPrimeIsTheDistanceOfTheMeansInDeviations) {
   std::vector<Score> scores;
   for (const double u : {-1.0, 1.0}) {
-    scores.push_back(score(0, 0, u > 0 ? 1 : 0, std::exp(u)));        // mean 0, deviation 1 of the logarithm
-    scores.push_back(score(1, 0, u > 0 ? 1 : 0, std::exp(6 + u)));    // mean 6
+    scores.push_back(score(0, 0, u > 0 ? 1 : 0, std::exp(u)));      // mean 0, deviation 1 of the logarithm
+    scores.push_back(score(1, 0, u > 0 ? 1 : 0, std::exp(6 + u)));  // mean 6
   }
   EXPECT_NEAR(judge(scores).d_prime, 6, 1e-9);
 }

@@ -14,7 +14,7 @@ namespace {
 namespace sim = hal::sim;
 using sim::Random;
 
-constexpr double kAheadDeg = 7;           // a face that looks between the cameras is turned by this for the left one
+constexpr double kAheadDeg = 7;  // a face that looks between the cameras is turned by this for the left one
 
 sim::RigOptions rig_of(Random& random) {
   sim::RigOptions rig;
@@ -70,26 +70,30 @@ sim::SheetLook look_of(Shown shown, Random& random) {
 
 std::string text_of(const sim::HeadPose& p, const sim::SensorOptions& s) {
   char text[160];
-  std::snprintf(text, sizeof text, "yaw %.0f pitch %.0f roll %.0f distance %.0f exposure %.2f noise %.1f blur %.2f", p.yaw_deg, p.pitch_deg,
-                p.roll_deg, p.distance_mm, s.exposure, s.noise, s.defocus_px);
+  std::snprintf(text, sizeof text,
+                "yaw %.0f pitch %.0f roll %.0f distance %.0f exposure %.2f noise %.1f blur %.2f", p.yaw_deg,
+                p.pitch_deg, p.roll_deg, p.distance_mm, s.exposure, s.noise, s.defocus_px);
   return text;
 }
 
 std::string text_of(const sim::SheetOptions& o) {
   char text[200];
-  std::snprintf(text, sizeof text, " width %.0f radius %.0f axis %.0f apex %.0f wave %.0f gloss %.3f", o.width_mm, o.bend.radius_mm, o.bend.axis_deg,
-                o.bend.apex_mm, o.bend.wave_mm, o.look.gloss);
+  std::snprintf(text, sizeof text, " width %.0f radius %.0f axis %.0f apex %.0f wave %.0f gloss %.3f",
+                o.width_mm, o.bend.radius_mm, o.bend.axis_deg, o.bend.apex_mm, o.bend.wave_mm, o.look.gloss);
   return text;
 }
 
 // The middle part of a picture: paper is cut to what the hand likes to hold.
 hal::Picture trimmed(const hal::Picture& from, double across, double down) {
   hal::Picture out;
-  out.width_px = static_cast<int>(from.width_px * across), out.height_px = static_cast<int>(from.height_px * down);
+  out.width_px = static_cast<int>(from.width_px * across),
+  out.height_px = static_cast<int>(from.height_px * down);
   out.format = from.format;
-  const int left = (from.width_px - out.width_px) / 2, top = (from.height_px - out.height_px) / 2, bytes = bytes_per_pixel(from.format);
+  const int left = (from.width_px - out.width_px) / 2, top = (from.height_px - out.height_px) / 2,
+            bytes = bytes_per_pixel(from.format);
   for (int y = 0; y < out.height_px; ++y) {
-    const auto row = from.bytes.begin() + static_cast<std::ptrdiff_t>(bytes) * ((y + top) * from.width_px + left);
+    const auto row =
+        from.bytes.begin() + static_cast<std::ptrdiff_t>(bytes) * ((y + top) * from.width_px + left);
     out.bytes.insert(out.bytes.end(), row, row + static_cast<std::ptrdiff_t>(bytes) * out.width_px);
   }
   return out;
@@ -99,10 +103,14 @@ hal::Picture trimmed(const hal::Picture& from, double across, double down) {
 
 const char* name_of(Shown shown) {
   switch (shown) {
-    case Shown::Face: return "face";
-    case Shown::PrintedFlat: return "printed flat";
-    case Shown::PrintedBent: return "printed and bent";
-    case Shown::Screen: break;
+    case Shown::Face:
+      return "face";
+    case Shown::PrintedFlat:
+      return "printed flat";
+    case Shown::PrintedBent:
+      return "printed and bent";
+    case Shown::Screen:
+      break;
   }
   return "on a screen";
 }
@@ -137,9 +145,11 @@ Trial show_picture(Shown shown, const Album& album, std::uint64_t number) {
   sheet.lamps = lamps_of(random);
   sheet.look = look_of(shown, random);
   if (shown == Shown::PrintedBent) sheet.bend = bend_of(random);
-  const double across = random.uniform(0.65, 1), down = random.uniform(0.7, 1), size = random.uniform(0.8, 1.15);
+  const double across = random.uniform(0.65, 1), down = random.uniform(0.7, 1),
+               size = random.uniform(0.8, 1.15);
   sheet.width_mm = 270 * across * size;
-  auto scene = make_sheet_scene(trimmed(album.of(static_cast<std::size_t>(random.next() % album.size())), across, down), sheet);
+  auto scene = make_sheet_scene(
+      trimmed(album.of(static_cast<std::size_t>(random.next() % album.size())), across, down), sheet);
   if (scene) trial.scene = *std::move(scene);
   trial.what = text_of(sheet.pose, trial.sensor) + text_of(sheet);
   return trial;
@@ -153,7 +163,8 @@ Trial People::show(std::uint64_t number) {
   trial.noise_seed = random.next();
   const sim::HeadPose pose = pose_of(random, 25, 15);
   const auto person = first_ + static_cast<std::uint32_t>(number / kStands % 1000);
-  if (head_ == nullptr || made_ != person) head_ = sim::make_head(sim::traits_of(person), pool_), made_ = person;
+  if (head_ == nullptr || made_ != person)
+    head_ = sim::make_head(sim::traits_of(person), pool_), made_ = person;
   trial.scene = make_head_scene(head_, pose, pool_, lamps_of(random));
   trial.what = "person " + std::to_string(person) + " " + text_of(pose, trial.sensor);
   return trial;

@@ -26,7 +26,7 @@ struct Trial {
   hal::sim::RigOptions rig;
   hal::sim::SensorOptions sensor;
   std::uint64_t noise_seed = 0;
-  std::string what;             // for the log: every number that was drawn
+  std::string what;  // for the log: every number that was drawn
 };
 
 // Frontal photographs of simulated people, taken as for a passport.

@@ -10,7 +10,8 @@ namespace {
 
 using namespace pipeline;  // NOLINT: a bench of the pipeline
 
-Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pictures, test::StageBench& room, Verdict& verdict) {
+Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pictures,
+                         test::StageBench& room, Verdict& verdict) {
   const StereoFrame frame{pictures.left.view(), pictures.right.view(), 0, 0};
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(frame, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
@@ -34,7 +35,8 @@ Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::S
   room.output.reset();
   Verdict verdict;
   const auto stages = Pipeline::make({}, test::true_calibration(make_rig(trial.rig)));
-  const Result<void> done = stages ? reconstruct(*stages, pictures, room, verdict) : Result<void>(stages.error());
+  const Result<void> done =
+      stages ? reconstruct(*stages, pictures, room, verdict) : Result<void>(stages.error());
   verdict.accepted = done.has_value();
   if (!done) verdict.why = std::string(done.error().what.view());
   return verdict;

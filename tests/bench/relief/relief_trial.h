@@ -17,8 +17,9 @@ namespace relievo::bench {
 
 struct Verdict {
   bool accepted = false;
-  std::string why;                            // it was not
-  std::optional<pipeline::ReliefFigures> relief;     // where there was a surface to measure: then it alone refuses
+  std::string why;  // it was not
+  std::optional<pipeline::ReliefFigures>
+      relief;  // where there was a surface to measure: then it alone refuses
 };
 
 hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool);

@@ -73,8 +73,16 @@ void add_sweeps(std::vector<Row>& rows, bool portrait, int persons) {
 
 // The whole chain where the volume that the README states ends.
 void add_edges(std::vector<Row>& rows) {
-  for (const Stand& stand : {Stand{0, -150, 0}, {0, 150, 0}, {-80, 0, 0}, {80, 0, 0}, {0, 0, -60}, {0, 0, 140}, {-60, -140, 40}, {60, 140, 40}})
-    for (const std::uint32_t person : {1U, 2U}) rows.push_back({"edge", recommended(true), stand, person, {}});
+  for (const Stand& stand : {Stand{0, -150, 0},
+                             {0, 150, 0},
+                             {-80, 0, 0},
+                             {80, 0, 0},
+                             {0, 0, -60},
+                             {0, 0, 140},
+                             {-60, -140, 40},
+                             {60, 140, 40}})
+    for (const std::uint32_t person : {1U, 2U})
+      rows.push_back({"edge", recommended(true), stand, person, {}});
 }
 
 }  // namespace

@@ -14,7 +14,8 @@
 namespace relievo::bench {
 
 struct Row {
-  std::string panel;  // "baseline", "focal", "distance", "toe-in", "tilt", "edge", "volume-height", "volume-width"
+  std::string
+      panel;  // "baseline", "focal", "distance", "toe-in", "tilt", "edge", "volume-height", "volume-width"
   RigUnderTest rig;
   Stand stand;
   std::uint32_t person = 1;

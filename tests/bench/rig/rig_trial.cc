@@ -101,8 +101,8 @@ Surface measured_surface(const pipeline::FaceMesh& mesh) {
   return surface;
 }
 
-Result<Surface> reconstruct(const sim::PicturePair& pictures, const sim::SimRig& rig,
-                                   const RigUnderTest& r, test::StageBench& room) {
+Result<Surface> reconstruct(const sim::PicturePair& pictures, const sim::SimRig& rig, const RigUnderTest& r,
+                            test::StageBench& room) {
   room.output.reset();
   // The volume follows the distance: nose to ear, and how people stand.
   const pipeline::RectifierOptions volume{r.distance_mm - 160, r.distance_mm + 190, 8192};

@@ -26,14 +26,17 @@ std::string escaped(const std::string& words) {
 }  // namespace
 
 SvgCanvas::SvgCanvas(double width, double height) {
-  out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         // In two pieces each: these lines are the drawing's, not this file's.
-         "<!-- SPDX-" "FileCopyrightText: 2026 The Relievo authors -->\n"
-         "<!-- SPDX-" "License-Identifier: GPL-3.0-or-later -->\n"
-         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
-         number(width) + "\" height=\"" + number(height) + "\" viewBox=\"0 0 " + number(width) + " " +
-         number(height) + "\" font-family=\"DejaVu Sans, sans-serif\">\n" +
-         "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+  out_ =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      // In two pieces each: these lines are the drawing's, not this file's.
+      "<!-- SPDX-"
+      "FileCopyrightText: 2026 The Relievo authors -->\n"
+      "<!-- SPDX-"
+      "License-Identifier: GPL-3.0-or-later -->\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
+      number(width) + "\" height=\"" + number(height) + "\" viewBox=\"0 0 " + number(width) + " " +
+      number(height) + "\" font-family=\"DejaVu Sans, sans-serif\">\n" +
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
 }
 
 void SvgCanvas::line(SvgPoint from, SvgPoint to, const std::string& colour, double width) {

@@ -141,7 +141,8 @@ void draw_volume(SvgCanvas& canvas, SvgPoint corner, const std::string& title, c
   frame.grid();
   std::map<double, std::map<double, std::string>> columns;
   for (const Row& row : rows)
-    if (which(row)) columns[row.rig.distance_mm + row.stand.back_mm][side(row)] = fill_of(row.result.seen_by_both);
+    if (which(row))
+      columns[row.rig.distance_mm + row.stand.back_mm][side(row)] = fill_of(row.result.seen_by_both);
   // Neighbours of one colour are one box: the file stays small.
   for (const auto& [along, cells] : columns)
     for (auto first = cells.begin(); first != cells.end();) {

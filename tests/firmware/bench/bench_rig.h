@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The technician's workbench behind its own pages, on a small simulated rig: what a finger on a page asks for is
-// brought to the workbench as the staff's side does, without a PIN. One simulated person for all tests: making
-// one takes longest.
+// The technician's workbench behind its own pages, on a small simulated rig: what a finger on a page asks for
+// is brought to the workbench as the staff's side does, without a PIN. One simulated person for all tests:
+// making one takes longest.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,9 @@ namespace relievo::firmware::test_bench {
 
 constexpr double kScale = 0.4, kBoardScale = 0.25;  // of the rig's pictures
 
-inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) { return make_hand_pairs(held_board(test::small_rig(kBoardScale), args), 1); }
+inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
+  return make_hand_pairs(held_board(test::small_rig(kBoardScale), args), 1);
+}
 
 class BenchRig {
  public:
@@ -47,9 +49,13 @@ class BenchRig {
     EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());
     stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
     screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
-    appliance = std::make_unique<Appliance>(Appliance::Parts{*board, *stages, memory, pool, [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
+    appliance = std::make_unique<Appliance>(
+        Appliance::Parts{*board, *stages, memory, pool,
+                         [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
     errands = std::make_unique<Errands>(*appliance);
-    bench = std::make_unique<Bench>(Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards, [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
+    bench = std::make_unique<Bench>(
+        Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards,
+                     [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenTechnician);
     turn();
@@ -97,7 +103,8 @@ class BenchRig {
       screen->feed({ui::Input::Kind::Down, 3, x, y}, view);
       screen->feed({ui::Input::Kind::Up, 3, x, y}, view);
     } else {
-      for (std::size_t i = 0; i < screen->tree().nodes().size() && focused() != id; ++i) screen->feed({ui::Input::Kind::Next}, view);
+      for (std::size_t i = 0; i < screen->tree().nodes().size() && focused() != id; ++i)
+        screen->feed({ui::Input::Kind::Next}, view);
       ASSERT_EQ(focused(), id) << "the keypad does not get there";
       screen->feed({ui::Input::Kind::Activate}, view);
     }
@@ -128,7 +135,9 @@ class BenchRig {
   std::uint32_t revision = 0;
 
  private:
-  static ui::BenchPage page_of(ui::StaffPage staff_page) { return static_cast<ui::BenchPage>(static_cast<int>(staff_page) - static_cast<int>(ui::StaffPage::Stages)); }
+  static ui::BenchPage page_of(ui::StaffPage staff_page) {
+    return static_cast<ui::BenchPage>(static_cast<int>(staff_page) - static_cast<int>(ui::StaffPage::Stages));
+  }
   void frame() {
     staff = {};
     staff.role = ui::StaffRole::Technician;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The technician's picture pages, by touch, on the simulated rig: every page changes something real, and what it
-// changed is read back from the object behind it.
+// The technician's picture pages, by touch, on the simulated rig: every page changes something real, and what
+// it changed is read back from the object behind it.
 #include "tests/firmware/bench/bench_rig.h"
 
 #include <cmath>
@@ -25,7 +25,9 @@ class BenchTest : public testing::Test {
   static void SetUpTestSuite() { rig_ = new BenchRig; }
   static void TearDownTestSuite() { delete rig_; }
   static BenchRig& rig() { return *rig_; }
-  static bool finished() { return rig().now().phase == BenchPhase::Ready || rig().now().phase == BenchPhase::Failed; }
+  static bool finished() {
+    return rig().now().phase == BenchPhase::Ready || rig().now().phase == BenchPhase::Failed;
+  }
   // One is enough for all that only look at it.
   static void capture() {
     rig().open(StaffPage::Stages);
@@ -73,14 +75,16 @@ TEST_F(BenchTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
     EXPECT_EQ(rig().now().stage, static_cast<BenchStage>(i));
     EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
     EXPECT_EQ(rig().now().shown[1].pixels.empty(), i > 2) << i;
-    const auto& drawn = rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchLeft)];
+    const auto& drawn =
+        rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchLeft)];
     EXPECT_EQ(drawn.version, rig().now().shown[0].version) << i;
   }
   const ui::BenchResult result = rig().now().result;
   EXPECT_EQ(result.matches, products().matches->matches.size());
   std::uint64_t rejected = 0;
   for (std::size_t i = 0; i < result.rule_count; ++i) rejected += result.rules[i].rejected;
-  EXPECT_EQ(result.accepted + rejected, result.matches) << "every rejected match has the rule that took it first";
+  EXPECT_EQ(result.accepted + rejected, result.matches)
+      << "every rejected match has the rule that took it first";
   EXPECT_GT(result.photo_correlation, 0.5F);
 
   rig().open(StaffPage::Tables);
@@ -95,7 +99,8 @@ TEST_F(BenchTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
   EXPECT_EQ(rows.cells[4], text);
   rig().tap("table 2");
   for (std::size_t i = 0; i < rig().now().rows.cells.size(); i += 8) {
-    for (std::size_t k = 4; k < 7; ++k) EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
+    for (std::size_t k = 4; k < 7; ++k)
+      EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
   }
   rig().tap("table 3");
   std::snprintf(text, sizeof text, "%.3f", rig().stages->calibration()->left.focal_px.x);
@@ -107,7 +112,8 @@ TEST_F(BenchTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
   rig().tap("stage 2");
   const pipeline::RectifiedPair& pair = *products().pair;
   const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
-  const float x = share(pair.face_centre_px.x, pair.width_px), y = share(pair.face_centre_px.y, pair.height_px);
+  const float x = share(pair.face_centre_px.x, pair.width_px),
+              y = share(pair.face_centre_px.y, pair.height_px);
   rig().tap("left", x, y);
   const ui::BenchPoint found = rig().now().point;
   ASSERT_TRUE(found.matched);
@@ -158,7 +164,8 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   const ui::BenchView& now = rig().now();
   EXPECT_EQ(now.result.rule_count, 2U);
   EXPECT_NE(now.result.accepted, accepted);
-  EXPECT_NE(now.result.algorithms.find("zmncc.window_px = 9"), std::string_view::npos) << now.result.algorithms;
+  EXPECT_NE(now.result.algorithms.find("zmncc.window_px = 9"), std::string_view::npos)
+      << now.result.algorithms;
   EXPECT_NE(now.result.algorithms.find("matcher = zmncc"), std::string_view::npos);
 
   rig().open(StaffPage::Compare);
@@ -198,7 +205,8 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   const float matching = rig().now().result.seconds[0];
   again();
   EXPECT_NE(model(), as_saved);
-  EXPECT_EQ(rig().now().result.seconds[0], matching) << "the mesher has no part in the matches: they are not made again";
+  EXPECT_EQ(rig().now().result.seconds[0], matching)
+      << "the mesher has no part in the matches: they are not made again";
   EXPECT_EQ(rig().now().result.accepted, figures.accepted);
 
   rig().plug_in();
@@ -244,7 +252,8 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
 
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
   rig().open(StaffPage::Cameras);
-  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; })) << rig().now().problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; }))
+      << rig().now().problem;
   for (const ui::BenchCamera& camera : rig().now().cameras.camera) {
     EXPECT_FALSE(camera.picture.pixels.empty());
     EXPECT_GT(camera.mean, 0.05F);
@@ -259,23 +268,28 @@ TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
 // The person is nearer than the room: of the middle of the relief most is known, and bright.
 TEST_F(BenchTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
   rig().open(StaffPage::Cameras);
-  ASSERT_TRUE(rig().until([] { return rig().shows("show relief"); })) << rig().now().problem;  // with the first pair
+  ASSERT_TRUE(rig().until([] { return rig().shows("show relief"); }))
+      << rig().now().problem;  // with the first pair
   EXPECT_FALSE(rig().shows("relief"));
   rig().tap("show relief");
-  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); })) << rig().now().cameras.problem;
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); }))
+      << rig().now().cameras.problem;
   rig().turn();
   EXPECT_TRUE(rig().shows("relief") && rig().shows("left live"));
   EXPECT_FALSE(rig().shows("right live"));
   const ImageView relief = rig().now().cameras.relief.pixels;
   int bright = 0, all = 0;
   for (int y = 2 * relief.height_px / 5; y < 3 * relief.height_px / 5; ++y)
-    for (int x = 9 * relief.width_px / 20; x < 11 * relief.width_px / 20; ++x, ++all) bright += relief.row(y)[3 * x] > 100 ? 1 : 0;
+    for (int x = 9 * relief.width_px / 20; x < 11 * relief.width_px / 20; ++x, ++all)
+      bright += relief.row(y)[3 * x] > 100 ? 1 : 0;
   EXPECT_GT(bright, all / 2);
-  const auto& drawn = rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchRight)];
+  const auto& drawn =
+      rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::BenchRight)];
   EXPECT_EQ(drawn.pixels.width_px, relief.width_px);
   EXPECT_EQ(drawn.version & 0x80000000U, 0x80000000U) << "the relief, not the right picture";
   const std::uint32_t first = rig().now().cameras.relief.version;
-  ASSERT_TRUE(rig().until([first] { return rig().now().cameras.relief.version > first; })) << "drawn with every pair";
+  ASSERT_TRUE(rig().until([first] { return rig().now().cameras.relief.version > first; }))
+      << "drawn with every pair";
   rig().tap("show relief");
   ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief_shown; }));
   rig().turn();
@@ -295,7 +309,8 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.views > 0; }));
   EXPECT_FALSE(rig().now().calibration.pictures[0].pixels.empty());
   EXPECT_TRUE(rig().shows("advice"));
-  ASSERT_TRUE(rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+  ASSERT_TRUE(
+      rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
   if (rig().now().calibration.running) rig().tap("calibration finish");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
   const ui::BenchCalibration made = rig().now().calibration;
@@ -306,7 +321,8 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   EXPECT_EQ(rig().appliance->state(), State::Technician);
 
   rig().tap("calibration store");
-  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; })) << rig().now().calibration.problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; }))
+      << rig().now().calibration.problem;
   EXPECT_EQ(rig().revision, 2U);
   EXPECT_EQ(rig().stages->calibration()->revision, 2U) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, 2U);

@@ -149,7 +149,8 @@ TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
   every_language_knows(refusals);
 }
 
-// Every fault a file of the source can tell of, literals that stand on end joined; not those of the codes left out.
+// Every fault a file of the source can tell of, literals that stand on end joined; not those of the codes
+// left out.
 void collect_faults(const std::filesystem::path& file, std::set<std::string>& faults,
                     const std::set<std::string>& left_out = {}) {
   static const std::regex fault(R"rx(Errc::(\w+),\s*((?:"[^"]*"\s*)+))rx"), one(R"rx("([^"]*)")rx");
@@ -178,8 +179,8 @@ TEST(OptionWords, EveryFaultOfTheMachineIsInEveryLanguage) {
   every_language_knows(faults);
 }
 
-// Files and pictures: what an export, a recording, a stick or the store cannot do is noted in the log. Left out is what
-// ends a command or a start before there is a screen, and what the store refuses of a programmer.
+// Files and pictures: what an export, a recording, a stick or the store cannot do is noted in the log. Left
+// out is what ends a command or a start before there is a screen, and what the store refuses of a programmer.
 TEST(OptionWords, EveryFaultOfAFileOrAPictureIsInEveryLanguage) {
   ASSERT_TRUE(ui::prepare_languages().has_value());
   const std::filesystem::path source = RELIEVO_SOURCE_DIR;
@@ -195,7 +196,8 @@ TEST(OptionWords, EveryFaultOfAFileOrAPictureIsInEveryLanguage) {
     if (entry.path().extension() == ".cc") collect_faults(entry.path(), faults);
   for (const auto& entry : std::filesystem::directory_iterator(source / "storage" / "sqlite")) {
     const std::string name = entry.path().filename().string();
-    const bool of_a_start = name == "sqlite_migration.cc" || name == "store_directory.cc" || name == "sqlite_store.cc";
+    const bool of_a_start =
+        name == "sqlite_migration.cc" || name == "store_directory.cc" || name == "sqlite_store.cc";
     if (entry.path().extension() == ".cc" && !of_a_start)
       collect_faults(entry.path(), faults, {"InvalidInput", "InvalidState"});
   }
@@ -209,14 +211,18 @@ TEST(OptionWords, WhereItWasIsSaidInEveryLanguage) {
   ASSERT_TRUE(ui::prepare_languages().has_value());
   const pipeline::RigCameras calibrated{"serial 4061", "at /dev/v4l/by-path/b"};
   std::vector<std::string> places;
-  for (const pipeline::RigCameras& found :
-       {pipeline::RigCameras{"serial 4088", calibrated.right}, pipeline::RigCameras{calibrated.left, "at /dev/v4l/by-path/c"},
-        pipeline::RigCameras{"serial 4088", "serial 4090"}, pipeline::RigCameras{calibrated.right, calibrated.left}}) {
+  for (const pipeline::RigCameras& found : {pipeline::RigCameras{"serial 4088", calibrated.right},
+                                            pipeline::RigCameras{calibrated.left, "at /dev/v4l/by-path/c"},
+                                            pipeline::RigCameras{"serial 4088", "serial 4090"},
+                                            pipeline::RigCameras{calibrated.right, calibrated.left}}) {
     const auto checked = check_cameras(calibrated, found);
     ASSERT_FALSE(checked);
     places.emplace_back(checked.error().where());
   }
-  places.emplace_back(pipeline::error_of(pipeline::ReliefVerdict::Picture, pipeline::ReliefFigures{1, 0.1, 0.2, 0.2, 0.5, 0.4}, pipeline::ReliefOptions{}).where());
+  places.emplace_back(pipeline::error_of(pipeline::ReliefVerdict::Picture,
+                                         pipeline::ReliefFigures{1, 0.1, 0.2, 0.2, 0.5, 0.4},
+                                         pipeline::ReliefOptions{})
+                          .where());
   test::StageBench bench;
   const auto calibration = test::true_calibration(hal::sim::make_rig({}));
   const auto pipeline = pipeline::Pipeline::make({}, calibration);

@@ -54,9 +54,12 @@ class BarsCamera final : public hal::Camera {
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
         const double wave = std::sin(2 * M_PI * (x + look.shift_px) / 24) * 24 / (2 * M_PI);
-        pixels_[static_cast<std::size_t>(y * kSide + x)] = std::byte(static_cast<unsigned char>(std::lround(120 + 60 * std::tanh(wave / look.blur_px))));
+        pixels_[static_cast<std::size_t>(y * kSide + x)] =
+            std::byte(static_cast<unsigned char>(std::lround(120 + 60 * std::tanh(wave / look.blur_px))));
       }
-    return hal::Frame(hal::raw_of({pixels_.data(), kSide, kSide, kSide, PixelFormat::Grey8}), {at_, ++sequence_}, [](void*, int) {}, this, 0);
+    return hal::Frame(
+        hal::raw_of({pixels_.data(), kSide, kSide, kSide, PixelFormat::Grey8}), {at_, ++sequence_},
+        [](void*, int) {}, this, 0);
   }
   HandClock& clock_;
   std::vector<std::byte> pixels_ = std::vector<std::byte>(std::size_t{kSide} * kSide);
@@ -67,7 +70,8 @@ class BarsCamera final : public hal::Camera {
 
 class BarsLine final : public hal::TriggerLine {
  public:
-  BarsLine(HandClock& clock, BarsCamera& left, BarsCamera& right) : TriggerLine(clock), clock_(clock), left_(left), right_(right) {}
+  BarsLine(HandClock& clock, BarsCamera& left, BarsCamera& right)
+      : TriggerLine(clock), clock_(clock), left_(left), right_(right) {}
   std::vector<hal::Instant> flashes;
   int pulses = 0;
 
@@ -91,7 +95,9 @@ class BurstTest : public testing::Test {
   void show(const std::vector<Look>& looks) {
     for (BarsCamera* camera : {&left, &right}) camera->looks.assign(looks.begin(), looks.end());
   }
-  Result<BurstResult> shoot(const BurstOptions& options = {}) { return burst.shoot(first, second, options, cancelled); }
+  Result<BurstResult> shoot(const BurstOptions& options = {}) {
+    return burst.shoot(first, second, options, cancelled);
+  }
 
   HandClock clock;
   BarsCamera left{clock}, right{clock};
@@ -101,7 +107,9 @@ class BurstTest : public testing::Test {
   StereoSlot first{std::span(memory).first(memory.size() / 2)};
   StereoSlot second{std::span(memory).subspan(memory.size() / 2)};
   std::atomic<bool> cancelled{false};
-  Burst burst{grabber, line, [this](hal::Instant until, const std::atomic<bool>&) { clock.time = std::max(clock.time, until); }};
+  Burst burst{grabber, line, [this](hal::Instant until, const std::atomic<bool>&) {
+                clock.time = std::max(clock.time, until);
+              }};
 };
 
 TEST_F(BurstTest, TheSharpestOfFiveIsKeptWhereverItComes) {

@@ -26,7 +26,8 @@ TEST_F(CameraLinkTest, ACameraThatVanishesIsOpenedAgainWithGrowingWaits) {
   // A minute of asking: how long after one attempt comes the next?
   std::vector<milliseconds> waits;
   hal::Instant last = clock.now();
-  for (int opens = right.opens; clock.now() - begin < std::chrono::minutes(1); clock.time += milliseconds(10)) {
+  for (int opens = right.opens; clock.now() - begin < std::chrono::minutes(1);
+       clock.time += milliseconds(10)) {
     const auto started = grabber.start(kMode);
     ASSERT_FALSE(started);
     if (right.opens == opens) continue;
@@ -81,7 +82,8 @@ TEST_F(CameraLinkTest, TheJobWaitsForACameraThatVanishedAndSaysSoMeanwhile) {
   // Time passes with every question, and the camera returns after five seconds.
   class Passing final : public hal::Clock {
    public:
-    Passing(HandClock& clock, ScriptedCamera& camera) : clock_(clock), camera_(camera), back_(clock.now() + std::chrono::seconds(5)) {}
+    Passing(HandClock& clock, ScriptedCamera& camera)
+        : clock_(clock), camera_(camera), back_(clock.now() + std::chrono::seconds(5)) {}
     hal::Instant now() const override {
       clock_.time += milliseconds(500);
       if (clock_.time > back_) camera_.plugged = true;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A sensor that adds up light as a real one does: the control has to find the exposure, both cameras the same.
+// A sensor that adds up light as a real one does: the control has to find the exposure, both cameras the
+// same.
 #include "firmware/capture/exposure_control.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,8 @@ class LinearCamera final : public hal::Camera {
     for (int i = 0; i < 64 * 64; ++i) {
       const double skin = i % 97 == 0 ? 0.9 : 0.2 + 0.4 * (i % 64) / 63.0;
       const double light = lamp_ * skin * static_cast<double>(set.time.count()) * set.gain / 1000;
-      pixels[static_cast<std::size_t>(i)] = std::byte(static_cast<unsigned char>(std::clamp(255 * light + noise(random_), 0.0, 255.0)));
+      pixels[static_cast<std::size_t>(i)] =
+          std::byte(static_cast<unsigned char>(std::clamp(255 * light + noise(random_), 0.0, 255.0)));
     }
     const ImageView view{pixels.data(), 64, 64, 64, PixelFormat::Grey8};
     return *face_light(view, {0, 0, 64, 64});
@@ -46,7 +48,9 @@ class LinearCamera final : public hal::Camera {
   Result<void> do_open(const hal::CaptureMode&) override { return {}; }
   Result<void> do_start() override { return {}; }
   void do_stop() override {}
-  Result<hal::Frame> do_next_frame(hal::Instant) override { return Error{Errc::Timeout, "this camera is only looked at"}; }
+  Result<hal::Frame> do_next_frame(hal::Instant) override {
+    return Error{Errc::Timeout, "this camera is only looked at"};
+  }
   Result<void> do_set_exposure(const hal::Exposure& exposure) override {
     if (fails) return Error{*fails, "as the test says"};
     EXPECT_GE(exposure.time, limits.least.time);
@@ -68,9 +72,7 @@ class LinearCamera final : public hal::Camera {
 struct Rig {
   LinearCamera left, right;
   ExposureControl control{left, right};
-  explicit Rig(double lamp) : left(lamp), right(0.88 * lamp) {
-    EXPECT_TRUE(left.open({}) && right.open({}));
-  }
+  explicit Rig(double lamp) : left(lamp), right(0.88 * lamp) { EXPECT_TRUE(left.open({}) && right.open({})); }
   int settle() {
     for (int i = 1; i <= 30; ++i) {
       EXPECT_TRUE(control.step(left.look(), right.look()));
@@ -90,7 +92,8 @@ TEST(ExposureControl, FindsTheLightFromAnyStartWithinHalfASecond) {
       const FaceLight light = rig.left.look();
       EXPECT_LE(light.bright, 1.1 * kBrightTarget);
       EXPECT_LE(light.clipped, 0.005) << "the highlights have burnt out";
-      EXPECT_TRUE(light.bright >= 0.9 * kBrightTarget || light.highlight >= 0.9 * kHighlightTarget) << "darker than need be";
+      EXPECT_TRUE(light.bright >= 0.9 * kBrightTarget || light.highlight >= 0.9 * kHighlightTarget)
+          << "darker than need be";
       EXPECT_LE(rig.control.exposure().time, budget::kLongestExposure);
     }
 }

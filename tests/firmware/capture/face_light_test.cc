@@ -62,7 +62,8 @@ TEST(FaceLight, LooksAtTheFaceOnly) {
 
 TEST(FaceLight, ABoxOutsideThePictureIsRefused) {
   const Shown shown(bars(1, 50, 200), PixelFormat::Grey8);
-  for (const FaceBox box : {FaceBox{70, 0, 40, 40}, FaceBox{-100, 0, 110, 40}, FaceBox{0, 0, 15, 40}, FaceBox{0, 0, 0, 0}})
+  for (const FaceBox box :
+       {FaceBox{70, 0, 40, 40}, FaceBox{-100, 0, 110, 40}, FaceBox{0, 0, 15, 40}, FaceBox{0, 0, 0, 0}})
     EXPECT_EQ(face_light(shown.view, box).error().code, Errc::InvalidInput);
   EXPECT_TRUE(face_light(shown.view, {-20, -20, 60, 60}));
   EXPECT_FALSE(face_light({}, {0, 0, 40, 40}));
@@ -85,7 +86,9 @@ TEST(FaceLight, AFlatPictureHasNoSharpness) {
 TEST(FocusHelp, TellsTheShareOfTheBest) {
   FocusHelp help;
   EXPECT_EQ(help.share_of_best({}), 0);
-  const auto seen = [&](double blur) { return help.share_of_best(Shown(bars(blur, 60, 200), PixelFormat::Grey8).light()); };
+  const auto seen = [&](double blur) {
+    return help.share_of_best(Shown(bars(blur, 60, 200), PixelFormat::Grey8).light());
+  };
   EXPECT_EQ(seen(3), 1);
   EXPECT_EQ(seen(1), 1) << "sharper than before";
   const double past = seen(2);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/live_judge.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <vector>
 
 #include "firmware/capture/live_feed.h"
@@ -24,7 +24,8 @@ pipeline::StereoCalibration toed_in() {
   }
   const double turn = 2 * std::atan(60.0 / 560), cosine = std::cos(turn), sine = std::sin(turn);
   c.right_from_left.rotation = {{cosine, 0, sine, 0, 1, 0, -sine, 0, cosine}};
-  const pipeline::Vec3d moved = apply(c.right_from_left.rotation, {120 * std::cos(turn / 2), 0, 120 * std::sin(turn / 2)});
+  const pipeline::Vec3d moved =
+      apply(c.right_from_left.rotation, {120 * std::cos(turn / 2), 0, 120 * std::sin(turn / 2)});
   c.right_from_left.translation_mm = {-moved.x, -moved.y, -moved.z};
   return c;
 }
@@ -32,11 +33,13 @@ pipeline::StereoCalibration toed_in() {
 double middle_x(const FaceBox& box) { return box.x_px + box.width_px / 2.0; }
 double middle_y(const FaceBox& box) { return box.y_px + box.height_px / 2.0; }
 
-// Where the axes meet, a face is in the middle of both pictures; half a turn of the cameras leads from the left one to the rectified frame.
+// Where the axes meet, a face is in the middle of both pictures; half a turn of the cameras leads from the
+// left one to the rectified frame.
 TEST(LiveJudge, KnowsWhereTheFaceIsInBothPictures) {
   const pipeline::StereoCalibration c = toed_in();
   const double half = std::atan(60.0 / 560), distance = std::hypot(60.0, 560.0);
-  const pipeline::Rotation rectified_from_left{{std::cos(half), 0, std::sin(half), 0, 1, 0, -std::sin(half), 0, std::cos(half)}};
+  const pipeline::Rotation rectified_from_left{
+      {std::cos(half), 0, std::sin(half), 0, 1, 0, -std::sin(half), 0, std::cos(half)}};
   const FaceBoxes here = face_boxes(c, rectified_from_left, {60, 0, 560});
   for (const FaceBox& box : {here.left, here.right}) {
     EXPECT_NEAR(middle_x(box), 960, 2);

@@ -26,8 +26,10 @@ const hal::CaptureMode kMode{64, 48, std::chrono::microseconds(4000)};
 struct Plugged {
   FakeKernel left_kernel, right_kernel;
   V4l2Camera left, right;
-  Plugged(const char* left_serial, const char* right_serial, const char* left_at = "/dev/v4l/by-path/a", const char* right_at = "/dev/v4l/by-path/b")
-      : left({left_at, {}, 0, true}, left_kernel, left_kernel.clock), right({right_at, {}, 0, true}, right_kernel, right_kernel.clock) {
+  Plugged(const char* left_serial, const char* right_serial, const char* left_at = "/dev/v4l/by-path/a",
+          const char* right_at = "/dev/v4l/by-path/b")
+      : left({left_at, {}, 0, true}, left_kernel, left_kernel.clock),
+        right({right_at, {}, 0, true}, right_kernel, right_kernel.clock) {
     left_kernel.serial = left_serial;
     right_kernel.serial = right_serial;
     EXPECT_TRUE(left.open(kMode) && right.open(kMode));
@@ -43,9 +45,11 @@ TEST(RigCameras, ASerialNumberTellsACameraWhereverItIsPluggedIn) {
 
 TEST(RigCameras, WithoutOneOrWithTheSameOnBothItIsTheSocket) {
   EXPECT_EQ(Plugged("", "").names(), (RigCameras{"at /dev/v4l/by-path/a", "at /dev/v4l/by-path/b"}));
-  EXPECT_EQ(Plugged("01.00.00", "01.00.00").names(), (RigCameras{"at /dev/v4l/by-path/a", "at /dev/v4l/by-path/b"}));
+  EXPECT_EQ(Plugged("01.00.00", "01.00.00").names(),
+            (RigCameras{"at /dev/v4l/by-path/a", "at /dev/v4l/by-path/b"}));
   EXPECT_EQ(Plugged("", "B2").names(), (RigCameras{"at /dev/v4l/by-path/a", "serial B2"}));
-  EXPECT_EQ(Plugged("", "", "/dev/video0", "/dev/video2").names(), RigCameras()) << "names that another start gives to others";
+  EXPECT_EQ(Plugged("", "", "/dev/video0", "/dev/video2").names(), RigCameras())
+      << "names that another start gives to others";
 }
 
 TEST(RigCameras, OneDeviceOfBothViewsIsToldByItsSerialNumber) {
@@ -53,7 +57,8 @@ TEST(RigCameras, OneDeviceOfBothViewsIsToldByItsSerialNumber) {
   kernel.serial = "C3";
   V4l2Camera device({"/dev/v4l/by-path/c", {}, 0, true}, kernel, kernel.clock);
   hal::SideBySide both(device);
-  ASSERT_TRUE(both.left().open({32, 48, std::chrono::microseconds(4000)}) && both.right().open({32, 48, std::chrono::microseconds(4000)}));
+  ASSERT_TRUE(both.left().open({32, 48, std::chrono::microseconds(4000)}) &&
+              both.right().open({32, 48, std::chrono::microseconds(4000)}));
   EXPECT_EQ(cameras_of(both.left(), both.right()), (RigCameras{"serial C3", "serial C3"}));
 }
 
@@ -62,13 +67,16 @@ TEST(RigCameras, AnotherCameraIsToldBySideWithWhatWasExpectedAndWhatToDo) {
   struct Case {
     const char *left, *right, *words, *where;
   };
-  for (const Case& c : {Case{"X9", "B2", "the left camera", "serial A1 → serial X9"}, Case{"A1", "Y8", "the right camera", "serial B2 → serial Y8"},
-                        Case{"X9", "Y8", "neither camera", "serial B2 → serial Y8"}, Case{"B2", "A1", "changed places", "serial A1 → serial B2"},
+  for (const Case& c : {Case{"X9", "B2", "the left camera", "serial A1 → serial X9"},
+                        Case{"A1", "Y8", "the right camera", "serial B2 → serial Y8"},
+                        Case{"X9", "Y8", "neither camera", "serial B2 → serial Y8"},
+                        Case{"B2", "A1", "changed places", "serial A1 → serial B2"},
                         Case{"A1", "", "the right camera", "serial B2 → at /dev/v4l/by-path/b"}}) {
     const Result<void> checked = check_cameras(calibrated, Plugged(c.left, c.right).names());
     ASSERT_FALSE(checked) << c.words;
     EXPECT_EQ(checked.error().code, Errc::NotCalibrated);
-    EXPECT_NE(checked.error().what.view().find(c.words), std::string_view::npos) << checked.error().what.view();
+    EXPECT_NE(checked.error().what.view().find(c.words), std::string_view::npos)
+        << checked.error().what.view();
     EXPECT_NE(checked.error().what.view().find("calibrate again"), std::string_view::npos);
     EXPECT_NE(checked.error().where().find(c.where), std::string_view::npos) << checked.error().where();
   }

@@ -28,15 +28,16 @@ class HandClock final : public hal::Clock {
 // What a camera does at one pulse.
 enum class Fault : std::uint8_t {
   None,
-  Miss,       // it does not expose, nor count
-  Lose,       // the driver drops the frame, and counts it
-  Twice,      // the same frame is handed over two times
-  Hold,       // the frame comes only after the next pulse
-  Damage, Short,
-  Apart,      // exposed 0.4 ms later than the other
-  Restart,    // its sequence begins at 0 again
-  Fail,       // the driver answers with an error once
-  Vanish,     // unplugged
+  Miss,   // it does not expose, nor count
+  Lose,   // the driver drops the frame, and counts it
+  Twice,  // the same frame is handed over two times
+  Hold,   // the frame comes only after the next pulse
+  Damage,
+  Short,
+  Apart,    // exposed 0.4 ms later than the other
+  Restart,  // its sequence begins at 0 again
+  Fail,     // the driver answers with an error once
+  Vanish,   // unplugged
 };
 
 class ScriptedCamera final : public hal::Camera {
@@ -45,8 +46,8 @@ class ScriptedCamera final : public hal::Camera {
   static constexpr int kStride = 16;  // more than the picture is wide, as sensors pad
 
   explicit ScriptedCamera(HandClock& clock) : clock_(clock) {}
-  std::deque<Fault> script;         // one a pulse; afterwards None
-  std::function<void()> on_wait;    // when it is asked for a frame
+  std::deque<Fault> script;       // one a pulse; afterwards None
+  std::function<void()> on_wait;  // when it is asked for a frame
   std::uint32_t sequence = 0;
   int width_px = kSide;
   int held = 0;
@@ -113,8 +114,9 @@ class ScriptedCamera final : public hal::Camera {
     pixels_.fill(std::byte(static_cast<unsigned char>(waiting.number)));
     hal::RawImage raw{pixels_.data(), pixels_.size(), width_px, kSide, kStride, {}};
     if (waiting.fault == Fault::Short) raw.size_bytes = kStride * kSide / 2;
-    return hal::Frame(raw, {waiting.at, waiting.sequence, waiting.fault == Fault::Damage},
-                      [](void* owner, int) { --static_cast<ScriptedCamera*>(owner)->held; }, this, 0);
+    return hal::Frame(
+        raw, {waiting.at, waiting.sequence, waiting.fault == Fault::Damage},
+        [](void* owner, int) { --static_cast<ScriptedCamera*>(owner)->held; }, this, 0);
   }
 
   HandClock& clock_;

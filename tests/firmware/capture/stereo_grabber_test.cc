@@ -75,7 +75,8 @@ TEST_F(StereoGrabberTest, NoPictureIsATimeoutAndTheStreamsStartAnew) {
 TEST_F(StereoGrabberTest, AFrameThatComesAfterTheNextPulseIsNotTakenForIt) {
   right.script = {Fault::None, Fault::Hold};
   expect_pair_of_pulse(1);
-  ASSERT_TRUE(line.pulse(microseconds(100)));  // pulse 2: right withholds its frame, left's stays in the queue
+  ASSERT_TRUE(
+      line.pulse(microseconds(100)));  // pulse 2: right withholds its frame, left's stays in the queue
   expect_pair_of_pulse(3);
   EXPECT_EQ(of_left().late, 1U);
   EXPECT_EQ(grabber.counts().right.late, 1U);
@@ -204,7 +205,9 @@ TEST_F(StereoGrabberTest, OfTwentyThousandPulsesWithFaultsNoPairIsMixed) {
   EXPECT_EQ(grabber.counts().pairs, good);
   EXPECT_GT(good, 10'000U);
   for (const CameraCounts* c : {&grabber.counts().left, &grabber.counts().right})
-    for (const std::uint64_t n : {c->late, c->lost, c->duplicate, c->damaged, c->too_short, c->missing, c->vanished}) EXPECT_GT(n, 50U);
+    for (const std::uint64_t n :
+         {c->late, c->lost, c->duplicate, c->damaged, c->too_short, c->missing, c->vanished})
+      EXPECT_GT(n, 50U);
   EXPECT_EQ(grabber.counts().left.vanished, grabber.counts().left.returned);
 }
 

@@ -103,23 +103,28 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
   ASSERT_TRUE(calibration);
   Reconstruction upright;
   Console console;
-  ASSERT_TRUE(upright.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig.yml", {}, console));
+  ASSERT_TRUE(upright.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig.yml",
+                          {}, console));
   for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
     for (const char* eye : {"left", "right"}) {
       const auto picture = hal::read_picture(folder.path() / (std::string(eye) + ".png"));
       ASSERT_TRUE(picture);
-      ASSERT_TRUE(hal::write_picture(folder.path() / (std::string("lying_") + eye + ".png"), test::laid(picture->view(), side).view()));
+      ASSERT_TRUE(hal::write_picture(folder.path() / (std::string("lying_") + eye + ".png"),
+                                     test::laid(picture->view(), side).view()));
     }
     ASSERT_TRUE(pipeline::write_calibration(folder.path() / "lying.yml", test::laid(*calibration, side)));
     Reconstruction lying;
-    const auto done = lying.run(folder.path() / "lying_left.png", folder.path() / "lying_right.png", folder.path() / "lying.yml", {}, console);
+    const auto done = lying.run(folder.path() / "lying_left.png", folder.path() / "lying_right.png",
+                                folder.path() / "lying.yml", {}, console);
     ASSERT_TRUE(done) << done.error().what.view();
     const pipeline::ModelQuality& expected = upright.report().quality;
     // The outline is known to a part of the lattice's cells, 2 mm wide on pictures this small.
     EXPECT_NEAR(lying.report().quality.width_mm, expected.width_mm, 1.5);
     EXPECT_NEAR(lying.report().quality.height_mm, expected.height_mm, 1.5);
-    EXPECT_NEAR(lying.report().quality.nose_relief_mm, expected.nose_relief_mm, 0.8) << "less than half a cell";
-    // The same place in the room, the same place on the head: as well as frames of one head may differ at full size.
+    EXPECT_NEAR(lying.report().quality.nose_relief_mm, expected.nose_relief_mm, 0.8)
+        << "less than half a cell";
+    // The same place in the room, the same place on the head: as well as frames of one head may differ at
+    // full size.
     const pipeline::Rotation turn = test::lying_from_upright(side);
     for (const pipeline::Vec3d at : {pipeline::Vec3d{0, 0, 560}, {60, 0, 560}, {0, 80, 580}}) {
       const pipeline::Vec3d a = apply(upright.model().head_from_camera, at);

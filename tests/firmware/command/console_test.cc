@@ -26,9 +26,10 @@ TEST(Report, HasTheKeysThatScriptsRead) {
   report.quality.symmetry_residual_mm = 0.25;
   report.landmarks[static_cast<std::size_t>(pipeline::LandmarkName::Nasion)] = {{0.5F, 1, 2}, 1.5F, true};
   const std::string json = report_json(report);
-  for (const char* key : {"\"version\"", "\"calibration\": \"rig.yml\"", "\"matcher\": \"refined\"", "\"stages\"",
-                          "\"name\": \"Match\"", "\"ms\": 1.5", "\"in\": 10", "\"out\": 9", "\"arena_peak_bytes\": 4096",
-                          "\"total_ms\": 2.5", "\"peak_rss_bytes\"", "\"quality\"", "\"nose_relief_mm\": 21.5", "\"symmetry_residual_mm\": 0.25",
+  for (const char* key : {"\"version\"", "\"calibration\": \"rig.yml\"", "\"matcher\": \"refined\"",
+                          "\"stages\"", "\"name\": \"Match\"", "\"ms\": 1.5", "\"in\": 10", "\"out\": 9",
+                          "\"arena_peak_bytes\": 4096", "\"total_ms\": 2.5", "\"peak_rss_bytes\"",
+                          "\"quality\"", "\"nose_relief_mm\": 21.5", "\"symmetry_residual_mm\": 0.25",
                           "\"nasion\"", "\"at_mm\"", "\"sigma_mm\": 1.5", "\"pogonion\": null"}) {
     EXPECT_NE(json.find(key), std::string::npos) << key << " in " << json;
   }

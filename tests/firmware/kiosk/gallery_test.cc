@@ -39,7 +39,8 @@ bool in_a_scroller(const ui::Tree& tree, const ui::Node& node) {
 // What lies in a scroller is seen only within it.
 ui::Rect seen_of(const ui::Node& node) {
   const float x = std::max(node.rect.x, node.clip.x), y = std::max(node.rect.y, node.clip.y);
-  return {x, y, std::min(node.rect.right(), node.clip.right()) - x, std::min(node.rect.bottom(), node.clip.bottom()) - y};
+  return {x, y, std::min(node.rect.right(), node.clip.right()) - x,
+          std::min(node.rect.bottom(), node.clip.bottom()) - y};
 }
 
 bool goes_on(const ui::Node& node) { return node.box.scroll && node.content_height > node.rect.h + 1; }
@@ -48,7 +49,8 @@ bool goes_on(const ui::Node& node) { return node.box.scroll && node.content_heig
 float end_of(const ui::Tree& tree, const ui::Node& scroller) {
   float end = scroller.rect.y;
   for (const ui::Node& node : tree.nodes()) {
-    if (node.parent >= 0 && &tree.nodes()[static_cast<std::size_t>(node.parent)] == &scroller) end = std::max(end, node.rect.bottom());
+    if (node.parent >= 0 && &tree.nodes()[static_cast<std::size_t>(node.parent)] == &scroller)
+      end = std::max(end, node.rect.bottom());
   }
   return end + scroller.box.pad_y;
 }
@@ -77,9 +79,11 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
         for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), text, false)) {
           screen_->resize(shown.width_px, shown.height_px);
           screen_->show(exhibit.view, exhibit.visit, exhibit.service);
-          SCOPED_TRACE(std::string(exhibit.name) + " " + std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px) + " " +
-                       std::to_string(ui::kTextPercents[text]) + " %");
-          look(screen_->tree(), ui::Rect{0, 0, static_cast<float>(shown.width_px), static_cast<float>(shown.height_px)});
+          SCOPED_TRACE(std::string(exhibit.name) + " " + std::to_string(shown.width_px) + "x" +
+                       std::to_string(shown.height_px) + " " + std::to_string(ui::kTextPercents[text]) +
+                       " %");
+          look(screen_->tree(),
+               ui::Rect{0, 0, static_cast<float>(shown.width_px), static_cast<float>(shown.height_px)});
         }
       }
     }
@@ -106,7 +110,8 @@ void GalleryTest::lies_on_the_screen(const ui::Tree& tree, const ui::Rect& scree
 void GalleryTest::every_text_has_its_room(const ui::Tree& tree) {
   for (const ui::Node& node : tree.nodes()) {
     if (node.text.empty()) continue;
-    const ui::TextLabel& label = screen_->text().label(node.text, node.style, std::max(1.0F, node.rect.w - 2 * node.box.pad_x));
+    const ui::TextLabel& label =
+        screen_->text().label(node.text, node.style, std::max(1.0F, node.rect.w - 2 * node.box.pad_x));
     EXPECT_EQ(label.missing, 0) << node.text;
     EXPECT_EQ(label.torn, 0) << node.text;
     EXPECT_LE(label.size.height_px, node.rect.h + 2) << node.text;
@@ -130,7 +135,9 @@ void GalleryTest::buttons_are_large_apart_and_named(const ui::Tree& tree, const 
   if (modal) return;
   for (std::size_t i = 0; i < buttons.size(); ++i) {
     EXPECT_TRUE(ids.insert(std::string(buttons[i]->id)).second) << buttons[i]->id << " twice";
-    for (std::size_t k = i + 1; k < buttons.size(); ++k) EXPECT_FALSE(overlap(seen_of(*buttons[i]), seen_of(*buttons[k]))) << buttons[i]->id << " " << buttons[k]->id;
+    for (std::size_t k = i + 1; k < buttons.size(); ++k)
+      EXPECT_FALSE(overlap(seen_of(*buttons[i]), seen_of(*buttons[k])))
+          << buttons[i]->id << " " << buttons[k]->id;
   }
 }
 
@@ -140,7 +147,8 @@ void GalleryTest::keypad_reaches_every_button(const ui::Tree& tree) {
   while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at->id, 1);
   const bool modal = tree.find("veil") != nullptr;
   for (const ui::Node& node : tree.nodes()) {
-    const bool wanted = node.action.kind != ui::ActionKind::None && node.action.kind != ui::ActionKind::TurnFace && !modal;
+    const bool wanted =
+        node.action.kind != ui::ActionKind::None && node.action.kind != ui::ActionKind::TurnFace && !modal;
     EXPECT_TRUE(!wanted || reached.count(std::string(node.id)) == 1) << node.id;
   }
   EXPECT_FALSE(modal && reached.empty());
@@ -155,7 +163,8 @@ void GalleryTest::nothing_lies_on_the_oval(const ui::Tree& tree) {
     const ui::Node* node = tree.find(id);
     if (node == nullptr) continue;
     // Its nearest point, where the oval is a circle.
-    const float dx = (std::clamp(x, node->rect.x, node->rect.right()) - x) / (oval->rect.w / 2), dy = (std::clamp(y, node->rect.y, node->rect.bottom()) - y) / (oval->rect.h / 2);
+    const float dx = (std::clamp(x, node->rect.x, node->rect.right()) - x) / (oval->rect.w / 2),
+                dy = (std::clamp(y, node->rect.y, node->rect.bottom()) - y) / (oval->rect.h / 2);
     EXPECT_GT(dx * dx + dy * dy, 1) << id;
   }
 }
@@ -171,9 +180,10 @@ TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
 }
 
 // As many lines as a log keeps, each as long as one may be, faults all of them.
-// Presses the keypad's "on" until everything was there; what was in view, scroller by scroller, is struck off `unread`.
+// Presses the keypad's "on" until everything was there; what was in view, scroller by scroller, is struck off
+// `unread`.
 void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string>& unread) {
-  std::set<std::pair<std::string, float>> seen;   // what had the focus, and how far its scroller was
+  std::set<std::pair<std::string, float>> seen;  // what had the focus, and how far its scroller was
   std::string before;
   for (;;) {
     screen.feed({ui::Input::Kind::Next}, exhibit.view);
@@ -193,7 +203,8 @@ void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string
   }
 }
 
-// Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its end.
+// Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its
+// end.
 TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
   for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), ui::kTextPercents.size() - 1, false)) {
     SCOPED_TRACE(exhibit.name);
@@ -213,7 +224,12 @@ TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
 
 TEST_P(GalleryTest, AFullLogHasRoom) {
   const std::string sentence(EventLog::kTextBytes, 'x');
-  const ui::LogLine line{"2026-03-14 10:21:09", true, sentence, "setting {} is {}", {std::string_view(sentence).substr(0, 80), std::string_view(sentence).substr(0, 80)}};
+  const ui::LogLine line{
+      "2026-03-14 10:21:09",
+      true,
+      sentence,
+      "setting {} is {}",
+      {std::string_view(sentence).substr(0, 80), std::string_view(sentence).substr(0, 80)}};
   const std::vector<ui::LogLine> lines(EventLog::kLines, line);
   const ui::LogView log{lines};
   ui::ServiceView staff;
@@ -229,17 +245,19 @@ TEST_P(GalleryTest, AFullLogHasRoom) {
   screen_->resize(1280, 800);
   screen_->show(view, visit, service);
   std::size_t dates = 0;
-  for (const ui::Node& node : screen_->tree().nodes()) dates += node.text.find("10:21:09") != std::string_view::npos ? 1 : 0;
+  for (const ui::Node& node : screen_->tree().nodes())
+    dates += node.text.find("10:21:09") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(dates, EventLog::kLines);
 }
 
-// In scripts that are not Latin, three Latin words on end are a sentence nobody translated. Names, keys, units and files
-// are fewer; what an earlier version noted and what a person wrote stay as they are.
+// In scripts that are not Latin, three Latin words on end are a sentence nobody translated. Names, keys,
+// units and files are fewer; what an earlier version noted and what a person wrote stay as they are.
 TEST_P(GalleryTest, NoSentenceStaysEnglish) {
   using enum ui::Language;
   if (GetParam() != Arabic && GetParam() != Hebrew && GetParam() != Chinese && GetParam() != Japanese) return;
   static const std::regex sentence("[a-z]{2,}[,:;]? [a-z]{2,}[,:;]? [a-z]{2,}");
-  constexpr const char* kKept[] = {"noted by an earlier version", "What we do with your portrait", "Was mit Ihrem Bildnis", "Maximiliane von und zu"};
+  constexpr const char* kKept[] = {"noted by an earlier version", "What we do with your portrait",
+                                   "Was mit Ihrem Bildnis", "Maximiliane von und zu"};
   screen_->resize(1280, 800);
   std::size_t looked_at = 0;
   for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), 0, false)) {
@@ -247,7 +265,8 @@ TEST_P(GalleryTest, NoSentenceStaysEnglish) {
     for (const ui::Node& node : screen_->tree().nodes()) {
       for (const std::string_view words : {node.text, node.name}) {
         const std::string said(words);
-        const bool kept = std::any_of(std::begin(kKept), std::end(kKept), [&](const char* one) { return said.find(one) != std::string::npos; });
+        const bool kept = std::any_of(std::begin(kKept), std::end(kKept),
+                                      [&](const char* one) { return said.find(one) != std::string::npos; });
         EXPECT_FALSE(!kept && std::regex_search(said, sentence)) << exhibit.name << ": " << said;
         ++looked_at;
       }
@@ -267,9 +286,14 @@ TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
   }
 }
 
-std::string name(const testing::TestParamInfo<ui::Language>& info) { return std::string(ui::info_of(info.param).code).substr(0, 2); }
-INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, testing::Values(ui::Language::English, ui::Language::German, ui::Language::French, ui::Language::Spanish,
-                                                                ui::Language::Arabic, ui::Language::Hebrew, ui::Language::Chinese, ui::Language::Japanese), name);
+std::string name(const testing::TestParamInfo<ui::Language>& info) {
+  return std::string(ui::info_of(info.param).code).substr(0, 2);
+}
+INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest,
+                         testing::Values(ui::Language::English, ui::Language::German, ui::Language::French,
+                                         ui::Language::Spanish, ui::Language::Arabic, ui::Language::Hebrew,
+                                         ui::Language::Chinese, ui::Language::Japanese),
+                         name);
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A dozen pages, pixel by pixel, as they were when somebody looked at them: tests/golden/pages/. Drawn by llvmpipe
-// with Debian's fonts; pictures and models are left out. A page fails when more than 0.1 % of its pixels differ
-// by more than 16 levels, or more than a tenth of any tile of 16 x 16.
+// A dozen pages, pixel by pixel, as they were when somebody looked at them: tests/golden/pages/. Drawn by
+// llvmpipe with Debian's fonts; pictures and models are left out. A page fails when more than 0.1 % of its
+// pixels differ by more than 16 levels, or more than a tenth of any tile of 16 x 16.
 //
-//   RELIEVO_RENEW_GOLDENS=1 build/release/tests/firmware/test_firmware --gtest_filter='*Golden*'   draws them anew: look at them
+//   RELIEVO_RENEW_GOLDENS=1 build/release/tests/firmware/test_firmware --gtest_filter='*Golden*'   draws them
+//   anew: look at them
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,30 +29,36 @@ namespace {
 
 constexpr int kLevels = 16, kTile = 16;
 constexpr double kMostDifferent = 0.001, kMostInATile = 0.1;
-constexpr int kKeptSteps = 8;  // grey levels are kept to this: a quarter of the file, and half a step of error
+constexpr int kKeptSteps =
+    8;  // grey levels are kept to this: a quarter of the file, and half a step of error
 
 struct Golden {
   const char* page;
   ui::Language language;
   int width_px, height_px;
-  std::size_t text;        // of ui::kTextPercents
+  std::size_t text;  // of ui::kTextPercents
   bool contrast;
 };
 using enum ui::Language;
 constexpr Golden kGoldens[] = {
-    {"attract", English, 1280, 800, 0, false},      {"consent", German, 1280, 800, 0, false},        {"name", Arabic, 1280, 800, 0, false},
-    {"name", English, 1280, 800, 0, true},          {"known_code", German, 1280, 800, 2, false},     {"position_aside", Arabic, 1280, 800, 0, false},
-    {"working", English, 1080, 1920, 0, false},     {"thanks", Arabic, 1080, 1920, 2, false},        {"trouble_camera", German, 1280, 800, 0, false},
-    {"staff_records", Arabic, 1280, 800, 0, false}, {"staff_erase", German, 1280, 800, 0, false},    {"bench_option", German, 1280, 800, 0, false},
+    {"attract", English, 1280, 800, 0, false},       {"consent", German, 1280, 800, 0, false},
+    {"name", Arabic, 1280, 800, 0, false},           {"name", English, 1280, 800, 0, true},
+    {"known_code", German, 1280, 800, 2, false},     {"position_aside", Arabic, 1280, 800, 0, false},
+    {"working", English, 1080, 1920, 0, false},      {"thanks", Arabic, 1080, 1920, 2, false},
+    {"trouble_camera", German, 1280, 800, 0, false}, {"staff_records", Arabic, 1280, 800, 0, false},
+    {"staff_erase", German, 1280, 800, 0, false},    {"bench_option", German, 1280, 800, 0, false},
 };
 
 std::string name_of(const Golden& golden) {
-  return std::string(golden.page) + "_" + std::to_string(golden.width_px) + "x" + std::to_string(golden.height_px) + "_" + std::to_string(ui::kTextPercents[golden.text]) +
+  return std::string(golden.page) + "_" + std::to_string(golden.width_px) + "x" +
+         std::to_string(golden.height_px) + "_" + std::to_string(ui::kTextPercents[golden.text]) +
          (golden.contrast ? "_contrast" : "") + "_" + std::string(ui::info_of(golden.language).code);
 }
 std::string test_name(const testing::TestParamInfo<Golden>& info) { return name_of(info.param); }
 
-std::filesystem::path kept_in() { return std::filesystem::path(RELIEVO_SOURCE_DIR) / "tests" / "golden" / "pages"; }
+std::filesystem::path kept_in() {
+  return std::filesystem::path(RELIEVO_SOURCE_DIR) / "tests" / "golden" / "pages";
+}
 
 class GoldenTest : public testing::TestWithParam<Golden> {
  protected:
@@ -62,7 +69,8 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     ASSERT_TRUE(opened.has_value()) << opened.error().where();
     display = std::move(*opened);
     const std::string driver = test::gles_driver();
-    if (driver.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "goldens are llvmpipe's, and this is " << driver;
+    if (driver.find("llvmpipe") == std::string::npos)
+      GTEST_SKIP() << "goldens are llvmpipe's, and this is " << driver;
     auto text = ui::TextEngine::make();
     ASSERT_TRUE(text.has_value());
     screen = std::make_unique<ui::Ui>(std::move(*text));
@@ -76,9 +84,11 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     hal::Picture picture;
     picture.width_px = golden.width_px;
     picture.height_px = golden.height_px;
-    picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px));
+    picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) *
+                         static_cast<std::size_t>(picture.height_px));
     const auto exhibits = gallery(ui::ViewState{}, golden.language, golden.text, golden.contrast);
-    const auto shown = std::find_if(exhibits.begin(), exhibits.end(), [&](const Exhibit& one) { return one.name == golden.page; });
+    const auto shown = std::find_if(exhibits.begin(), exhibits.end(),
+                                    [&](const Exhibit& one) { return one.name == golden.page; });
     EXPECT_NE(shown, exhibits.end());
     if (shown == exhibits.end()) return picture;
     screen->resize(golden.width_px, golden.height_px);
@@ -88,7 +98,8 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     EXPECT_TRUE(renderer.has_value() && target.has_value());
     (*target)->begin();
     (*renderer)->draw(screen->draw_list(), screen->text().atlas(), golden.width_px, golden.height_px);
-    (*renderer)->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()}, golden.width_px, golden.height_px);
+    (*renderer)->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
+                           golden.width_px, golden.height_px);
     (*target)->end();
     mask(picture);
     return picture;
@@ -97,9 +108,13 @@ class GoldenTest : public testing::TestWithParam<Golden> {
   void mask(hal::Picture& picture) const {
     for (const ui::Node& node : screen->tree().nodes()) {
       if (node.mark != ui::Mark::Face && node.mark != ui::Mark::Image) continue;
-      const int x0 = std::clamp(static_cast<int>(node.rect.x), 0, picture.width_px), x1 = std::clamp(static_cast<int>(node.rect.right()), 0, picture.width_px);
-      const int y0 = std::clamp(static_cast<int>(node.rect.y), 0, picture.height_px), y1 = std::clamp(static_cast<int>(node.rect.bottom()), 0, picture.height_px);
-      for (int y = y0; y < y1; ++y) std::fill_n(picture.bytes.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * picture.width_px + x0), 3 * std::max(0, x1 - x0), std::byte{96});
+      const int x0 = std::clamp(static_cast<int>(node.rect.x), 0, picture.width_px),
+                x1 = std::clamp(static_cast<int>(node.rect.right()), 0, picture.width_px);
+      const int y0 = std::clamp(static_cast<int>(node.rect.y), 0, picture.height_px),
+                y1 = std::clamp(static_cast<int>(node.rect.bottom()), 0, picture.height_px);
+      for (int y = y0; y < y1; ++y)
+        std::fill_n(picture.bytes.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * picture.width_px + x0),
+                    3 * std::max(0, x1 - x0), std::byte{96});
     }
   }
 
@@ -118,15 +133,19 @@ Difference difference(const hal::Picture& a, const hal::Picture& b) {
   int all = 0;
   for (int y = 0; y < a.height_px; ++y) {
     for (int x = 0; x < a.width_px; ++x) {
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width_px) + static_cast<std::size_t>(x));
+      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width_px) +
+                                  static_cast<std::size_t>(x));
       int most = 0;
-      for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(std::to_integer<int>(a.bytes[at + c]) - std::to_integer<int>(b.bytes[at + c])));
+      for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(
+            most, std::abs(std::to_integer<int>(a.bytes[at + c]) - std::to_integer<int>(b.bytes[at + c])));
       if (most <= kLevels) continue;
       ++all;
       ++in_tile[static_cast<std::size_t>(y / kTile * across + x / kTile)];
     }
   }
-  return {static_cast<double>(all) / a.width_px / a.height_px, static_cast<double>(*std::max_element(in_tile.begin(), in_tile.end())) / (kTile * kTile)};
+  return {static_cast<double>(all) / a.width_px / a.height_px,
+          static_cast<double>(*std::max_element(in_tile.begin(), in_tile.end())) / (kTile * kTile)};
 }
 
 TEST_P(GoldenTest, IsAsItWasLookedAt) {
@@ -145,7 +164,8 @@ TEST_P(GoldenTest, IsAsItWasLookedAt) {
   if (off.of_all <= kMostDifferent && off.of_the_worst_tile <= kMostInATile) return;
   const auto beside = std::filesystem::temp_directory_path() / ("relievo_" + file.filename().string());
   EXPECT_TRUE(hal::write_picture(beside, now.view()).has_value());
-  ADD_FAILURE() << 100 * off.of_all << " % of the page differ, " << 100 * off.of_the_worst_tile << " % of one tile: compare " << file << " with " << beside;
+  ADD_FAILURE() << 100 * off.of_all << " % of the page differ, " << 100 * off.of_the_worst_tile
+                << " % of one tile: compare " << file << " with " << beside;
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, GoldenTest, testing::ValuesIn(kGoldens), test_name);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The real kiosk whose calibration is missing, or whose cameras have been knocked: what visitors are told, what the
-// technician may do, and that a calibration made or chosen at the screen is all it needs to serve.
+// The real kiosk whose calibration is missing, or whose cameras have been knocked: what visitors are told,
+// what the technician may do, and that a calibration made or chosen at the screen is all it needs to serve.
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/rig_calibration.h"
@@ -22,7 +22,9 @@ class KioskCalibrationTest : public StaffHands {
       return hal::make_sim_board(options);
     };
     services.simulated_calibration = {};
-    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> { return held_board(kRig, held.board); };
+    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> {
+      return held_board(kRig, held.board);
+    };
   }
   void open() {
     auto opened = Kiosk::open(args, services);
@@ -32,7 +34,10 @@ class KioskCalibrationTest : public StaffHands {
   }
   // As who switches it off properly, once it has written down what it knows.
   void open_again() {
-    ASSERT_TRUE(until([this] { return (kiosk->appliance().state() == State::Idle || kiosk->appliance().state() == State::Technician) && !kiosk->desk().errands().busy(JobPlace::Keeper); }));
+    ASSERT_TRUE(until([this] {
+      return (kiosk->appliance().state() == State::Idle || kiosk->appliance().state() == State::Technician) &&
+             !kiosk->desk().errands().busy(JobPlace::Keeper);
+    }));
     kiosk.reset();
     open();
   }
@@ -63,14 +68,16 @@ class KioskCalibrationTest : public StaffHands {
   void calibrate() {
     tap("calibration begin");
     ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Calibrate; }));
-    ASSERT_TRUE(until([this] { return bench().calibration.views >= 8 || !bench().calibration.running; })) << bench().calibration.problem;
+    ASSERT_TRUE(until([this] { return bench().calibration.views >= 8 || !bench().calibration.running; }))
+        << bench().calibration.problem;
     if (bench().calibration.running) tap("calibration finish");
     ASSERT_TRUE(until([this] { return bench().calibration.ended || !bench().calibration.problem.empty(); }));
     ASSERT_EQ(bench().calibration.problem, "");
     ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.problem;
     EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
     tap("calibration store");
-    ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; })) << bench().calibration.problem;
+    ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; }))
+        << bench().calibration.problem;
     EXPECT_TRUE(bench().calibrated);
   }
 };
@@ -84,15 +91,20 @@ TEST_F(KioskCalibrationTest, WithoutACalibrationItStartsIsCalibratedAtItsScreenA
   calibrate();
   sign_out();
   ASSERT_TRUE(reach(ui::Step::Attract)) << "without a restart";
-  const Result<void> played = play("tap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
-  ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice) << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view() : "");
+  const Result<void> played = play(
+      "tap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
+  ASSERT_TRUE(played.has_value()) << played.error().where() << " advice "
+                                  << static_cast<int>(kiosk->view().live.advice)
+                                  << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view()
+                                                                   : "");
   kiosk.reset();
   auto store = storage::open_sqlite_store(args.store, clock, {});
   ASSERT_TRUE(store.has_value());
   const auto enrolments = (*store)->enrolments(storage::SubjectId{1});
   ASSERT_TRUE(enrolments.has_value());
   ASSERT_EQ(enrolments->size(), 1U);
-  EXPECT_EQ(enrolments->front().calibration_revision, (*store)->active_calibration()->revision) << "measured with what was made at the screen";
+  EXPECT_EQ(enrolments->front().calibration_revision, (*store)->active_calibration()->revision)
+      << "measured with what was made at the screen";
 }
 
 TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibrated) {
@@ -102,19 +114,23 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
     const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(kRig));
     ASSERT_TRUE((*store)->save_calibration(now, "as the cameras stand").has_value());
     // Since this one was made, the right camera has been knocked by 3 px across the rows.
-    ASSERT_TRUE((*store)->save_calibration(test::turned(now, 3 / now.right.focal_px.y, 0, 0), "before the knock").has_value());
+    ASSERT_TRUE((*store)
+                    ->save_calibration(test::turned(now, 3 / now.right.focal_px.y, 0, 0), "before the knock")
+                    .has_value());
   }
   open();
   for (int visitor = 0; visitor < budget::kMovedFaces; ++visitor) {
-    const Result<void> played = play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait trouble 120\n");
-    ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice);
+    const Result<void> played =
+        play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait trouble 120\n");
+    ASSERT_TRUE(played.has_value()) << played.error().where() << " advice "
+                                    << static_cast<int>(kiosk->view().live.advice);
     EXPECT_EQ(kiosk->view().trouble, ui::Trouble::Calibration);
     EXPECT_TRUE(says("need adjusting"));
     EXPECT_FALSE(says("Ada"));
     EXPECT_EQ(kiosk->ui().visit().name(), "");
     EXPECT_FALSE(kiosk->appliance().session().is_open());
     EXPECT_EQ(kiosk->ui().draw_list().face, nullptr);
-    if (visitor == 0) open_again();   // one face that said so is not forgotten, either
+    if (visitor == 0) open_again();  // one face that said so is not forgotten, either
   }
   // One face may have nodded; a second one ends it: nobody else is photographed in vain.
   ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
@@ -133,16 +149,19 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   ASSERT_TRUE(until([this] { return bench().calibration.history_count == 2; }));
   kiosk->ui().visit().language = ui::Language::German;
   kiosk->turn();
-  EXPECT_TRUE(says("Eine Kamera hat sich bewegt")) << "what the last face said, over a restart and in the reader's language";
+  EXPECT_TRUE(says("Eine Kamera hat sich bewegt"))
+      << "what the last face said, over a restart and in the reader's language";
   EXPECT_TRUE(says("1,5")) << "with its figures";
   kiosk->ui().visit().language = ui::Language::English;
   kiosk->turn();
   tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");
-  ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; })) << bench().calibration.problem;
+  ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; }))
+      << bench().calibration.problem;
   sign_out();
   open_again();
   ASSERT_TRUE(reach(ui::Step::Attract)) << "a calibration that was chosen ends it for good";
-  const Result<void> played = play("wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
+  const Result<void> played = play(
+      "wait attract 60\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait review 120\ntap accept\nwait thanks 60\n");
   EXPECT_TRUE(played.has_value()) << played.error().where();
 }
 

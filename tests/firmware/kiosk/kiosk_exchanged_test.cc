@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The real kiosk before which other cameras are plugged in than its calibration was made with: at the start and while it runs. What
-// visitors are told, what the technician reads, and that it serves again with the right camera, or the right calibration.
+// The real kiosk before which other cameras are plugged in than its calibration was made with: at the start
+// and while it runs. What visitors are told, what the technician reads, and that it serves again with the
+// right camera, or the right calibration.
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/played_board.h"
 #include "tests/support/rig_calibration.h"
@@ -39,7 +40,8 @@ class KioskExchangedTest : public StaffHands {
   // Another is in its place when it is plugged in again.
   void replug(const char* number) {
     world.pulled = true;
-    ASSERT_TRUE(later([this] { return kiosk->appliance().cameras() != CameraWatch::Well; })) << "that it is gone is noticed";
+    ASSERT_TRUE(later([this] { return kiosk->appliance().cameras() != CameraWatch::Well; }))
+        << "that it is gone is noticed";
     played->right_camera.number = number;
     world.pulled = false;
   }
@@ -50,7 +52,10 @@ class KioskExchangedTest : public StaffHands {
     });
   }
   void visitors_are_told() {
-    ASSERT_TRUE(later([this] { return kiosk->appliance().state() == State::Idle && kiosk->view().out_of_order == ui::Trouble::Calibration; }));
+    ASSERT_TRUE(later([this] {
+      return kiosk->appliance().state() == State::Idle &&
+             kiosk->view().out_of_order == ui::Trouble::Calibration;
+    }));
     ASSERT_TRUE(reach(ui::Step::Trouble));
     EXPECT_TRUE(says("need adjusting"));
     EXPECT_EQ(find("start"), nullptr);
@@ -68,8 +73,11 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
-  for (const char* words : {"The right camera", "serial", "R1", "R2", "calibrate again"}) EXPECT_TRUE(says(words)) << words;
-  const auto& bench = [this]() -> const ui::BenchCalibration& { return kiosk->view().service->bench->calibration; };
+  for (const char* words : {"The right camera", "serial", "R1", "R2", "calibrate again"})
+    EXPECT_TRUE(says(words)) << words;
+  const auto& bench = [this]() -> const ui::BenchCalibration& {
+    return kiosk->view().service->bench->calibration;
+  };
   ASSERT_TRUE(until([&] { return bench().history_count == 2; }));
   tap(bench().history[0].active ? "calibration 1" : "calibration 0");
   ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; })) << bench().problem;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// KioskHands: a test that touches a kiosk as people do: what is on the screen is found by its name and tapped,
-// and what takes its time is waited for.
+// KioskHands: a test that touches a kiosk as people do: what is on the screen is found by its name and
+// tapped, and what takes its time is waited for.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ class KioskHands : public testing::Test {
     }
   }
 
-  std::int64_t finger = 7;   // ui::kMouse: a mouse
+  std::int64_t finger = 7;  // ui::kMouse: a mouse
   std::unique_ptr<Kiosk> kiosk;
 };
 

@@ -34,7 +34,9 @@ class KioskMomentsTest : public KioskHands {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     args.store = folder.path() / "store";
     std::filesystem::create_directories(args.store);
-    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kWidthPx, kHeightPx)); };
+    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
+      return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kWidthPx, kHeightPx));
+    };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig({})));
@@ -118,14 +120,18 @@ TEST_F(KioskMomentsTest, APulledCameraIsSaidAndNothingOfThePersonStays) {
   EXPECT_FALSE(says("Grace"));
   EXPECT_EQ(kiosk->ui().visit().name(), "");
   EXPECT_FALSE(kiosk->appliance().session().is_open());
-  EXPECT_TRUE(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
+  EXPECT_TRUE(
+      kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels.empty());
 }
 
 TEST_F(KioskMomentsTest, ThreeRefusedPicturesHaveTheirWordsAndAWayOn) {
   open();
   type_name("Grace Hopper");
   for (int picture = 0; picture < 3; ++picture) {
-    ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Position && find("shoot") != nullptr && kiosk->view().screen == ui::Screen::Position; }));
+    ASSERT_TRUE(until([this] {
+      return kiosk->ui().visit().step == ui::Step::Position && find("shoot") != nullptr &&
+             kiosk->view().screen == ui::Screen::Position;
+    }));
     tap("shoot");  // of nobody: grey pictures
     ASSERT_TRUE(until([this] { return kiosk->view().screen != ui::Screen::Position; }));
   }
@@ -145,10 +151,12 @@ TEST_F(KioskMomentsTest, TheOperatorsOwnTextIsShownInItsLanguagesAlone) {
     std::ofstream(args.store / "consent" / version / file) << words;
   };
   write("2026-03", "en.txt", "An older title\n\nA point\n");
-  write("2026-09", "de.txt", "Unser Text\r\n\r\nErster Punkt\r\nmit Worten,\r\nüber zwei Zeilen.\r\n\r\nZweiter Punkt\r\n");
+  write("2026-09", "de.txt",
+        "Unser Text\r\n\r\nErster Punkt\r\nmit Worten,\r\nüber zwei Zeilen.\r\n\r\nZweiter Punkt\r\n");
   open();
   ASSERT_TRUE(reach(ui::Step::Attract));
-  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German) << "English has no text that can be agreed to";
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German)
+      << "English has no text that can be agreed to";
   EXPECT_EQ(find("en"), nullptr);
   tap("start");
   EXPECT_TRUE(says("Unser Text"));
@@ -175,7 +183,9 @@ TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
   EXPECT_EQ(find("renew"), nullptr) << "a name proves nothing";
   EXPECT_FALSE(says(code)) << "the code is not given away";
   tap("have_code");
-  for (const std::string& tried : {other, std::string("123"), std::string("000001-95")}) {  // the last: the number of the record, as codes once were
+  for (const std::string& tried :
+       {other, std::string("123"),
+        std::string("000001-95")}) {  // the last: the number of the record, as codes once were
     erase_all();
     kiosk->ui().visit().type(tried);
     kiosk->turn();
@@ -208,7 +218,9 @@ TEST_F(KioskMomentsTest, AfterTenWrongCodesAnHourTheRightOneIsNoneEither) {
     kiosk->ui().visit().type(tried);
     kiosk->turn();
     tap("done");
-    ASSERT_TRUE(until([this] { return kiosk->view().known == ui::Known::NoSuchCode || kiosk->view().known == ui::Known::Code; }));
+    ASSERT_TRUE(until([this] {
+      return kiosk->view().known == ui::Known::NoSuchCode || kiosk->view().known == ui::Known::Code;
+    }));
   };
   for (int start = 0; start < 2; ++start) {  // a start of the program gives no further try
     open();

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The real kiosk whose camera is pulled in the middle of a capture, on a desk and as a device has it (bursts of
-// a live board): the visitor's words and way on, what stays of the capture, and that the next visitor is served.
+// The real kiosk whose camera is pulled in the middle of a capture, on a desk and as a device has it (bursts
+// of a live board): the visitor's words and way on, what stays of the capture, and that the next visitor is
+// served.
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/played_board.h"
 
@@ -101,7 +102,8 @@ TEST_P(KioskPulledTest, WhileThePicturesAreWorkedOn) {
   the_next_one_is_served();
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, KioskPulledTest, testing::Bool(), [](const auto& of) { return of.param ? "Live" : "Recorded"; });
+INSTANTIATE_TEST_SUITE_P(Boards, KioskPulledTest, testing::Bool(),
+                         [](const auto& of) { return of.param ? "Live" : "Recorded"; });
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -82,16 +82,23 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE(live_picture().empty());
     EXPECT_TRUE(kiosk->take_forgotten());
   }
-  const ImageView& live_picture() const { return kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels; }
+  const ImageView& live_picture() const {
+    return kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Live)].pixels;
+  }
 
   void enrol_by_touch() {
     // Nobody touches the screen after "done": the face stands still, and the picture is taken by itself.
-    const Result<void> played = play("wait attract\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait working 600\nwait review 600\n");
-    ASSERT_TRUE(played.has_value()) << played.error().where() << " advice " << static_cast<int>(kiosk->view().live.advice)
-                                    << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view() : "");
+    const Result<void> played = play(
+        "wait attract\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait working 600\nwait review 600\n");
+    ASSERT_TRUE(played.has_value()) << played.error().where() << " advice "
+                                    << static_cast<int>(kiosk->view().live.advice)
+                                    << (kiosk->appliance().problem()
+                                            ? kiosk->appliance().problem()->what.view()
+                                            : "");
     kiosk->turn();
     EXPECT_NE(kiosk->ui().draw_list().face, nullptr);
-    for (const ui::StageView& stage : kiosk->view().stages) EXPECT_FALSE(stage.picture.empty()) << "a stage has no picture";
+    for (const ui::StageView& stage : kiosk->view().stages)
+      EXPECT_FALSE(stage.picture.empty()) << "a stage has no picture";
     // Turned with a finger.
     const ui::Rect face = kiosk->ui().tree().find("face")->rect;
     kiosk->feed({ui::Input::Kind::Down, 1, face.x + 200, face.y + 200});
@@ -100,7 +107,9 @@ class KioskTest : public KioskHands {
     EXPECT_GT(kiosk->ui().visit().look.yaw_deg, 10);
     full = true;
     tap("accept");
-    ASSERT_TRUE(until([this] { return kiosk->view().trouble == ui::Trouble::Storage && kiosk->view().screen == ui::Screen::Review; }));
+    ASSERT_TRUE(until([this] {
+      return kiosk->view().trouble == ui::Trouble::Storage && kiosk->view().screen == ui::Screen::Review;
+    }));
     EXPECT_EQ(kiosk->view().receipt, "") << "no code for what was not stored";
     EXPECT_NE(find("trouble"), nullptr) << "its own words";
     full = false;
@@ -121,7 +130,10 @@ class KioskTest : public KioskHands {
     ASSERT_TRUE(done.has_value()) << done.error().where();
     kiosk->turn();
   }
-  std::string with_the_code() const { return "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code + "\ntap done\nwait known\n"; }
+  std::string with_the_code() const {
+    return "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code +
+           "\ntap done\nwait known\n";
+  }
   // What the records have of Ada, the kiosk running.
   std::vector<storage::Enrolment> kept() const {
     auto store = storage::open_sqlite_store(args.store, clock, {.mode = storage::OpenMode::ReadOnly});
@@ -135,7 +147,8 @@ class KioskTest : public KioskHands {
   // A name that is in the records: the visitor leaves, before and after the code that proves it is theirs.
   void stop() {
     const auto before = kept();
-    for (const std::string& way : {std::string("tap start\ntap agree\ntype Ada\ntap done\nwait known\n"), with_the_code()}) {
+    for (const std::string& way :
+         {std::string("tap start\ntap agree\ntype Ada\ntap done\nwait known\n"), with_the_code()}) {
       played(way + "tap leave\ntap answer_quiet\nwait attract\n");
       EXPECT_EQ(kiosk->view().known, ui::Known::NotAsked) << "what was asked is forgotten";
       EXPECT_EQ(kiosk->appliance().state(), State::Idle);

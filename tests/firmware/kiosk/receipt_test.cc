@@ -14,7 +14,9 @@
 namespace relievo::firmware {
 namespace {
 
-storage::Subject with(std::int64_t id, std::int64_t receipt) { return {storage::SubjectId{id}, "Ada", {}, 1, receipt}; }
+storage::Subject with(std::int64_t id, std::int64_t receipt) {
+  return {storage::SubjectId{id}, "Ada", {}, 1, receipt};
+}
 
 // One wrong digit, two that were swapped.
 void mistakes_are_noticed(const std::string& code) {
@@ -43,8 +45,9 @@ TEST(Receipt, OneWrongOrSwappedDigitIsNoticed) {
 }
 
 TEST(Receipt, OtherWordsAreNone) {
-  for (const char* text : {"", "-", "Ada", "#3", "000001", "000001-", "000001-9", "00001-95", "000000-98", "-00001-95", "000001-95 ", "000001 95", "0000-0000-0000-98",
-                           "4821-9037-5512", "4821-9037-5512-0x", "4821-9037-5512--7", "-482190375512-07"})
+  for (const char* text : {"", "-", "Ada", "#3", "000001", "000001-", "000001-9", "00001-95", "000000-98",
+                           "-00001-95", "000001-95 ", "000001 95", "0000-0000-0000-98", "4821-9037-5512",
+                           "4821-9037-5512-0x", "4821-9037-5512--7", "-482190375512-07"})
     EXPECT_FALSE(is_receipt(text)) << text;
 }
 
@@ -70,7 +73,8 @@ TEST_F(ReceiptInTheStoreTest, LeadsToItsPersonHoweverItIsGroupedAndTheNumberOfTh
     }
     const std::string counted = receipt_of(with(static_cast<std::int64_t>(id), 0));
     ASSERT_TRUE(is_receipt(counted));
-    EXPECT_EQ(find_by_receipt(*store, counted).error().code, Errc::NotFound) << "numbers of records can be guessed";
+    EXPECT_EQ(find_by_receipt(*store, counted).error().code, Errc::NotFound)
+        << "numbers of records can be guessed";
   }
   EXPECT_EQ(find_by_receipt(*store, receipt_of(with(1, 42))).error().code, Errc::NotFound);
 }

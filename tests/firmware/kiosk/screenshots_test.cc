@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The enrolment behind the pictures of all pages, on the simulated rig: what a person would pass by does not end it,
-// what nobody can pass by is told in its own words. No GL: what is written is the head of the page that invites.
+// The enrolment behind the pictures of all pages, on the simulated rig: what a person would pass by does not
+// end it, what nobody can pass by is told in its own words. No GL: what is written is the head of the page
+// that invites.
 #include "firmware/kiosk/screenshots.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,10 @@ TEST_F(ScreenshotsTest, ARunThatEndedInTheMiddleDoesNotEndTheNextOne) {
 TEST_F(ScreenshotsTest, AClockThatIsWrongIsToldAsSuch) {
   test::PlayedWorld world;
   world.wall_shift_s = -40LL * 365 * 86'400;
-  services.open_board = [&world](std::string_view) -> Result<std::unique_ptr<hal::Board>> { return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kRig.width_px, kRig.height_px)); };
+  services.open_board = [&world](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
+    return std::unique_ptr<hal::Board>(
+        std::make_unique<test::PlayedBoard>(world, kRig.width_px, kRig.height_px));
+  };
   const Result<void> taken = take();
   ASSERT_FALSE(taken.has_value());
   EXPECT_NE(taken.error().what.view().find("clock"), std::string_view::npos) << taken.error().what.view();

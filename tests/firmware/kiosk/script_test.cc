@@ -18,10 +18,12 @@ using Kind = ScriptAction::Kind;
 TEST(Script, EveryWordIsRead) {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "visit.script";
-  std::ofstream(file) << "# a remark\n\nwait Review 12.5\r\n  tap key A\nhold door 2\ndrag face -40 8\ntype Ada Lovelace  \npause 0.5\nscreenshot end\nplug /media/a stick\nunplug\n";
+  std::ofstream(file)
+      << "# a remark\n\nwait Review 12.5\r\n  tap key A\nhold door 2\ndrag face -40 8\ntype Ada Lovelace  \npause 0.5\nscreenshot end\nplug /media/a stick\nunplug\n";
   const auto script = read_script(file);
   ASSERT_TRUE(script.has_value()) << script.error().where();
-  const Kind kinds[] = {Kind::Wait, Kind::Tap, Kind::Hold, Kind::Drag, Kind::Type, Kind::Pause, Kind::Screenshot, Kind::Plug, Kind::Unplug};
+  const Kind kinds[] = {Kind::Wait,  Kind::Tap,        Kind::Hold, Kind::Drag,  Kind::Type,
+                        Kind::Pause, Kind::Screenshot, Kind::Plug, Kind::Unplug};
   ASSERT_EQ(script->size(), std::size(kinds));
   for (std::size_t i = 0; i < script->size(); ++i) EXPECT_EQ((*script)[i].kind, kinds[i]) << i;
   EXPECT_EQ((*script)[0].seconds, 12.5);
@@ -33,8 +35,9 @@ TEST(Script, EveryWordIsRead) {
 }
 
 TEST(Script, WrongWordsAreToldWithTheirLine) {
-  for (const char* bad : {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold door", "drag face 1", "type", "pause nan", "pause 1 2", "screenshot ../x",
-                          "screenshot .hidden", "plug", "unplug now"}) {
+  for (const char* bad :
+       {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold door", "drag face 1", "type",
+        "pause nan", "pause 1 2", "screenshot ../x", "screenshot .hidden", "plug", "unplug now"}) {
     const auto read = read_script_line(bad, "a:1");
     ASSERT_FALSE(read.has_value()) << bad;
     EXPECT_EQ(read.error().code, Errc::InvalidInput);

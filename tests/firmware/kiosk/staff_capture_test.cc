@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The technician's test capture between the other pages that use the cameras: it stays until it is taken anew, or
-// until the technician leaves.
+// The technician's test capture between the other pages that use the cameras: it stays until it is taken
+// anew, or until the technician leaves.
 #include <algorithm>
 
 #include "tests/firmware/kiosk/staff_hands.h"
@@ -29,8 +29,10 @@ class StaffCaptureTest : public StaffHands, public testing::WithParamInterface<b
     const auto& frame = kiosk->appliance().session().products().frame;
     if (!frame) return false;
     for (const ImageView* view : {&frame->left, &frame->right}) {
-      const std::size_t bytes = static_cast<std::size_t>(view->height_px) * static_cast<std::size_t>(view->stride_bytes);
-      if (!std::all_of(view->bytes, view->bytes + bytes, [](std::byte b) { return b == std::byte{90}; })) return false;
+      const std::size_t bytes =
+          static_cast<std::size_t>(view->height_px) * static_cast<std::size_t>(view->stride_bytes);
+      if (!std::all_of(view->bytes, view->bytes + bytes, [](std::byte b) { return b == std::byte{90}; }))
+        return false;
     }
     return true;
   }
@@ -40,7 +42,8 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   enter();
   tap("open stages");
   tap("capture");
-  ASSERT_TRUE(until([this] { return bench().phase == ui::BenchPhase::Ready || bench().phase == ui::BenchPhase::Failed; }));
+  ASSERT_TRUE(until(
+      [this] { return bench().phase == ui::BenchPhase::Ready || bench().phase == ui::BenchPhase::Failed; }));
   ASSERT_TRUE(stands()) << bench().problem;
   tap("back");
   tap("open trigger");
@@ -62,7 +65,8 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   EXPECT_FALSE(kiosk->appliance().session().is_open());
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, StaffCaptureTest, testing::Bool(), [](const auto& of) { return of.param ? "Live" : "Recorded"; });
+INSTANTIATE_TEST_SUITE_P(Boards, StaffCaptureTest, testing::Bool(),
+                         [](const auto& of) { return of.param ? "Live" : "Recorded"; });
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The operator's consent text, from a stick to the visitor's page: at the first start and later. What is wrong with it is
-// said, and then nothing has changed.
+// The operator's consent text, from a stick to the visitor's page: at the first start and later. What is
+// wrong with it is said, and then nothing has changed.
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/staff_views.h"
 
@@ -45,7 +45,8 @@ class StaffConsentTest : public StaffHands {
     const ui::Node* node = find("outcome");
     std::string words(node == nullptr ? std::string_view() : node->name);
     for (const char* mark : {"\u2066", "\u2068", "\u2069"})
-      for (std::size_t at = words.find(mark); at != std::string::npos; at = words.find(mark)) words.erase(at, 3);
+      for (std::size_t at = words.find(mark); at != std::string::npos; at = words.find(mark))
+        words.erase(at, 3);
     return words;
   }
   // First start, up to the consent text.
@@ -113,8 +114,12 @@ TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
     const char* file;
     std::string words;
     const char* reason;
-  } wrong[] = {{"de.txt", "T\n\n\xFF\xFE", "is not UTF-8"}, {"de.txt", "", "is empty"},          {"de.txt", "T\n", "no points"},
-               {"de.txt", long_text, "longer than"},       {"de.txt", many, "more than 24"},     {"german.txt", "T\n\nP\n", "call it en.txt"},
+  } wrong[] = {{"de.txt", "T\n\n\xFF\xFE", "is not UTF-8"},
+               {"de.txt", "", "is empty"},
+               {"de.txt", "T\n", "no points"},
+               {"de.txt", long_text, "longer than"},
+               {"de.txt", many, "more than 24"},
+               {"german.txt", "T\n\nP\n", "call it en.txt"},
                {"de.txt", std::string("T\n\nP\0\n", 7), "is not UTF-8"}};
   for (const auto& one : wrong) {
     std::filesystem::remove_all(stick() / "consent");
@@ -193,7 +198,8 @@ TEST_F(StaffConsentTest, TheOperatorChangesItLaterByAVersionThatComesAfter) {
   tap("start");
   EXPECT_TRUE(says("The second"));
   kiosk.reset();
-  EXPECT_NE(text_of_file(args.store / "relievo.log").find("consent text 2026-09 was taken over"), std::string::npos);
+  EXPECT_NE(text_of_file(args.store / "relievo.log").find("consent text 2026-09 was taken over"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What nobody can undo is held for three seconds: a passing finger, one that slides off or is lifted, and a key
-// that is called back erase nobody.
+// What nobody can undo is held for three seconds: a passing finger, one that slides off or is lifted, and a
+// key that is called back erase nobody.
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/records_view.h"
 
@@ -47,7 +47,9 @@ class StaffEraseTest : public StaffHands {
     return (*store)->subjects({})->size() == 1;
   }
   bool erased() {
-    return until([this] { return kiosk->view().service->records != nullptr && kiosk->view().service->records->erased; });
+    return until([this] {
+      return kiosk->view().service->records != nullptr && kiosk->view().service->records->erased;
+    });
   }
   hal::ManualClock time;
 };

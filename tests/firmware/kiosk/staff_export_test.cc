@@ -36,8 +36,9 @@ class StaffExportTest : public StaffHands {
   std::string whole() const {
     const ui::Node* node = find("whole");
     std::string words(node == nullptr ? std::string_view() : node->text);
-    for (const char* mark : {"\u2066", "\u2068", "\u2069"})   // what keeps the figures' direction
-      for (std::size_t at = words.find(mark); at != std::string::npos; at = words.find(mark)) words.erase(at, 3);
+    for (const char* mark : {"\u2066", "\u2068", "\u2069"})  // what keeps the figures' direction
+      for (std::size_t at = words.find(mark); at != std::string::npos; at = words.find(mark))
+        words.erase(at, 3);
     return words;
   }
   // The codes under which something can be taken for an export.
@@ -46,12 +47,16 @@ class StaffExportTest : public StaffHands {
     for (std::int64_t number = 1; number <= 2; ++number) {
       const Path record = root / "relievo" / code_of(number);
       if (!std::filesystem::exists(record)) continue;
-      EXPECT_TRUE(std::filesystem::exists(record / "record.txt") && std::filesystem::exists(record / "model.ply")) << "half a record under its name";
+      EXPECT_TRUE(std::filesystem::exists(record / "record.txt") &&
+                  std::filesystem::exists(record / "model.ply"))
+          << "half a record under its name";
       codes += std::to_string(number);
     }
     return codes;
   }
-  static std::size_t entries_of(const Path& at) { return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(at), {})); }
+  static std::size_t entries_of(const Path& at) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(at), {}));
+  }
   // Once more, and now nothing is wrong: everything is there, and nothing else.
   void ends_well_the_next_time(const Path& root) {
     faulty.fail(FaultyStick::Fault::None);
@@ -75,7 +80,8 @@ TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedTo
   EXPECT_EQ(export_all(), Outcome::StickGone);
   EXPECT_NE(said().find("pulled out too early"), std::string::npos) << said();
   EXPECT_EQ(whole(), "") << "nobody knows what a pulled stick has kept";
-  EXPECT_EQ(exported_on(stick().string() + " in a hand"), "2") << "the second was not finished: it has no name";
+  EXPECT_EQ(exported_on(stick().string() + " in a hand"), "2")
+      << "the second was not finished: it has no name";
   ends_well_the_next_time(stick());
 }
 
@@ -122,10 +128,12 @@ TEST_F(StaffExportTest, WhatAnEarlierExportLeftIsReplacedAsAWholeOrStays) {
   faulty.fail(FaultyStick::Fault::Pulled, 1);
   EXPECT_EQ(export_all(), Outcome::StickGone);
   EXPECT_EQ(exported_on(stick().string() + " in a hand"), "12");
-  EXPECT_EQ(text_of_file(Path(stick().string() + " in a hand") / "relievo" / code_of(1) / "record.txt"), before);
+  EXPECT_EQ(text_of_file(Path(stick().string() + " in a hand") / "relievo" / code_of(1) / "record.txt"),
+            before);
   // The power went between the old folder's going and the new one's coming.
   faulty.plug_in_again();
-  std::filesystem::rename(stick() / "relievo" / code_of(2), stick() / "relievo" / ("." + code_of(2) + ".before"));
+  std::filesystem::rename(stick() / "relievo" / code_of(2),
+                          stick() / "relievo" / ("." + code_of(2) + ".before"));
   faulty.fail(FaultyStick::Fault::Forgets, 1);
   EXPECT_EQ(export_all(), Outcome::StickBad);
   EXPECT_EQ(exported_on(stick()), "12") << "it was brought back";
@@ -174,7 +182,8 @@ TEST_F(StaffExportTest, AFullStickKeepsWhatWasWholeAndSaysHowMany) {
   ASSERT_EQ(export_all(), Outcome::Done);
   constexpr std::uintmax_t kPage = 4096;
   std::uintmax_t one = 0;
-  for (const auto& file : std::filesystem::directory_iterator(stick() / "relievo" / code_of(1))) one += (file.file_size() + kPage - 1) / kPage * kPage;
+  for (const auto& file : std::filesystem::directory_iterator(stick() / "relievo" / code_of(1)))
+    one += (file.file_size() + kPage - 1) / kPage * kPage;
   disk = std::make_unique<test::TinyDisk>(one * 3 / 2);
   if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
   on_disk = std::make_unique<FaultyStick>(disk->path());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the staff cannot help themselves at the screen: a PIN that was forgotten, a touch screen whose correction
-// makes it unusable. `relievo staff` between two lives of the kiosk.
+// What the staff cannot help themselves at the screen: a PIN that was forgotten, a touch screen whose
+// correction makes it unusable. `relievo staff` between two lives of the kiosk.
 #include "firmware/command/commands.h"
 #include "firmware/service/device/touch_trial.h"
 #include "firmware/service/event_log.h"
@@ -16,15 +16,20 @@ using namespace std::chrono_literals;
 class StaffForgottenTest : public StaffHands, public testing::WithParamInterface<bool> {
  protected:
   StaffForgottenTest() { changes.clock = &time; }
-  int staff(StaffArgs::Verb verb, bool technician = false) { return run_command({StaffArgs{verb, technician, args.store}, 0}, services); }
-  bool log_says(const char* what) const { return text_of_file(args.store / kLogFile).find(what) != std::string::npos; }
+  int staff(StaffArgs::Verb verb, bool technician = false) {
+    return run_command({StaffArgs{verb, technician, args.store}, 0}, services);
+  }
+  bool log_says(const char* what) const {
+    return text_of_file(args.store / kLogFile).find(what) != std::string::npos;
+  }
   void begin_anew() {
     kiosk.reset();
     auto opened = Kiosk::open(args, services);
     ASSERT_TRUE(opened.has_value()) << opened.error().what.view();
     kiosk = std::move(*opened);
     kiosk->ui().resize(1280, 800);
-    ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Attract || kiosk->ui().service().open; }));
+    ASSERT_TRUE(until(
+        [this] { return kiosk->ui().visit().step == ui::Step::Attract || kiosk->ui().service().open; }));
     if (!kiosk->ui().service().open) knock();
   }
   // Both lead to the door: before real people the kiosk demands it, elsewhere somebody knocks.
@@ -68,7 +73,7 @@ TEST_P(StaffForgottenTest, ForgettingGivesNobodyFurtherTries) {
   set_up();
   for (const std::chrono::seconds wait : {0s, 2s, 3s, 5s, 9s}) {
     time.advance(wait);
-    kiosk->feed({ui::Input::Kind::Down, finger, 1, 1});   // somebody is there
+    kiosk->feed({ui::Input::Kind::Down, finger, 1, 1});  // somebody is there
     kiosk->feed({ui::Input::Kind::Up, finger, 1, 1});
     kiosk->turn();
     type_pin("1999");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StaffHands: a kiosk whose staff's side a test walks through by synthetic fingers. Its cameras give two grey pictures, its
-// stick is a folder, its store a real one.
+// StaffHands: a kiosk whose staff's side a test walks through by synthetic fingers. Its cameras give two grey
+// pictures, its stick is a folder, its store a real one.
 #pragma once
 
 #include <chrono>
@@ -34,21 +34,25 @@ using ui::StaffRole;
 
 inline hal::sim::RigOptions tiny_rig() { return test::small_rig(0.125); }
 
-// Another board with what a test changes: people stand before its cameras, its time moves by hand, its stick has faults.
+// Another board with what a test changes: people stand before its cameras, its time moves by hand, its stick
+// has faults.
 class ChangedBoard final : public hal::Board {
  public:
   struct Changes {
     bool live = false;
-    hal::Clock* clock = nullptr;            // none: the board's own
+    hal::Clock* clock = nullptr;  // none: the board's own
     hal::RemovableMedia* media = nullptr;
   };
-  ChangedBoard(std::unique_ptr<hal::Board> board, const Changes& changes) : board_(std::move(board)), changes_(changes) {}
+  ChangedBoard(std::unique_ptr<hal::Board> board, const Changes& changes)
+      : board_(std::move(board)), changes_(changes) {}
   std::string_view name() const override { return board_->name(); }
   hal::CaptureMode preferred_mode() const override { return board_->preferred_mode(); }
   hal::Camera& left() override { return board_->left(); }
   hal::Camera& right() override { return board_->right(); }
   hal::TriggerLine& trigger() override { return board_->trigger(); }
-  hal::RemovableMedia& media() override { return changes_.media != nullptr ? *changes_.media : board_->media(); }
+  hal::RemovableMedia& media() override {
+    return changes_.media != nullptr ? *changes_.media : board_->media();
+  }
   hal::Clock& clock() override { return changes_.clock != nullptr ? *changes_.clock : board_->clock(); }
   hal::Watchdog& watchdog() override { return board_->watchdog(); }
   bool is_live() const override { return changes_.live; }
@@ -70,9 +74,12 @@ class StaffHands : public KioskHands {
     hal::Picture grey;
     grey.width_px = tiny_rig().width_px;
     grey.height_px = tiny_rig().height_px;
-    grey.bytes.assign(std::size_t{3} * static_cast<std::size_t>(grey.width_px) * static_cast<std::size_t>(grey.height_px), std::byte{90});
+    grey.bytes.assign(
+        std::size_t{3} * static_cast<std::size_t>(grey.width_px) * static_cast<std::size_t>(grey.height_px),
+        std::byte{90});
     std::filesystem::create_directories(folder.path() / "pairs");
-    for (const char* name : {"left_000000.png", "right_000000.png"}) EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
+    for (const char* name : {"left_000000.png", "right_000000.png"})
+      EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
     services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
       RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
       media = &dynamic_cast<hal::ReplayBoard&>(*board).folder_media();
@@ -80,7 +87,8 @@ class StaffHands : public KioskHands {
       return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
     };
     services.open_store = [this](const Path& at, bool to_write) {
-      return storage::open_sqlite_store(at, wall(), {.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly});
+      return storage::open_sqlite_store(
+          at, wall(), {.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly});
     };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
       const Path file = folder.path() / "rig.yml";
@@ -101,7 +109,9 @@ class StaffHands : public KioskHands {
     auto store = storage::open_sqlite_store(args.store, wall(), {});
     ASSERT_TRUE(store.has_value());
     const pipeline::FaceModel model = storage::test::sample_model();
-    ASSERT_TRUE((*store)->add_enrolment(storage::NewSubject{name}, {model, {"sample-1", "en", {}}, 0, "", ""}).has_value());
+    ASSERT_TRUE((*store)
+                    ->add_enrolment(storage::NewSubject{name}, {model, {"sample-1", "en", {}}, 0, "", ""})
+                    .has_value());
   }
   const hal::Clock& wall() const {
     if (changes.clock != nullptr) return *changes.clock;
@@ -192,7 +202,7 @@ class StaffHands : public KioskHands {
     EXPECT_TRUE(kiosk->take_forgotten());
   }
 
-  ChangedBoard::Changes changes;   // before start()
+  ChangedBoard::Changes changes;  // before start()
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The technician's test capture, recorded on a stick through its page: folder:DIR gives back every bit of it, and
-// what goes wrong has words, a way on, and leaves no half folder.
+// The technician's test capture, recorded on a stick through its page: folder:DIR gives back every bit of it,
+// and what goes wrong has words, a way on, and leaves no half folder.
 #include <cstring>
 #include <random>
 
@@ -24,9 +24,13 @@ class StaffRecordTest : public StaffHands {
       hal::Picture& noise = taken[side];
       noise.width_px = tiny_rig().width_px;
       noise.height_px = tiny_rig().height_px;
-      noise.bytes.resize(std::size_t{3} * static_cast<std::size_t>(noise.width_px) * static_cast<std::size_t>(noise.height_px));
+      noise.bytes.resize(std::size_t{3} * static_cast<std::size_t>(noise.width_px) *
+                         static_cast<std::size_t>(noise.height_px));
       for (std::byte& byte : noise.bytes) byte = static_cast<std::byte>(random());
-      EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / (side == 0 ? "left_000000.png" : "right_000000.png"), noise.view()).has_value());
+      EXPECT_TRUE(
+          hal::write_picture(folder.path() / "pairs" / (side == 0 ? "left_000000.png" : "right_000000.png"),
+                             noise.view())
+              .has_value());
     }
   }
   const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
@@ -52,7 +56,8 @@ class StaffRecordTest : public StaffHands {
   static std::vector<std::string> names_on(const Path& root, const char* inside) {
     std::vector<std::string> names;
     std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(root / inside, none)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(root / inside, none))
+      names.push_back(entry.path().filename().string());
     return names;
   }
   // By the board that folder:DIR is.
@@ -71,7 +76,9 @@ class StaffRecordTest : public StaffHands {
       ASSERT_EQ(seen.width_px, wanted.width_px);
       ASSERT_EQ(seen.height_px, wanted.height_px);
       ASSERT_EQ(seen.format, wanted.format);
-      for (int y = 0; y < seen.height_px; ++y) ASSERT_EQ(std::memcmp(seen.row(y), wanted.row(y), static_cast<std::size_t>(3 * seen.width_px)), 0) << side << ' ' << y;
+      for (int y = 0; y < seen.height_px; ++y)
+        ASSERT_EQ(std::memcmp(seen.row(y), wanted.row(y), static_cast<std::size_t>(3 * seen.width_px)), 0)
+            << side << ' ' << y;
     }
   }
   FaultyStick faulty{stick()};
@@ -97,7 +104,8 @@ TEST_F(StaffRecordTest, AStickThatIsPulledOutHasNoHalfRecording) {
   faulty.fail(FaultyStick::Fault::Pulled);
   EXPECT_EQ(record(), Outcome::StickGone);
   EXPECT_TRUE(says("pulled out too early"));
-  for (const std::string& name : recordings_on(stick().string() + " in a hand")) EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a recording";
+  for (const std::string& name : recordings_on(stick().string() + " in a hand"))
+    EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a recording";
   faulty.fail(FaultyStick::Fault::None);
   faulty.plug_in_again();
   EXPECT_EQ(record(), Outcome::Done);
@@ -111,7 +119,8 @@ TEST_F(StaffRecordTest, AReconstructionThatFailedIsSavedAndLoadedAsFarAsItCame) 
   capture();
   faulty.fail(FaultyStick::Fault::Pulled);
   EXPECT_EQ(use_stick("save"), Outcome::StickGone);
-  for (const std::string& name : names_on(stick().string() + " in a hand", "reconstructions")) EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a document";
+  for (const std::string& name : names_on(stick().string() + " in a hand", "reconstructions"))
+    EXPECT_TRUE(name.starts_with('.')) << name << " could be taken for a document";
   faulty.fail(FaultyStick::Fault::None);
   faulty.plug_in_again();
   EXPECT_EQ(use_stick("save"), Outcome::Done);
@@ -123,12 +132,13 @@ TEST_F(StaffRecordTest, AReconstructionThatFailedIsSavedAndLoadedAsFarAsItCame) 
   faulty.plug_in_again();
   tap("capture");
   ASSERT_TRUE(until([this] { return find("list saved") != nullptr && bench().can_record; }));
-  tap("stage 0");   // the pictures: there is nothing else
+  tap("stage 0");  // the pictures: there is nothing else
   const std::uint32_t before = bench().shown[0].version;
   tap("list saved");
   ASSERT_TRUE(until([this] { return find("saved 0") != nullptr; }));
   tap("saved 0");
-  ASSERT_TRUE(until([this, before] { return bench().can_record && bench().shown[0].version != before; })) << bench().problem;
+  ASSERT_TRUE(until([this, before] { return bench().can_record && bench().shown[0].version != before; }))
+      << bench().problem;
   EXPECT_FALSE(bench().result.failure.empty());
   EXPECT_EQ(record(), Outcome::Done);
   is_replayed_bit_for_bit(stick() / "captures" / recordings_on(stick()).front());
@@ -156,7 +166,8 @@ TEST_F(StaffRecordTest, WhoStopsItOrLeavesLeavesNothingHalfWritten) {
   tap("record");
   ASSERT_TRUE(until([this] { return faulty.waits(); }));
   tap("sign out");
-  ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; })) << "a slow stick holds nobody";
+  ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }))
+      << "a slow stick holds nobody";
   EXPECT_FALSE(kiosk->appliance().session().is_open());
   faulty.let_go_on();
   kiosk.reset();
@@ -164,7 +175,8 @@ TEST_F(StaffRecordTest, WhoStopsItOrLeavesLeavesNothingHalfWritten) {
 }
 
 TEST_F(StaffRecordTest, AFullStickAndAWriteProtectedOneAreNamedSo) {
-  disk = std::make_unique<test::TinyDisk>(std::size_t{150} << 10);  // less than one picture of noise and its partner
+  disk = std::make_unique<test::TinyDisk>(std::size_t{150}
+                                          << 10);  // less than one picture of noise and its partner
   if (!disk->mounted()) GTEST_SKIP() << disk->why_not();
   on_disk = std::make_unique<FaultyStick>(disk->path());
   changes.media = on_disk.get();

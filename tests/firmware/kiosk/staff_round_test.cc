@@ -22,7 +22,8 @@ class StaffRoundTest : public StaffHands {
     const auto state = [&](ui::Check check) { return tested.states[static_cast<std::size_t>(check)]; };
     EXPECT_EQ(state(ui::Check::Store), ui::CheckState::Good);
     EXPECT_EQ(state(ui::Check::Cameras), ui::CheckState::Good);
-    EXPECT_EQ(state(ui::Check::Calibration), ui::CheckState::Good) << "known to the store and measured with, though none is active";
+    EXPECT_EQ(state(ui::Check::Calibration), ui::CheckState::Good)
+        << "known to the store and measured with, though none is active";
     tap("back");
     tap("open trigger");
     tap("begin");
@@ -32,7 +33,8 @@ class StaffRoundTest : public StaffHands {
     tap("back");
     tap("open log");
     bool signed_in = false;
-    for (const ui::LogLine& line : kiosk->view().service->log->lines) signed_in = signed_in || line.key == "technician signed in";
+    for (const ui::LogLine& line : kiosk->view().service->log->lines)
+      signed_in = signed_in || line.key == "technician signed in";
     EXPECT_TRUE(signed_in);
     tap("back");
   }
@@ -68,7 +70,8 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
   EXPECT_NE(find("open health"), nullptr);
   EXPECT_EQ(find("open statistics"), nullptr) << "the technician sees no operator's page";
   tap("open health");
-  ASSERT_TRUE(until([this] { return find("gauge \u20660\u2069") != nullptr; })) << "the gauges are read beside the screen";
+  ASSERT_TRUE(until([this] { return find("gauge \u20660\u2069") != nullptr; }))
+      << "the gauges are read beside the screen";
   tap("back");
   EXPECT_EQ(kiosk->ui().service().page, StaffPage::Menu);
   test_the_device();
@@ -115,9 +118,11 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   tap("search");
   for (const char* key : {"key a", "key d", "key a"}) tap(key);
   tap("done");
-  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) == nullptr; })) << "only who was searched for";
+  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) == nullptr; }))
+      << "only who was searched for";
   tap("record " + code_of(1));
-  ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().face != nullptr; })) << "the portrait is there to be turned";
+  ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().face != nullptr; }))
+      << "the portrait is there to be turned";
 
   tap("export");
   ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; }));
@@ -126,7 +131,8 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   const Path taken = stick() / "relievo" / code_of(1);
   EXPECT_TRUE(std::filesystem::exists(taken / "model.ply"));
   EXPECT_NE(text_of_file(taken / "record.txt").find("name: Ada Lovelace"), std::string::npos);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick() / "relievo"), {}), 1) << "nobody else, nothing half-written";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick() / "relievo"), {}), 1)
+      << "nobody else, nothing half-written";
 
   tap("export");
   ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::Done; }));
@@ -138,7 +144,8 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome == ui::Outcome::Done; }));
   lift();
   sign_out();
-  for (const ui::Node& node : kiosk->ui().tree().nodes()) EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
+  for (const ui::Node& node : kiosk->ui().tree().nodes())
+    EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
   EXPECT_EQ(kiosk->view().service->records, nullptr) << "no name is left";
   EXPECT_EQ(kiosk->ui().draw_list().face, kiosk->view().showpiece);
   kiosk.reset();
@@ -167,7 +174,8 @@ TEST_F(StaffRoundTest, AWrongPinOpensNothingAndIsCountedOverARestart) {
 
 TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARestart) {
   std::filesystem::create_directories(args.store);
-  std::ofstream(args.store / kLogFile) << "2026-03-14 10:21:09  noted by an earlier version\n2026-03-14 10:22:09  fault: of one, too\n";
+  std::ofstream(args.store / kLogFile)
+      << "2026-03-14 10:21:09  noted by an earlier version\n2026-03-14 10:22:09  fault: of one, too\n";
   start();
   first_start();
   kiosk.reset();
@@ -183,18 +191,21 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
   speak(ui::Language::German);
   tap("back");
   tap("open log");
-  const auto read = [this](std::string_view words) {
-    EXPECT_TRUE(says(words)) << words;
-  };
-  for (const char* words : {"Technik angemeldet", "Beide PINs wurden gewählt", "noted by an earlier version", "of one, too"}) read(words);
+  const auto read = [this](std::string_view words) { EXPECT_TRUE(says(words)) << words; };
+  for (const char* words :
+       {"Technik angemeldet", "Beide PINs wurden gewählt", "noted by an earlier version", "of one, too"})
+    read(words);
   EXPECT_FALSE(says("signed in"));
   const auto& nodes = kiosk->ui().tree().nodes();
-  EXPECT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const ui::Node& node) { return node.name == "Störung"; })) << "not by its colour alone";
+  EXPECT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const ui::Node& node) {
+    return node.name == "Störung";
+  })) << "not by its colour alone";
   speak(ui::Language::English);
   for (const char* words : {"Technician signed in", "Both PINs were chosen"}) read(words);
   speak(ui::Language::Arabic);
   read("سجّل الفني دخوله");
-  for (const ui::LogLine& line : kiosk->view().service->log->lines) EXPECT_TRUE(line.at.starts_with("20")) << line.sentence;
+  for (const ui::LogLine& line : kiosk->view().service->log->lines)
+    EXPECT_TRUE(line.at.starts_with("20")) << line.sentence;
 }
 
 }  // namespace

@@ -79,13 +79,14 @@ TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   sign_in("4711", StaffRole::Technician);
   tap("open log");
   int told = 0;
-  for (const ui::LogLine& line : kiosk->view().service->log->lines) told += line.sentence.find("what is usual holds") != std::string_view::npos ? 1 : 0;
+  for (const ui::LogLine& line : kiosk->view().service->log->lines)
+    told += line.sentence.find("what is usual holds") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(told, 2);
 }
 
 // Erased by age: not while somebody is inside, not after the clock has jumped.
 TEST_F(StaffSettingsTest, RecordsAreErasedWhenTheirTimeIsOver) {
-  enrol("Ada Lovelace");   // her consent bears the date 1970
+  enrol("Ada Lovelace");  // her consent bears the date 1970
   start();
   first_start();
   sign_in("80526", StaffRole::Operator);
@@ -101,7 +102,8 @@ TEST_F(StaffSettingsTest, RecordsAreErasedWhenTheirTimeIsOver) {
   start();
   sign_in("80526", StaffRole::Operator);
   tap("open settings");
-  EXPECT_TRUE(until([this] { return kiosk->view().service->settings->clock_jumped; })) << "looked at again after every start, beside all else";
+  EXPECT_TRUE(until([this] { return kiosk->view().service->settings->clock_jumped; }))
+      << "looked at again after every start, beside all else";
   choose("keep_days more", Setting::KeepDays, 1095);
   EXPECT_FALSE(logged("erased for their age"));
   sign_out();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A panel that is mounted a quarter turn off, corrected through the page by fingers it reports wrongly; and every way in
-// which that goes wrong leaves the screen as it was.
+// A panel that is mounted a quarter turn off, corrected through the page by fingers it reports wrongly; and
+// every way in which that goes wrong leaves the screen as it was.
 #include "firmware/service/device/touch_trial.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 
@@ -16,14 +16,17 @@ class StaffTouchTest : public StaffHands {
   StaffTouchTest() { changes.clock = &time; }
   // A finger on the glass, in shares of the picture: what the turned panel makes of it.
   void press(float x, float y) {
-    const float w = static_cast<float>(kiosk->ui().width_px()), h = static_cast<float>(kiosk->ui().height_px());
-    for (const auto kind : {ui::Input::Kind::Down, ui::Input::Kind::Up}) kiosk->feed({kind, 7, (1 - y) * w, x * h});
+    const float w = static_cast<float>(kiosk->ui().width_px()),
+                h = static_cast<float>(kiosk->ui().height_px());
+    for (const auto kind : {ui::Input::Kind::Down, ui::Input::Kind::Up})
+      kiosk->feed({kind, 7, (1 - y) * w, x * h});
     kiosk->turn();
   }
   void press(std::string_view id, float beside = 0) {
     const ui::Node* node = find(id);
     ASSERT_NE(node, nullptr) << id;
-    press((node->rect.x + node->rect.w / 2) / static_cast<float>(kiosk->ui().width_px()) + beside, (node->rect.y + node->rect.h / 2) / static_cast<float>(kiosk->ui().height_px()) - beside);
+    press((node->rect.x + node->rect.w / 2) / static_cast<float>(kiosk->ui().width_px()) + beside,
+          (node->rect.y + node->rect.h / 2) / static_cast<float>(kiosk->ui().height_px()) - beside);
   }
   const ui::TouchView& seen() const { return *kiosk->view().service->touch; }
   // With a mouse, which no panel turns.
@@ -66,7 +69,9 @@ TEST_F(StaffTouchTest, ATurnedPanelIsCorrectedAndStaysSo) {
 
 TEST_F(StaffTouchTest, WhateverGoesWrongTheScreenStaysAsItWas) {
   open_page();
-  const auto unchanged = [this] { return !seen().corrected && kiosk->ui().service().page == StaffPage::Touch; };
+  const auto unchanged = [this] {
+    return !seen().corrected && kiosk->ui().service().page == StaffPage::Touch;
+  };
   // Nobody goes on: somebody whose fingers do nothing any more waits.
   tap("begin");
   press("cross");
@@ -83,7 +88,7 @@ TEST_F(StaffTouchTest, WhateverGoesWrongTheScreenStaysAsItWas) {
   // All four are met, and then the wrong place.
   tap("begin");
   for (int i = 0; i < 4; ++i) press("cross");
-  press(0.95F, 0.05F);   // the button that signs out: fingers press nothing now
+  press(0.95F, 0.05F);  // the button that signs out: fingers press nothing now
   EXPECT_EQ(seen().verdict, TouchVerdict::Missed);
   EXPECT_TRUE(unchanged());
   // Whoever leaves in the middle of it leaves nothing.

@@ -30,33 +30,55 @@ void play(const std::vector<Row>& rows) {
     const Row& row = rows[i];
     (void)machine.tick(boot + row.at);
     if (row.event != E::Count) (void)machine.handle(row.event, boot + row.at);
-    ASSERT_EQ(machine.state(), row.expected)
-        << "row " << i << ": " << name_of(row.event) << " led to " << name_of(machine.state()) << ", not "
-        << name_of(row.expected);
+    ASSERT_EQ(machine.state(), row.expected) << "row " << i << ": " << name_of(row.event) << " led to "
+                                             << name_of(machine.state()) << ", not " << name_of(row.expected);
   }
 }
 
 milliseconds ms(int n) { return milliseconds(n); }
 
 TEST(Machine, OneEnrolment) {
-  play({{ms(0), E::Passed, S::Idle}, {ms(10), E::Begin, S::Capture}, {ms(20), E::Triggered, S::Match},
-        {ms(30), E::StageDone, S::Reconstruct}, {ms(40), E::StageDone, S::Mesh}, {ms(50), E::StageDone, S::Texture},
-        {ms(60), E::StageDone, S::Review}, {ms(70), E::Accept, S::Store}, {ms(80), E::StageDone, S::Idle}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(10), E::Begin, S::Capture},
+        {ms(20), E::Triggered, S::Match},
+        {ms(30), E::StageDone, S::Reconstruct},
+        {ms(40), E::StageDone, S::Mesh},
+        {ms(50), E::StageDone, S::Texture},
+        {ms(60), E::StageDone, S::Review},
+        {ms(70), E::Accept, S::Store},
+        {ms(80), E::StageDone, S::Idle}});
 }
 
 TEST(Machine, RetakeAndAdviceLeadBackToCapture) {
-  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::Begin, S::Capture}, {ms(2), E::StageFailed, S::Capture},
-        {ms(3), E::Triggered, S::Match}, {ms(4), E::StageFailed, S::Capture}, {ms(5), E::Triggered, S::Match},
-        {ms(6), E::StageDone, S::Reconstruct}, {ms(7), E::StageFailed, S::Capture}, {ms(8), E::Triggered, S::Match},
-        {ms(9), E::StageDone, S::Reconstruct}, {ms(10), E::StageDone, S::Mesh}, {ms(11), E::StageDone, S::Texture},
-        {ms(12), E::StageDone, S::Review}, {ms(13), E::Retake, S::Capture}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(1), E::Begin, S::Capture},
+        {ms(2), E::StageFailed, S::Capture},
+        {ms(3), E::Triggered, S::Match},
+        {ms(4), E::StageFailed, S::Capture},
+        {ms(5), E::Triggered, S::Match},
+        {ms(6), E::StageDone, S::Reconstruct},
+        {ms(7), E::StageFailed, S::Capture},
+        {ms(8), E::Triggered, S::Match},
+        {ms(9), E::StageDone, S::Reconstruct},
+        {ms(10), E::StageDone, S::Mesh},
+        {ms(11), E::StageDone, S::Texture},
+        {ms(12), E::StageDone, S::Review},
+        {ms(13), E::Retake, S::Capture}});
 }
 
 TEST(Machine, APersonAtTheScreenFindsTheirPlaceFirst) {
-  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::PoseAsked, S::Position}, {ms(2), E::Begin, S::Capture},
-        {ms(3), E::Triggered, S::Match}, {ms(4), E::AdviceGiven, S::Position}, {ms(5), E::Begin, S::Capture},
-        {ms(6), E::AdviceGiven, S::Position}, {ms(7), E::Begin, S::Capture}, {ms(8), E::Triggered, S::Match},
-        {ms(9), E::StageDone, S::Reconstruct}, {ms(10), E::AdviceGiven, S::Position}, {ms(11), E::StageFailed, S::Idle}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(1), E::PoseAsked, S::Position},
+        {ms(2), E::Begin, S::Capture},
+        {ms(3), E::Triggered, S::Match},
+        {ms(4), E::AdviceGiven, S::Position},
+        {ms(5), E::Begin, S::Capture},
+        {ms(6), E::AdviceGiven, S::Position},
+        {ms(7), E::Begin, S::Capture},
+        {ms(8), E::Triggered, S::Match},
+        {ms(9), E::StageDone, S::Reconstruct},
+        {ms(10), E::AdviceGiven, S::Position},
+        {ms(11), E::StageFailed, S::Idle}});
 }
 
 TEST(Machine, WhoIsStillThereGetsTheWholeTimeAgain) {
@@ -75,30 +97,51 @@ TEST(Machine, WhoIsStillThereGetsTheWholeTimeAgain) {
 }
 
 TEST(Machine, AFullDiskLeadsBackToReview) {
-  play({{ms(0), E::Passed, S::Idle}, {ms(1), E::Begin, S::Capture}, {ms(2), E::Triggered, S::Match},
-        {ms(3), E::StageDone, S::Reconstruct}, {ms(4), E::StageDone, S::Mesh}, {ms(5), E::StageDone, S::Texture},
-        {ms(6), E::StageDone, S::Review}, {ms(7), E::Accept, S::Store}, {ms(8), E::StageFailed, S::Review},
-        {ms(9), E::Accept, S::Store}, {ms(10), E::Cancel, S::Store}, {ms(11), E::StageDone, S::Idle}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(1), E::Begin, S::Capture},
+        {ms(2), E::Triggered, S::Match},
+        {ms(3), E::StageDone, S::Reconstruct},
+        {ms(4), E::StageDone, S::Mesh},
+        {ms(5), E::StageDone, S::Texture},
+        {ms(6), E::StageDone, S::Review},
+        {ms(7), E::Accept, S::Store},
+        {ms(8), E::StageFailed, S::Review},
+        {ms(9), E::Accept, S::Store},
+        {ms(10), E::Cancel, S::Store},
+        {ms(11), E::StageDone, S::Idle}});
 }
 
 TEST(Machine, NoAnswerIsNoConsent) {
-  play({{ms(0), E::Passed, S::Idle}, {ms(0), E::Begin, S::Capture}, {ms(0), E::Triggered, S::Match},
-        {ms(0), E::StageDone, S::Reconstruct}, {ms(0), E::StageDone, S::Mesh}, {ms(0), E::StageDone, S::Texture},
-        {ms(0), E::StageDone, S::Review}, {budget::kReviewLimit - ms(1), E::Count, S::Review},
-        {budget::kReviewLimit, E::Count, S::Idle}, {budget::kReviewLimit + ms(1), E::Accept, S::Idle}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(0), E::Begin, S::Capture},
+        {ms(0), E::Triggered, S::Match},
+        {ms(0), E::StageDone, S::Reconstruct},
+        {ms(0), E::StageDone, S::Mesh},
+        {ms(0), E::StageDone, S::Texture},
+        {ms(0), E::StageDone, S::Review},
+        {budget::kReviewLimit - ms(1), E::Count, S::Review},
+        {budget::kReviewLimit, E::Count, S::Idle},
+        {budget::kReviewLimit + ms(1), E::Accept, S::Idle}});
 }
 
 TEST(Machine, AnotherTryGetsItsTimeAnew) {
   const milliseconds most = budget::kCaptureLimit - ms(1);
-  play({{ms(0), E::Passed, S::Idle}, {ms(0), E::Begin, S::Capture}, {most, E::StageFailed, S::Capture},
-        {most + most, E::Count, S::Capture}, {most + budget::kCaptureLimit, E::Count, S::Idle}});
+  play({{ms(0), E::Passed, S::Idle},
+        {ms(0), E::Begin, S::Capture},
+        {most, E::StageFailed, S::Capture},
+        {most + most, E::Count, S::Capture},
+        {most + budget::kCaptureLimit, E::Count, S::Idle}});
 }
 
 TEST(Machine, AFaultTestsItselfAgain) {
-  play({{ms(0), E::Failed, S::Fault}, {budget::kFaultRetry, E::Count, S::SelfTest},
-        {budget::kFaultRetry, E::Passed, S::Idle}, {budget::kFaultRetry, E::TechnicianIn, S::Technician},
-        {budget::kFaultRetry, E::CalibrateAsked, S::Calibrate}, {budget::kFaultRetry, E::StageFailed, S::Technician},
-        {budget::kFaultRetry, E::ExportAsked, S::Export}, {budget::kFaultRetry, E::Cancel, S::Technician},
+  play({{ms(0), E::Failed, S::Fault},
+        {budget::kFaultRetry, E::Count, S::SelfTest},
+        {budget::kFaultRetry, E::Passed, S::Idle},
+        {budget::kFaultRetry, E::TechnicianIn, S::Technician},
+        {budget::kFaultRetry, E::CalibrateAsked, S::Calibrate},
+        {budget::kFaultRetry, E::StageFailed, S::Technician},
+        {budget::kFaultRetry, E::ExportAsked, S::Export},
+        {budget::kFaultRetry, E::Cancel, S::Technician},
         {budget::kFaultRetry, E::TechnicianOut, S::Idle}});
 }
 
@@ -109,15 +152,20 @@ struct Answer {
 };
 
 TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
-  const std::vector<Answer> answers{
-      {S::SelfTest, S::SelfTest, S::Fault, S::Fault},      {S::Idle, S::Idle, S::Idle, S::Fault},
-      {S::Position, S::Idle, S::Idle, S::Fault},
-      {S::Capture, S::Idle, S::Idle, S::Fault},            {S::Match, S::Idle, S::Idle, S::Fault},
-      {S::Reconstruct, S::Idle, S::Idle, S::Fault},        {S::Mesh, S::Idle, S::Idle, S::Fault},
-      {S::Texture, S::Idle, S::Idle, S::Fault},            {S::Review, S::Idle, S::Idle, S::Fault},
-      {S::Store, S::Store, S::Fault, S::Fault},            {S::Technician, S::Idle, S::Idle, S::Fault},
-      {S::Calibrate, S::Technician, S::Technician, S::Fault}, {S::Export, S::Technician, S::Technician, S::Fault},
-      {S::Fault, S::Fault, S::SelfTest, S::Fault}};
+  const std::vector<Answer> answers{{S::SelfTest, S::SelfTest, S::Fault, S::Fault},
+                                    {S::Idle, S::Idle, S::Idle, S::Fault},
+                                    {S::Position, S::Idle, S::Idle, S::Fault},
+                                    {S::Capture, S::Idle, S::Idle, S::Fault},
+                                    {S::Match, S::Idle, S::Idle, S::Fault},
+                                    {S::Reconstruct, S::Idle, S::Idle, S::Fault},
+                                    {S::Mesh, S::Idle, S::Idle, S::Fault},
+                                    {S::Texture, S::Idle, S::Idle, S::Fault},
+                                    {S::Review, S::Idle, S::Idle, S::Fault},
+                                    {S::Store, S::Store, S::Fault, S::Fault},
+                                    {S::Technician, S::Idle, S::Idle, S::Fault},
+                                    {S::Calibrate, S::Technician, S::Technician, S::Fault},
+                                    {S::Export, S::Technician, S::Technician, S::Fault},
+                                    {S::Fault, S::Fault, S::SelfTest, S::Fault}};
   ASSERT_EQ(answers.size(), static_cast<std::size_t>(S::Count));
   for (const Answer& a : answers) {
     EXPECT_EQ(next(a.state, E::Cancel).value_or(a.state), a.cancel) << name_of(a.state);
@@ -147,8 +195,10 @@ TEST(Machine, RandomEventsNeverLeaveTheTable) {
 }
 
 TEST(Machine, EveryStateAndEventHasAName) {
-  for (std::size_t s = 0; s < static_cast<std::size_t>(S::Count); ++s) EXPECT_NE(name_of(static_cast<S>(s)), "?");
-  for (std::size_t e = 0; e < static_cast<std::size_t>(E::Count); ++e) EXPECT_NE(name_of(static_cast<E>(e)), "?");
+  for (std::size_t s = 0; s < static_cast<std::size_t>(S::Count); ++s)
+    EXPECT_NE(name_of(static_cast<S>(s)), "?");
+  for (std::size_t e = 0; e < static_cast<std::size_t>(E::Count); ++e)
+    EXPECT_NE(name_of(static_cast<E>(e)), "?");
 }
 
 }  // namespace

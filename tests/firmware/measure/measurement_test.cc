@@ -96,8 +96,11 @@ double to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
 // The slow twin: the foot on the plane where it lies inside, else the nearest edge.
 double to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d n = cross(difference(b, a), difference(c, a));
-  const auto side = [&](const Vec3d& from, const Vec3d& to) { return dot(cross(difference(to, from), difference(p, from)), n); };
-  if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0) return std::abs(dot(difference(p, a), n)) / length(n);
+  const auto side = [&](const Vec3d& from, const Vec3d& to) {
+    return dot(cross(difference(to, from), difference(p, from)), n);
+  };
+  if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0)
+    return std::abs(dot(difference(p, a), n)) / length(n);
   return std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
 }
 
@@ -113,7 +116,8 @@ TEST(TriangleGrid, AgreesWithLookingAtEveryTriangle) {
     const Vec3d p{random(-100, 100), random(-80, 80), random(490, 580)};
     double slow = 1e9;
     for (const auto& t : s.triangles) {
-      slow = std::min(slow, to_triangle(p, wide(s.vertices_mm[t[0]]), wide(s.vertices_mm[t[1]]), wide(s.vertices_mm[t[2]])));
+      slow = std::min(slow, to_triangle(p, wide(s.vertices_mm[t[0]]), wide(s.vertices_mm[t[1]]),
+                                        wide(s.vertices_mm[t[2]])));
     }
     const auto fast = grid.nearest(p, 120);
     ASSERT_TRUE(fast);
@@ -132,14 +136,16 @@ TEST(RigidFit, FindsTheMotionBack) {
   const Surface s = bumps(2);
   const TriangleGrid grid(s);
   const double angle = 0.01;
-  const pipeline::RigidTransform moved{{{std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)}}, {-4, 1, 3}};
+  const pipeline::RigidTransform moved{
+      {{std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)}}, {-4, 1, 3}};
   std::vector<Vec3d> points;
   for (int v = 20; v < kHeight - 20; v += 4) {
     for (int u = 20; u < kWidth - 20; u += 4) points.push_back(apply(moved, seen_at(u, v)));
   }
   const RigidFit fit = fit_rigidly(points, grid);
   std::vector<double> left;
-  for (const Vec3d& p : points) left.push_back(grid.nearest(apply(fit.surface_from_points, p), 5)->distance_mm);
+  for (const Vec3d& p : points)
+    left.push_back(grid.nearest(apply(fit.surface_from_points, p), 5)->distance_mm);
   for (const double d : left) EXPECT_LT(d, 0.03);
   EXPECT_NEAR(fit.turned_deg, angle * 180 / 3.14159265, 0.05);
 }
@@ -186,7 +192,8 @@ TEST(TrueSurface, ReadsOneFormOfPlyAndNothingElse) {
   ASSERT_TRUE(surface);
   EXPECT_EQ(surface->vertices_mm[2].z, 5);
   EXPECT_EQ(surface->triangles[0][2], 2U);
-  for (std::size_t length = 0; length < text.size(); ++length) EXPECT_FALSE(parse_true_surface(text.substr(0, length)));
+  for (std::size_t length = 0; length < text.size(); ++length)
+    EXPECT_FALSE(parse_true_surface(text.substr(0, length)));
   EXPECT_FALSE(parse_true_surface(text + "x"));
   text[text.size() - 4] = '\x03';  // a corner that is not there
   EXPECT_FALSE(parse_true_surface(text));
@@ -197,7 +204,8 @@ TEST(TruthView, RefusesWhatIsNone) {
   EXPECT_EQ(TruthView::read(folder.path()).error().code, Errc::NotFound);
   write_truth(folder);
   const std::string whole = test::read_text(folder / "truth.bin");
-  for (const std::string& bad : {std::string("x"), whole.substr(0, whole.size() - 1), whole + "x", "-1 -1 z\n" + whole}) {
+  for (const std::string& bad :
+       {std::string("x"), whole.substr(0, whole.size() - 1), whole + "x", "-1 -1 z\n" + whole}) {
     test::write_text(folder / "truth.bin", bad);
     EXPECT_EQ(TruthView::read(folder.path()).error().code, Errc::InvalidInput);
   }

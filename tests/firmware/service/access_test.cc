@@ -100,7 +100,8 @@ TEST(AccessWait, TenThousandGuessesTakeAYear) {
 }
 
 TEST_F(AccessTest, WeakSharedAndOddPinsAreRefused) {
-  for (const char* pin : {"1111", "1234", "87654321", "123", "123456789", "12a4", ""}) EXPECT_FALSE(access->check_new(StaffRole::Operator, pin).has_value()) << pin;
+  for (const char* pin : {"1111", "1234", "87654321", "123", "123456789", "12a4", ""})
+    EXPECT_FALSE(access->check_new(StaffRole::Operator, pin).has_value()) << pin;
   EXPECT_FALSE(access->set_up("4711", "4711").has_value());
   ASSERT_TRUE(access->set_up("4711", "80526").has_value());
   EXPECT_EQ(access->set(StaffRole::Operator, "4711").error().code, Errc::InvalidState);
@@ -113,7 +114,9 @@ TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
   Statistics counts;
   counts.begin("2026-03-02");
   const Error refused{Errc::TooFewMatches, "as the test says"};
-  const auto seconds_of = [](double s) { return std::chrono::nanoseconds(static_cast<std::int64_t>(s * 1e9)); };
+  const auto seconds_of = [](double s) {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(s * 1e9));
+  };
   counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {});
   counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {});
   counts.noted({State::Match, Event::AdviceGiven, State::Position}, &refused, {});

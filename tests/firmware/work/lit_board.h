@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A board of two cameras that add up light as sensors do: what a camera shows is its scene's light, times the lamp, the time and the gain
-// it was set to. Thread: one caller. Errors: none.
+// A board of two cameras that add up light as sensors do: what a camera shows is its scene's light, times the
+// lamp, the time and the gain it was set to. Thread: one caller. Errors: none.
 #pragma once
 
 #include <algorithm>
@@ -38,9 +38,12 @@ class LitCamera final : public hal::Camera {
     ++pictures;
     if (on_picture) on_picture();
     exposed.push_back(set);
-    for (std::size_t i = 0; i < light_.size(); ++i) pixels_[i] = static_cast<std::byte>(std::min(255.0, 255 * light_[i] * factor()));
+    for (std::size_t i = 0; i < light_.size(); ++i)
+      pixels_[i] = static_cast<std::byte>(std::min(255.0, 255 * light_[i] * factor()));
     const int height = static_cast<int>(light_.size()) / width_;
-    return hal::Frame({pixels_.data(), pixels_.size(), width_, height, width_, {}}, {pulsed_at_, ++sequence_}, [](void*, int) {}, this, 0);
+    return hal::Frame(
+        {pixels_.data(), pixels_.size(), width_, height, width_, {}}, {pulsed_at_, ++sequence_},
+        [](void*, int) {}, this, 0);
   }
   Result<void> do_set_exposure(const hal::Exposure& exposure) override {
     set = exposure;
@@ -52,7 +55,7 @@ class LitCamera final : public hal::Camera {
   }
 
   const hal::Instant& pulsed_at_;
-  double own_;   // how much more than the other it sees
+  double own_;  // how much more than the other it sees
   std::vector<double> light_;
   int width_;
   std::vector<std::byte> pixels_;
@@ -66,7 +69,9 @@ class LitBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
     int width;
   };
   explicit LitBoard(const Scene& scene, double right_gain = 1.2)
-      : left_camera(line.pulsed_at, 1, scene.left, scene.width), right_camera(line.pulsed_at, right_gain, scene.right, scene.width), width_(scene.width),
+      : left_camera(line.pulsed_at, 1, scene.left, scene.width),
+        right_camera(line.pulsed_at, right_gain, scene.right, scene.width),
+        width_(scene.width),
         height_(static_cast<int>(scene.left.size()) / scene.width) {}
   PlayedWorld world;
   PlayedClock time{world};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// While somebody poses, both cameras are set to one exposure by the light they see; for the burst nobody changes it. The scene is one in
-// which no face is found: metered is the middle.
+// While somebody poses, both cameras are set to one exposure by the light they see; for the burst nobody
+// changes it. The scene is one in which no face is found: metered is the middle.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -24,7 +24,8 @@ std::vector<double> grains() {
   std::vector<double> light(std::size_t{kWidth} * kHeight, 0.01);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      if (std::abs(x - kWidth / 2) < kWidth / 4) light[static_cast<std::size_t>(y * kWidth + x)] = 0.25 + 0.35 * ((x * 7 + y * 13) % 16) / 15.0;
+      if (std::abs(x - kWidth / 2) < kWidth / 4)
+        light[static_cast<std::size_t>(y * kWidth + x)] = 0.25 + 0.35 * ((x * 7 + y * 13) % 16) / 15.0;
   return light;
 }
 
@@ -85,7 +86,8 @@ TEST_F(PoseExposure, FindsOneExposureForBothAndFollowsTheLight) {
   EXPECT_NEAR(shown(), kBrightTarget, 1.5 * kLightTolerance * kBrightTarget);
   const auto before = board.left_camera.set;
   pose_for(20, [&](int) { board.left_camera.lamp = board.right_camera.lamp = 2; });
-  EXPECT_LT(static_cast<double>(board.left_camera.set.time.count()) * board.left_camera.set.gain, 0.7 * static_cast<double>(before.time.count()) * before.gain);
+  EXPECT_LT(static_cast<double>(board.left_camera.set.time.count()) * board.left_camera.set.gain,
+            0.7 * static_cast<double>(before.time.count()) * before.gain);
   EXPECT_NEAR(shown(), kBrightTarget, 1.5 * kLightTolerance * kBrightTarget);
 }
 
@@ -107,7 +109,8 @@ TEST_F(PoseExposure, TheBurstIsTakenAtTheExposureThatWasFound) {
   ASSERT_TRUE(shot) << shot.error().what.view();
   EXPECT_GE(board.left_camera.exposed.size(), static_cast<std::size_t>(budget::kBurstPairs));
   for (const test::LitCamera* camera : {&board.left_camera, &board.right_camera})
-    for (const hal::Exposure& exposure : camera->exposed) EXPECT_TRUE(exposure.time == found.time && exposure.gain == found.gain);
+    for (const hal::Exposure& exposure : camera->exposed)
+      EXPECT_TRUE(exposure.time == found.time && exposure.gain == found.gain);
   EXPECT_EQ(board.left_camera.sets + board.right_camera.sets, sets);
   EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Settled);
   ASSERT_TRUE(session.products().frame);

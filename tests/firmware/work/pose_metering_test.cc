@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Metered is the face: a simulated person before a window. The room behind them is many times as bright as they are, and may burn out.
+// Metered is the face: a simulated person before a window. The room behind them is many times as bright as
+// they are, and may burn out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,17 +19,18 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kWidth = 480;            // the album's pictures
+constexpr int kWidth = 480;  // the album's pictures
 constexpr std::uint32_t kPerson = 3;
-constexpr double kWindow = 1;          // white at 10 ms: eight times the face
-constexpr double kShade = 0.5;         // of the light the person has in the kiosk's own
+constexpr double kWindow = 1;   // white at 10 ms: eight times the face
+constexpr double kShade = 0.5;  // of the light the person has in the kiosk's own
 
 double grey(const std::vector<std::uint16_t>& rgb, std::size_t pixel) {
   return (rgb[3 * pixel] + rgb[3 * pixel + 1] + rgb[3 * pixel + 2]) / (3 * test::kLightUnit);
 }
 
 // The person as `shade` of their light, and the window wherever the room shows.
-std::vector<double> before_window(const std::vector<std::uint16_t>& shot, const std::vector<std::uint16_t>& room, double shade) {
+std::vector<double> before_window(const std::vector<std::uint16_t>& shot,
+                                  const std::vector<std::uint16_t>& room, double shade) {
   std::vector<double> light(shot.size() / 3);
   for (std::size_t i = 0; i < light.size(); ++i)
     light[i] = std::abs(grey(shot, i) - grey(room, i)) < 1e-3 ? kWindow : shade * grey(shot, i);
@@ -65,22 +67,27 @@ class PoseMetering : public testing::Test {
     ASSERT_FALSE(ended);
     EXPECT_EQ(ended.error().code, Errc::Cancelled) << ended.error().what.view();
   }
-  // The brightest twentieth of the person's skin between brows and mouth, as the right camera shows it: their place is known from the pose.
+  // The brightest twentieth of the person's skin between brows and mouth, as the right camera shows it: their
+  // place is known from the pose.
   double face_shown(double shade) const {
     const test::Shot& shot = test::shared_album().shoot(kPerson, standing);
     const pipeline::StereoCalibration& c = test::shared_album().calibration();
-    const pipeline::Vec3d at = apply(c.right_from_left, {standing.right_mm, standing.down_mm, standing.distance_mm});
-    const double a_mm = c.right.focal_px.x / at.z, x = c.right.centre_px.x + a_mm * at.x, y = c.right.centre_px.y + a_mm * at.y;
+    const pipeline::Vec3d at =
+        apply(c.right_from_left, {standing.right_mm, standing.down_mm, standing.distance_mm});
+    const double a_mm = c.right.focal_px.x / at.z, x = c.right.centre_px.x + a_mm * at.x,
+                 y = c.right.centre_px.y + a_mm * at.y;
     std::vector<double> values;
     for (int v = static_cast<int>(y - 45 * a_mm); v < static_cast<int>(y + 35 * a_mm); ++v)
       for (int u = static_cast<int>(x - 45 * a_mm); u < static_cast<int>(x + 45 * a_mm); ++u)
-        values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kWidth + u)) * board.right_camera.factor());
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size()));
+        values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kWidth + u)) *
+                         board.right_camera.factor());
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size()));
     std::nth_element(values.begin(), place, values.end());
     return *place;
   }
 
-  hal::sim::HeadPose standing = test::standing(640, -45, 20);   // not quite in the middle
+  hal::sim::HeadPose standing = test::standing(640, -45, 20);  // not quite in the middle
   test::LitBoard board{scene(standing, kShade), 1};
   BootMemory memory{std::size_t{20} * kWidth * 300, std::size_t{8} << 20, std::size_t{64} << 20};
   EnrolmentSession session{memory};
@@ -105,7 +112,8 @@ TEST_F(PoseMetering, AFaceDarkInABrightRoomIsLitForAndFollowed) {
   EXPECT_GT(board.right_camera.factor(), 1.5 * before);
   EXPECT_NEAR(face_shown(kShade / 2), kBrightTarget, 0.2 * kBrightTarget);
   // They leave: the room is lit for again.
-  const std::vector<double> window(board.left_camera.exposed.empty() ? 0 : std::size_t{kWidth} * 300, kWindow);
+  const std::vector<double> window(board.left_camera.exposed.empty() ? 0 : std::size_t{kWidth} * 300,
+                                   kWindow);
   board.left_camera.show(window);
   board.right_camera.show(window);
   pose_for(24);

@@ -107,7 +107,8 @@ TEST(ThreadPool, BandsDoNotDependOnTheThreads) {
   const auto edges = [](int threads) {
     ThreadPool pool(threads);
     std::vector<int> begins(9);
-    pool.for_each_band(100, 9, [&](int begin, int, int band) { begins[static_cast<std::size_t>(band)] = begin; });
+    pool.for_each_band(100, 9,
+                       [&](int begin, int, int band) { begins[static_cast<std::size_t>(band)] = begin; });
     return begins;
   };
   EXPECT_EQ(edges(1), edges(3));
@@ -130,7 +131,11 @@ TEST(ThreadPool, LateAndSleepingThreadsTakeNoBandTwice) {
 
 TEST(ThreadPool, RethrowsAndStaysUsable) {
   ThreadPool pool(2);
-  EXPECT_THROW(pool.for_each_band(8, 8, [](int begin, int, int) { if (begin == 5) throw std::runtime_error("x"); }), std::runtime_error);
+  EXPECT_THROW(pool.for_each_band(8, 8,
+                                  [](int begin, int, int) {
+                                    if (begin == 5) throw std::runtime_error("x");
+                                  }),
+               std::runtime_error);
   std::atomic<int> sum{0};
   pool.for_each_band(8, 8, [&](int begin, int, int) { sum += begin; });
   EXPECT_EQ(sum.load(), 28);

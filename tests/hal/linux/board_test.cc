@@ -14,8 +14,10 @@ namespace relievo::hal {
 namespace {
 
 constexpr const char* kMode = "[mode]\nwidth_px = 32\nheight_px = 48\nexposure_us = 4000\n";
-constexpr const char* kTwo = "[left]\ndevice = \"/dev/a\"\nserial = \"L\"\n[right]\ndevice = \"/dev/b\"\nformat = \"GREY\"\n";
-constexpr const char* kWires = "[trigger]\nchip = \"/dev/gpiochip0\"\nline = 17\ndelay_us = 20\n[lamp]\nline = 18\nlead_us = 200\n";
+constexpr const char* kTwo =
+    "[left]\ndevice = \"/dev/a\"\nserial = \"L\"\n[right]\ndevice = \"/dev/b\"\nformat = \"GREY\"\n";
+constexpr const char* kWires =
+    "[trigger]\nchip = \"/dev/gpiochip0\"\nline = 17\ndelay_us = 20\n[lamp]\nline = 18\nlead_us = 200\n";
 
 Result<LinuxBoardOptions> read(const std::string& text) {
   const TemporaryFolder folder;
@@ -43,7 +45,8 @@ TEST(LinuxBoardFile, StickAndWatchdogMayBeLeftOut) {
   const auto bare = read(std::string(kMode) + kTwo);
   ASSERT_TRUE(bare);
   EXPECT_TRUE(bare->stick_folder.empty() && !bare->watchdog);
-  const auto options = read(std::string(kMode) + kTwo + "[stick]\nfolder = \"/media/relievo\"\n[watchdog]\ntimeout_s = 30\n");
+  const auto options =
+      read(std::string(kMode) + kTwo + "[stick]\nfolder = \"/media/relievo\"\n[watchdog]\ntimeout_s = 30\n");
   ASSERT_TRUE(options) << options.error().where();
   EXPECT_EQ(options->stick_folder, "/media/relievo");
   EXPECT_EQ(options->watchdog.value_or(WatchdogOptions{}).timeout, std::chrono::seconds(30));
@@ -73,7 +76,9 @@ TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
       {"[mode]\nwidth_px = 3\nheight_px = 48\n" + std::string(kTwo), "width_px"},
       {"[mode]\nwidth_px = 32.5\nheight_px = 48\n" + std::string(kTwo), "width_px"},
       {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n[right]\ndevice = \"/dev/a\"\n", "same"},
-      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\nformat = \"MONO12\"\n[right]\ndevice = \"/dev/b\"\n", "format"},
+      {std::string(kMode) +
+           "[left]\ndevice = \"/dev/a\"\nformat = \"MONO12\"\n[right]\ndevice = \"/dev/b\"\n",
+       "format"},
       {"mode = 3\n" + std::string(kTwo), "mode"},
       {good + "[stick]\nfolder = \"media\"\n", "folder"},
       {good + "[watchdog]\ntimeout_s = 1\n", "timeout_s"},
@@ -82,7 +87,8 @@ TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
     const auto options = read(text);
     ASSERT_FALSE(options) << text;
     EXPECT_EQ(options.error().code, Errc::InvalidInput);
-    EXPECT_NE(options.error().where().find(word), std::string_view::npos) << options.error().where() << " | " << word;
+    EXPECT_NE(options.error().where().find(word), std::string_view::npos)
+        << options.error().where() << " | " << word;
   }
   EXPECT_EQ(read_linux_board_file("/nowhere/board.toml").error().code, Errc::NotFound);
 }
@@ -106,7 +112,8 @@ TEST(LinuxBoard, OneDeviceGivesBothViewsTogetherWithoutAWire) {
   EXPECT_EQ(board.name(), "linux");
   EXPECT_TRUE(board.exposes_together());
   EXPECT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
-  for (Camera* camera : {&board.left(), &board.right()}) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  for (Camera* camera : {&board.left(), &board.right()})
+    ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
   EXPECT_EQ(kernel.open_files, 1);
   kernel.expose({3});
   const Instant soon = board.clock().now() + std::chrono::seconds(5);

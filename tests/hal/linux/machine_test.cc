@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Watchdog and stick over a played kernel: armed, kicked, put to rest; flushed before it is unmounted; every refusal in words.
+// Watchdog and stick over a played kernel: armed, kicked, put to rest; flushed before it is unmounted; every
+// refusal in words.
 #include <gtest/gtest.h>
 #include <linux/watchdog.h>
 
@@ -34,7 +35,7 @@ class HandClock final : public Clock {
 class DogKernel final : public Kernel {
  public:
   explicit DogKernel(HandClock& clock) : clock_(clock) {}
-  std::map<unsigned long, int> refuses;    // of the next such call, an errno
+  std::map<unsigned long, int> refuses;  // of the next such call, an errno
   int open_error = 0, own_seconds = 60, kicks = 0, open_files = 0;
   bool armed = false;
   bool bites() const { return armed && clock_.at - heard_ > seconds(own_seconds); }
@@ -80,7 +81,8 @@ TEST(HardwareWatchdog, BitesWhoStopsKickingAndNobodyElse) {
     (*dog)->kick();
     ASSERT_FALSE(kernel.bites());
   }
-  EXPECT_NEAR(kernel.kicks, 60 / 2.5, 2);  // the loop turns 50 times a second, the device hears it four times in its time
+  EXPECT_NEAR(kernel.kicks, 60 / 2.5,
+              2);  // the loop turns 50 times a second, the device hears it four times in its time
   clock.at += seconds(11);
   EXPECT_TRUE(kernel.bites());
   dog->reset();
@@ -90,7 +92,11 @@ TEST(HardwareWatchdog, BitesWhoStopsKickingAndNobodyElse) {
 
 TEST(HardwareWatchdog, SaysWhyItCannotBeUsedAndLeavesNothingArmed) {
   HandClock clock;
-  const std::pair<int, Errc> opens[] = {{ENOENT, Errc::NotFound}, {ENODEV, Errc::NotFound}, {EBUSY, Errc::IoFailed}, {EACCES, Errc::IoFailed}, {EIO, Errc::IoFailed}};
+  const std::pair<int, Errc> opens[] = {{ENOENT, Errc::NotFound},
+                                        {ENODEV, Errc::NotFound},
+                                        {EBUSY, Errc::IoFailed},
+                                        {EACCES, Errc::IoFailed},
+                                        {EIO, Errc::IoFailed}};
   for (const auto& [number, code] : opens) {
     DogKernel kernel(clock);
     kernel.open_error = number;
@@ -137,7 +143,9 @@ class PlayedMounts final : public Mounts {
     const auto found = mounted.find(folder.native());
     return found == mounted.end() ? std::nullopt : std::optional(found->second);
   }
-  int flush(const std::filesystem::path& folder) override { return calls.push_back("flush " + folder.native()), flush_result; }
+  int flush(const std::filesystem::path& folder) override {
+    return calls.push_back("flush " + folder.native()), flush_result;
+  }
   int unmount(const std::filesystem::path& folder) override {
     calls.push_back("unmount " + folder.native());
     if (unmount_result == 0) mounted.erase(folder.native());
@@ -167,7 +175,9 @@ TEST(MountedStick, IsTakenUpAgainWhereItWasOnceForEveryEjection) {
   ASSERT_TRUE(stick.current());
   ASSERT_TRUE(stick.flush_and_eject());
   EXPECT_FALSE(stick.current());
-  for (const auto& [refused, code] : {std::pair{-ENXIO, Errc::MediaMissing}, std::pair{-ENOENT, Errc::MediaMissing}, std::pair{-EPERM, Errc::Unsupported}, std::pair{-EIO, Errc::Unsupported}}) {
+  for (const auto& [refused, code] :
+       {std::pair{-ENXIO, Errc::MediaMissing}, std::pair{-ENOENT, Errc::MediaMissing},
+        std::pair{-EPERM, Errc::Unsupported}, std::pair{-EIO, Errc::Unsupported}}) {
     mounts.mounted[root] = 5;
     mounts.mount_result = refused;
     ASSERT_TRUE(stick.flush_and_eject());
@@ -213,8 +223,10 @@ TEST(MountedStick, IsSeenFlushedThenUnmounted) {
 TEST(MountedStick, WhatIsNotFlushedIsNotUnmountedAndNothingIsPromised) {
   const TemporaryFolder folder;
   const std::string root = folder.path().native();
-  for (const auto& [flushed, unmounted, code] : {std::tuple{-EIO, 0, Errc::IoFailed}, std::tuple{-ENOENT, 0, Errc::MediaMissing}, std::tuple{0, -EBUSY, Errc::IoFailed},
-                                                 std::tuple{0, -EPERM, Errc::IoFailed}, std::tuple{0, -EINVAL, Errc::MediaMissing}}) {
+  for (const auto& [flushed, unmounted, code] :
+       {std::tuple{-EIO, 0, Errc::IoFailed}, std::tuple{-ENOENT, 0, Errc::MediaMissing},
+        std::tuple{0, -EBUSY, Errc::IoFailed}, std::tuple{0, -EPERM, Errc::IoFailed},
+        std::tuple{0, -EINVAL, Errc::MediaMissing}}) {
     PlayedMounts mounts;
     mounts.mounted[root] = 5;
     mounts.flush_result = flushed, mounts.unmount_result = unmounted;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// V4l2Bench: one camera over a kernel that fails in every call, with every number a driver may give. When a test ends it looks that
-// nothing stays open, mapped or queued twice.
+// V4l2Bench: one camera over a kernel that fails in every call, with every number a driver may give. When a
+// test ends it looks that nothing stays open, mapped or queued twice.
 #pragma once
 
 #include <gtest/gtest.h>

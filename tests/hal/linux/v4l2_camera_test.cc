@@ -68,7 +68,8 @@ TEST_F(V4l2CameraTest, WithoutAPulseTheDeadlineComes) {
   const Instant deadline = kernel.clock.now() + milliseconds(100);
   EXPECT_EQ(error_of_next(), Errc::Timeout);
   EXPECT_GE(kernel.clock.now(), deadline);
-  EXPECT_EQ(camera->next_frame(kernel.clock.now() - milliseconds(1)).error().code, Errc::Timeout) << "a deadline gone by";
+  EXPECT_EQ(camera->next_frame(kernel.clock.now() - milliseconds(1)).error().code, Errc::Timeout)
+      << "a deadline gone by";
 }
 
 TEST_F(V4l2CameraTest, DamagedAndShortPicturesAreHandedOnAsSuch) {

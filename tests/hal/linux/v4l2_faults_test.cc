@@ -24,8 +24,9 @@ const CaptureMode kMode{64, 48, std::chrono::microseconds(4000)};
 // may give: an error in words or a picture, never a crash, a device left open or a buffer queued twice;
 // and afterwards a healthy camera works.
 TEST(V4l2CameraFaults, EveryCallMayFailWithEveryNumber) {
-  const int numbers[] = {EINVAL, EIO, ENODEV, ENXIO, ENOMEM, EBUSY, EACCES, EPERM, ENOTTY, ENOLINK, ENOLCK, ERANGE, ENOSPC,
-                         EPIPE, EPROTO, ETIMEDOUT, EFAULT, EAGAIN, ESHUTDOWN, ENODATA, EOVERFLOW, ENOENT, EINTR};
+  const int numbers[] = {EINVAL, EIO,     ENODEV,    ENXIO,   ENOMEM,    EBUSY,  EACCES, EPERM,
+                         ENOTTY, ENOLINK, ENOLCK,    ERANGE,  ENOSPC,    EPIPE,  EPROTO, ETIMEDOUT,
+                         EFAULT, EAGAIN,  ESHUTDOWN, ENODATA, EOVERFLOW, ENOENT, EINTR};
   std::set<KernelCall> seen;
   for (int c = 0; c < static_cast<int>(KernelCall::Count); ++c)
     for (const int number : numbers)

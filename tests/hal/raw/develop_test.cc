@@ -37,7 +37,8 @@ double worst(const ImageView& view, const Painting& paint) {
   for (int y = 2; y < view.height_px - 2; ++y)
     for (int x = 2; x < view.width_px - 2; ++x)
       for (int c = 0; c < 3; ++c)
-        most = std::max(most, std::abs(view.row(y)[3 * x + c] - 255 * paint(x, y)[static_cast<std::size_t>(c)]));
+        most =
+            std::max(most, std::abs(view.row(y)[3 * x + c] - 255 * paint(x, y)[static_cast<std::size_t>(c)]));
   return most;
 }
 
@@ -45,7 +46,8 @@ double mean_error(const ImageView& view, const Painting& paint) {
   double sum = 0;
   for (int y = 2; y < view.height_px - 2; ++y)
     for (int x = 2; x < view.width_px - 2; ++x)
-      for (int c = 0; c < 3; ++c) sum += std::abs(view.row(y)[3 * x + c] - 255 * paint(x, y)[static_cast<std::size_t>(c)]);
+      for (int c = 0; c < 3; ++c)
+        sum += std::abs(view.row(y)[3 * x + c] - 255 * paint(x, y)[static_cast<std::size_t>(c)]);
   return sum / ((view.height_px - 4) * (view.width_px - 4) * 3);
 }
 
@@ -53,7 +55,8 @@ Colour grey_scene(int x, int y) { return {0, grey_paint(x, y), 0}; }
 
 TEST(Develop, GreySamplesKeepEveryBit) {
   Room room;
-  for (const RawCoding coding : {RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16, RawCoding::Packed10, RawCoding::Packed12}) {
+  for (const RawCoding coding :
+       {RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16, RawCoding::Packed10, RawCoding::Packed12}) {
     const int bits = bits_of(coding);
     const Sent sent = send_samples({coding}, kWidth, kHeight, 6, grey_scene);
     const auto view = room.develop(sent.raw);
@@ -63,15 +66,19 @@ TEST(Develop, GreySamplesKeepEveryBit) {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const unsigned got = view->row(y)[2 * x] + 256U * view->row(y)[2 * x + 1];
-        ASSERT_EQ(got >> (16 - bits), quantised(grey_paint(x, y), bits)) << bits << " bit at " << x << ' ' << y;
+        ASSERT_EQ(got >> (16 - bits), quantised(grey_paint(x, y), bits))
+            << bits << " bit at " << x << ' ' << y;
       }
   }
 }
 
 TEST(Develop, BlackStaysBlackAndWhiteStaysWhite) {
   Room room;
-  for (const RawCoding coding : {RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16, RawCoding::Packed10, RawCoding::Packed12}) {
-    const Sent sent = send_samples({coding}, kWidth, kHeight, 0, [](int x, int) { return Colour{0, x % 2 ? 1.0 : 0.0, 0}; });
+  for (const RawCoding coding :
+       {RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16, RawCoding::Packed10, RawCoding::Packed12}) {
+    const Sent sent = send_samples({coding}, kWidth, kHeight, 0, [](int x, int) {
+      return Colour{0, x % 2 ? 1.0 : 0.0, 0};
+    });
     const auto view = room.develop(sent.raw);
     ASSERT_TRUE(view);
     const std::uint8_t expected[] = {0, 0, 255, 255};
@@ -95,7 +102,8 @@ TEST(Develop, EightBitAndRgbAreCopiedRowByRow) {
     const auto view = room.develop(grey.raw);
     ASSERT_TRUE(view);
     ASSERT_EQ(view->format, PixelFormat::Grey8);
-    for (int y = 0; y < kHeight; ++y) ASSERT_EQ(std::memcmp(view->row(y), grey.bytes.data() + y * grey.raw.stride_bytes, kWidth), 0);
+    for (int y = 0; y < kHeight; ++y)
+      ASSERT_EQ(std::memcmp(view->row(y), grey.bytes.data() + y * grey.raw.stride_bytes, kWidth), 0);
     const Sent rgb = sent_buffer({RawCoding::Rgb8}, kWidth, kHeight, padding);
     const auto copy = room.develop(rgb.raw);
     ASSERT_TRUE(copy);
@@ -106,13 +114,15 @@ TEST(Develop, EightBitAndRgbAreCopiedRowByRow) {
 
 TEST(Develop, EveryColourFilterGivesTheSameSmoothPicture) {
   Room room;
-  for (const RawCoding coding : {RawCoding::Bits8, RawCoding::Bits10, RawCoding::Bits12, RawCoding::Packed10, RawCoding::Packed12})
+  for (const RawCoding coding :
+       {RawCoding::Bits8, RawCoding::Bits10, RawCoding::Bits12, RawCoding::Packed10, RawCoding::Packed12})
     for (const ColourFilter filter : kFilters) {
       const Sent sent = send_samples({coding, filter}, kWidth, kHeight, 10, smooth_paint);
       const auto view = room.develop(sent.raw);
       ASSERT_TRUE(view) << view.error().what.view();
       ASSERT_EQ(view->format, PixelFormat::Rgb8);
-      EXPECT_LT(worst(*view, smooth_paint), 3.0) << static_cast<int>(coding) << ' ' << static_cast<int>(filter);
+      EXPECT_LT(worst(*view, smooth_paint), 3.0)
+          << static_cast<int>(coding) << ' ' << static_cast<int>(filter);
     }
 }
 
@@ -120,7 +130,9 @@ TEST(Develop, EveryColourFilterGivesTheSameSmoothPicture) {
 // the step into both neighbours.
 TEST(Develop, ADemosaickedEdgeStaysSharp) {
   Room room;
-  const Painting edge = [](int x, int) { return x < kWidth / 2 ? Colour{0.2, 0.2, 0.2} : Colour{0.8, 0.8, 0.8}; };
+  const Painting edge = [](int x, int) {
+    return x < kWidth / 2 ? Colour{0.2, 0.2, 0.2} : Colour{0.8, 0.8, 0.8};
+  };
   for (const ColourFilter filter : kFilters) {
     const Sent sent = send_samples({RawCoding::Bits8, filter}, kWidth, kHeight, 0, edge);
     const auto view = room.develop(sent.raw);
@@ -153,7 +165,8 @@ struct SentJpeg {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         for (int c = 0; c < bytes_per_pixel(format); ++c)
-          picture.bytes.push_back(std::byte(static_cast<unsigned char>(quantised(smooth_paint(x, y)[static_cast<std::size_t>(c)], 8))));
+          picture.bytes.push_back(std::byte(
+              static_cast<unsigned char>(quantised(smooth_paint(x, y)[static_cast<std::size_t>(c)], 8))));
     auto encoded = encode_jpeg(picture.view(), 95);
     EXPECT_TRUE(encoded);
     stream = *std::move(encoded);
@@ -163,7 +176,8 @@ struct SentJpeg {
   // Without its Huffman tables, as webcams send it.
   void drop_tables() {
     for (std::size_t at = 2; at + 4 < stream.size() && stream[at + 1] != std::byte{0xDA};) {
-      const std::size_t length = 2 + (std::to_integer<std::size_t>(stream[at + 2]) << 8U) + std::to_integer<std::size_t>(stream[at + 3]);
+      const std::size_t length = 2 + (std::to_integer<std::size_t>(stream[at + 2]) << 8U) +
+                                 std::to_integer<std::size_t>(stream[at + 3]);
       const auto from = stream.begin() + static_cast<std::ptrdiff_t>(at);
       if (stream[at + 1] == std::byte{0xC4}) stream.erase(from, from + static_cast<std::ptrdiff_t>(length));
       else at += length;
@@ -265,7 +279,8 @@ TEST(Develop, TheLastRowNeedsNoPadding) {
 
 TEST(Develop, GreySamplesAllocateNothing) {
   Room room;
-  for (const RawCoding coding : {RawCoding::Bits8, RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16, RawCoding::Packed10, RawCoding::Packed12}) {
+  for (const RawCoding coding : {RawCoding::Bits8, RawCoding::Bits10, RawCoding::Bits12, RawCoding::Bits16,
+                                 RawCoding::Packed10, RawCoding::Packed12}) {
     const Sent sent = send_samples({coding}, kWidth, kHeight, 4, grey_scene);
     const AllocationCounter counter;
     const auto view = room.develop(sent.raw);

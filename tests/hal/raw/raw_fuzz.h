@@ -43,9 +43,11 @@ inline void fuzz_raw(std::span<const std::uint8_t> data) {
   const auto view = develop(raw, room, scratch);
   if (!view) return;
   // What is promised of a developed picture holds for every input.
-  RELIEVO_ASSERT(view->width_px == raw.width_px && view->height_px == raw.height_px && view->bytes == room.data());
+  RELIEVO_ASSERT(view->width_px == raw.width_px && view->height_px == raw.height_px &&
+                 view->bytes == room.data());
   RELIEVO_ASSERT(view->stride_bytes == view->width_px * bytes_per_pixel(view->format));
-  RELIEVO_ASSERT(static_cast<std::size_t>(view->stride_bytes) * static_cast<std::size_t>(view->height_px) <= room.size());
+  RELIEVO_ASSERT(static_cast<std::size_t>(view->stride_bytes) * static_cast<std::size_t>(view->height_px) <=
+                 room.size());
 }
 
 }  // namespace relievo::hal

@@ -18,7 +18,7 @@ TEST(RawFuzz, RandomShapesAndContents) {
   for (int i = 0; i < 3000; ++i) {
     std::vector<std::uint8_t> data(kFuzzHeaderBytes + random() % 512);
     for (auto& byte : data) byte = static_cast<std::uint8_t>(random());
-    if (i % 2 == 0) data[5] = data[6] = data[7] = 0;   // whole pictures in enough room
+    if (i % 2 == 0) data[5] = data[6] = data[7] = 0;  // whole pictures in enough room
     if (i % 4 == 0) data[2] = data[3] = static_cast<std::uint8_t>(data[3] | 1U);
     fuzz_raw(data);
   }
@@ -27,7 +27,8 @@ TEST(RawFuzz, RandomShapesAndContents) {
 TEST(RawFuzz, MutatedJpegs) {
   Picture picture{std::vector<std::byte>(std::size_t{48} * 40 * 3), 48, 40, PixelFormat::Rgb8};
   std::mt19937 random(7);
-  for (std::size_t i = 0; i < picture.bytes.size(); ++i) picture.bytes[i] = std::byte(static_cast<unsigned char>(i / 9 + random() % 8));
+  for (std::size_t i = 0; i < picture.bytes.size(); ++i)
+    picture.bytes[i] = std::byte(static_cast<unsigned char>(i / 9 + random() % 8));
   const auto stream = encode_jpeg(picture.view(), 80);
   ASSERT_TRUE(stream);
   std::vector<std::uint8_t> whole{static_cast<std::uint8_t>(RawCoding::Mjpeg), 0, 47, 39, 8, 0, 0, 0};
@@ -36,7 +37,8 @@ TEST(RawFuzz, MutatedJpegs) {
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::uint8_t> data = whole;
     for (unsigned n = 1 + random() % 4; n > 0; --n)
-      data[kFuzzHeaderBytes + random() % (data.size() - kFuzzHeaderBytes)] = static_cast<std::uint8_t>(random());
+      data[kFuzzHeaderBytes + random() % (data.size() - kFuzzHeaderBytes)] =
+          static_cast<std::uint8_t>(random());
     if (i % 3 == 0) data.resize(data.size() - random() % stream->size());
     fuzz_raw(data);
   }

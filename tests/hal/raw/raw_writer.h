@@ -22,7 +22,8 @@ using Painting = std::function<Colour(int x, int y)>;
 
 // Smooth everywhere, every hue of a face, no channel a multiple of another.
 inline Colour smooth_paint(int x, int y) {
-  return {0.55 + 0.35 * std::sin(0.045 * x + 0.3), 0.45 + 0.3 * std::cos(0.05 * y + 0.02 * x), 0.4 + 0.3 * std::sin(0.03 * (x + y))};
+  return {0.55 + 0.35 * std::sin(0.045 * x + 0.3), 0.45 + 0.3 * std::cos(0.05 * y + 0.02 * x),
+          0.4 + 0.3 * std::sin(0.03 * (x + y))};
 }
 inline double grey_paint(int x, int y) { return smooth_paint(x, y)[1]; }
 
@@ -39,7 +40,8 @@ inline Sent sent_buffer(RawFormat format, int width, int height, int padding) {
   sent.raw.format = format;
   sent.raw.stride_bytes = static_cast<int>(raw_row_bytes(format.coding, width)) + padding;
   const int rows = format.coding == RawCoding::Nv12 ? height * 3 / 2 : height;
-  sent.bytes.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(sent.raw.stride_bytes), std::byte{0xA5});
+  sent.bytes.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(sent.raw.stride_bytes),
+                    std::byte{0xA5});
   sent.raw.bytes = sent.bytes.data();
   sent.raw.size_bytes = sent.bytes.size();
   return sent;
@@ -60,7 +62,8 @@ inline void put_sample(std::byte* row, RawCoding coding, int x, unsigned value) 
   const auto put = [&](int at, unsigned v) { row[at] = std::byte(static_cast<unsigned char>(v & 255U)); };
   const auto add = [&](int at, unsigned v) { row[at] |= std::byte(static_cast<unsigned char>(v)); };
   switch (coding) {
-    case RawCoding::Bits8: return put(x, value);
+    case RawCoding::Bits8:
+      return put(x, value);
     case RawCoding::Packed10:
       put(x / 4 * 5 + x % 4, value >> 2U);
       if (x % 4 == 0) put(x / 4 * 5 + 4, 0);
@@ -75,7 +78,8 @@ inline void put_sample(std::byte* row, RawCoding coding, int x, unsigned value) 
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
     case RawCoding::Nv12:
-    case RawCoding::Mjpeg: break;
+    case RawCoding::Mjpeg:
+      break;
   }
   put(2 * x, value);
   put(2 * x + 1, value >> 8U);
@@ -97,7 +101,8 @@ inline Sent send_samples(RawFormat format, int width, int height, int padding, c
     for (int x = 0; x < width; ++x) {
       const int channel = format.filter == ColourFilter::None ? 1 : channel_at(format.filter, x, y);
       const double value = paint(x, y)[static_cast<std::size_t>(channel)];
-      put_sample(sent.bytes.data() + y * sent.raw.stride_bytes, format.coding, x, quantised(value, bits_of(format.coding)));
+      put_sample(sent.bytes.data() + y * sent.raw.stride_bytes, format.coding, x,
+                 quantised(value, bits_of(format.coding)));
     }
   return sent;
 }
@@ -105,13 +110,15 @@ inline Sent send_samples(RawFormat format, int width, int height, int padding, c
 // ITU-R BT.601, limited range: luma 16 to 235, chroma 16 to 240 about 128.
 inline std::array<double, 3> yuv_of(const Colour& c) {
   const double luma = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
-  return {16 + 219 * luma, 128 + 224 * 0.5 * (c[2] - luma) / (1 - 0.114), 128 + 224 * 0.5 * (c[0] - luma) / (1 - 0.299)};
+  return {16 + 219 * luma, 128 + 224 * 0.5 * (c[2] - luma) / (1 - 0.114),
+          128 + 224 * 0.5 * (c[0] - luma) / (1 - 0.299)};
 }
 
 inline Sent send_yuv(RawCoding coding, int width, int height, int padding, const Painting& paint) {
   Sent sent = sent_buffer({coding}, width, height, padding);
   const auto put = [&](int row, int at, double v) {
-    sent.bytes[static_cast<std::size_t>(row * sent.raw.stride_bytes + at)] = std::byte(static_cast<unsigned char>(std::lround(v)));
+    sent.bytes[static_cast<std::size_t>(row * sent.raw.stride_bytes + at)] =
+        std::byte(static_cast<unsigned char>(std::lround(v)));
   };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

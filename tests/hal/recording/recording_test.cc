@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/recording/recording.h"
 
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -33,7 +33,9 @@ void expect_same(const ImageView& a, const ImageView& b) {
   ASSERT_EQ(a.height_px, b.height_px);
   ASSERT_EQ(a.format, b.format);
   for (int y = 0; y < a.height_px; ++y)
-    EXPECT_EQ(std::memcmp(a.row(y), b.row(y), static_cast<std::size_t>(a.width_px * bytes_per_pixel(a.format))), 0) << y;
+    EXPECT_EQ(
+        std::memcmp(a.row(y), b.row(y), static_cast<std::size_t>(a.width_px * bytes_per_pixel(a.format))), 0)
+        << y;
 }
 
 TEST(Recording, IsReplayedBitForBit) {
@@ -41,7 +43,8 @@ TEST(Recording, IsReplayedBitForBit) {
     const TemporaryFolder folder;
     const Noise views[]{{format, 1}, {format, 2}, {format, 3}, {format, 4}};
     for (std::size_t i = 0; i < 4; i += 2) {
-      const auto number = record_pair(folder / "taken", {views[i].view, views[i + 1].view, 9'000'000'000, 9'000'040'000, 3100, 1.5, "A7", "B9"});
+      const auto number = record_pair(folder / "taken", {views[i].view, views[i + 1].view, 9'000'000'000,
+                                                         9'000'040'000, 3100, 1.5, "A7", "B9"});
       ASSERT_TRUE(number) << number.error().what.view();
       EXPECT_EQ(*number, static_cast<std::int64_t>(i / 2 + 1));
     }
@@ -68,7 +71,8 @@ TEST(Recording, IsReplayedBitForBit) {
 TEST(Recording, RefusesWhatIsNoPair) {
   const TemporaryFolder folder;
   const Noise grey(PixelFormat::Grey8, 1), colour(PixelFormat::Rgb8, 2);
-  EXPECT_EQ(record_pair(folder.path(), {grey.view, colour.view, 0, 0, 0, 1, "", ""}).error().code, Errc::InvalidInput);
+  EXPECT_EQ(record_pair(folder.path(), {grey.view, colour.view, 0, 0, 0, 1, "", ""}).error().code,
+            Errc::InvalidInput);
   EXPECT_EQ(record_pair(folder.path(), {grey.view, {}, 0, 0, 0, 1, "", ""}).error().code, Errc::InvalidInput);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written";
 }

@@ -18,7 +18,9 @@ namespace relievo::hal {
 namespace {
 
 void put_picture(const std::filesystem::path& file, int value, int width = 16) {
-  const Picture p{std::vector<std::byte>(static_cast<std::size_t>(width * 10), std::byte(static_cast<unsigned char>(value))), width, 10, PixelFormat::Grey8};
+  const Picture p{std::vector<std::byte>(static_cast<std::size_t>(width * 10),
+                                         std::byte(static_cast<unsigned char>(value))),
+                  width, 10, PixelFormat::Grey8};
   ASSERT_TRUE(write_picture(file, p.view()));
 }
 
@@ -31,7 +33,8 @@ TEST(FolderBoard, ReplaysPairsInNameOrderForEver) {
   put_picture(folder / "right_000002.png", 12);
   put_picture(folder / "left_000001.png", 1);
   put_picture(folder / "right_000001.png", 11);
-  ASSERT_TRUE(write_capture_file(folder / "capture.json", {"A", "B", {{1, 1000, 181000, 4000, 1.0}, {2, 5000, 5000, 4000, 1.0}}}));
+  ASSERT_TRUE(write_capture_file(folder / "capture.json",
+                                 {"A", "B", {{1, 1000, 181000, 4000, 1.0}, {2, 5000, 5000, 4000, 1.0}}}));
   auto made = make_folder_board(folder.path());
   ASSERT_TRUE(made) << made.error().what.view();
   Board& board = **made;
@@ -188,7 +191,8 @@ TEST(SimBoard, ShowsCalibrationBoardsOneAfterAnother) {
   auto made = make_sim_board(options);
   ASSERT_TRUE(made) << made.error().what.view();
   Board& board = **made;
-  for (Camera* camera : {&board.left(), &board.right()}) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  for (Camera* camera : {&board.left(), &board.right()})
+    ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
   std::vector<std::vector<std::uint8_t>> rows;
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));

@@ -67,7 +67,8 @@ double saddle_error(const Picture& picture, Pixel at) {
   const auto value = [&](double x, double y) {
     const int u = static_cast<int>(std::floor(x)), v = static_cast<int>(std::floor(y));
     const double a = x - u, b = y - v;
-    return (1 - b) * ((1 - a) * view.row(v)[u] + a * view.row(v)[u + 1]) + b * ((1 - a) * view.row(v + 1)[u] + a * view.row(v + 1)[u + 1]);
+    return (1 - b) * ((1 - a) * view.row(v)[u] + a * view.row(v)[u + 1]) +
+           b * ((1 - a) * view.row(v + 1)[u] + a * view.row(v + 1)[u + 1]);
   };
   double best = 1e9, best_x = 0, best_y = 0;
   for (double dy = -1.5; dy <= 1.5; dy += 0.05)

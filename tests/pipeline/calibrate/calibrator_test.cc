@@ -67,8 +67,10 @@ TEST(Calibrator, FindsARigOfLyingSensors) {
     EXPECT_EQ(found->quality.used, upright->quality.used);
     EXPECT_NEAR(found->calibration.left.focal_px.x, expected.left.focal_px.x, 0.05);
     EXPECT_NEAR(found->calibration.right.centre_px.y, expected.right.centre_px.y, 0.05);
-    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.x, expected.right_from_left.translation_mm.x, 0.01);
-    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.y, expected.right_from_left.translation_mm.y, 0.01);
+    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.x,
+                expected.right_from_left.translation_mm.x, 0.01);
+    EXPECT_NEAR(found->calibration.right_from_left.translation_mm.y,
+                expected.right_from_left.translation_mm.y, 0.01);
     const auto read = pipeline::parse_calibration(pipeline::calibration_text(found->calibration));
     EXPECT_TRUE(read) << "what was calibrated can be read";
   }
@@ -232,8 +234,10 @@ TEST(Calibrator, GivesTheSameTwice) {
   ASSERT_TRUE(one && two);
   EXPECT_EQ(pipeline::calibration_text(one->calibration), pipeline::calibration_text(two->calibration));
   const pipeline::CalibratorInput& input = boards.input();
-  EXPECT_EQ(pipeline::calibration_report_json({input, *one, {}, {}, {}, {}}), pipeline::calibration_report_json({input, *two, {}, {}, {}, {}}));
-  EXPECT_EQ(pipeline::calibration_report_html({input, *one, {}, {}, {}, {}}), pipeline::calibration_report_html({input, *two, {}, {}, {}, {}}));
+  EXPECT_EQ(pipeline::calibration_report_json({input, *one, {}, {}, {}, {}}),
+            pipeline::calibration_report_json({input, *two, {}, {}, {}, {}}));
+  EXPECT_EQ(pipeline::calibration_report_html({input, *one, {}, {}, {}, {}}),
+            pipeline::calibration_report_html({input, *two, {}, {}, {}, {}}));
 }
 
 TEST(Calibrator, RefusesWhatCannotBeCalibrated) {

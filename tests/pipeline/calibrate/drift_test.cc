@@ -49,8 +49,9 @@ EpipolarShift unmoved(double promise, std::mt19937& random, bool one_way) {
   Eigen::Vector3d z(normal(random), normal(random), normal(random));
   if (one_way) z = {normal(random), 0, 0};  // all of the promise in the offset
   else z /= std::sqrt(3.0);
-  const Eigen::Vector3d field = Eigen::Matrix3d(c.llt().matrixL()) * Eigen::Vector3d(normal(random), normal(random), normal(random)) +
-                                rms * Eigen::Matrix3d(m.inverse().llt().matrixL()) * z;
+  const Eigen::Vector3d field =
+      Eigen::Matrix3d(c.llt().matrixL()) * Eigen::Vector3d(normal(random), normal(random), normal(random)) +
+      rms * Eigen::Matrix3d(m.inverse().llt().matrixL()) * z;
   return seen(field(0), field(1), field(2));
 }
 
@@ -60,7 +61,10 @@ TEST(Drift, AnUnmovedRigIsLeftInPeace) {
     for (const bool one_way : {false, true}) {
       int alarms = 0;
       for (int i = 0; i < 5000; ++i)
-        alarms += judge_drift(unmoved(promise, random, one_way), promising(promise)).verdict != DriftVerdict::Ok ? 1 : 0;
+        alarms +=
+            judge_drift(unmoved(promise, random, one_way), promising(promise)).verdict != DriftVerdict::Ok
+                ? 1
+                : 0;
       EXPECT_LE(alarms, 15) << promise << " px: 0.1 % of 5000, and a little chance";
     }
 }
@@ -68,11 +72,13 @@ TEST(Drift, AnUnmovedRigIsLeftInPeace) {
 TEST(Drift, AFifthOfAPixelIsNoticed) {
   std::mt19937 random(4);
   for (const double promise : {0.005, 0.01, 0.02})
-    for (const Eigen::Vector3d& way : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0.6, 0.8, 0)}) {
+    for (const Eigen::Vector3d& way :
+         {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0.6, 0.8, 0)}) {
       int missed = 0;
       for (int i = 0; i < 5000; ++i) {
         const EpipolarShift base = unmoved(promise, random, false);
-        const EpipolarShift moved = seen(base.offset_px + 0.2 * way(0), 100 * base.slope_x + 0.2 * way(1), 130 * base.slope_y);
+        const EpipolarShift moved =
+            seen(base.offset_px + 0.2 * way(0), 100 * base.slope_x + 0.2 * way(1), 130 * base.slope_y);
         missed += judge_drift(moved, promising(promise)).verdict == DriftVerdict::Warn ? 0 : 1;
       }
       EXPECT_LE(missed, 50) << promise << " px promised, " << way.transpose();
@@ -113,12 +119,18 @@ TEST(Drift, AFaceThatTellsNothingIsNoVerdict) {
 TEST(Drift, SeesItInPicturesOfABump) {
   for (const double rows : {0.0, 0.2, -0.2, 1.8}) {
     test::StageBench bench(std::size_t{32} << 20, std::size_t{128} << 20);
-    const RectifiedPair pair = test::BumpScene{.width_px = 240, .height_px = 200, .right_gain = 0.9, .seed = 5, .rows_px = rows}.render(&bench.output);
+    const RectifiedPair pair =
+        test::BumpScene{.width_px = 240, .height_px = 200, .right_gain = 0.9, .seed = 5, .rows_px = rows}
+            .render(&bench.output);
     const Keypoints keypoints = test::lattice(pair, 8, &bench.output);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    const auto matches = run_stage(
+        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     const DriftJudgement judgement = judge_drift(matches->epipolar_shift, promising(0.01));
-    EXPECT_EQ(judgement.verdict, rows == 0 ? DriftVerdict::Ok : rows > 1 ? DriftVerdict::Refuse : DriftVerdict::Warn) << rows;
+    EXPECT_EQ(judgement.verdict, rows == 0  ? DriftVerdict::Ok
+                                 : rows > 1 ? DriftVerdict::Refuse
+                                            : DriftVerdict::Warn)
+        << rows;
     EXPECT_NEAR(judgement.residual_px, std::abs(rows), 0.05) << rows;
   }
 }

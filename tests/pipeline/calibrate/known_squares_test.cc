@@ -60,12 +60,15 @@ TEST(KnownSquares, MeasureATurnThatEpipolarLinesDoNotShow) {
   const CalibrationQuality q = quality_of(boards);
   ASSERT_EQ(q.used, kViews) << "shaking that is usual";
   EXPECT_LT(q.held_out_epipolar_px, 0.15);
-  // The baseline as seen from a point straight ahead of the left camera, at right angles to the line of sight.
-  const double expected = std::sqrt(squares / kViews) * pipeline::kFaceMm * pipeline::kFaceMm / std::abs(rig.shift_mm[0]);
+  // The baseline as seen from a point straight ahead of the left camera, at right angles to the line of
+  // sight.
+  const double expected =
+      std::sqrt(squares / kViews) * pipeline::kFaceMm * pipeline::kFaceMm / std::abs(rig.shift_mm[0]);
   EXPECT_NEAR(q.measured_depth_mm, expected, 0.3 * expected);
   EXPECT_EQ(q.verdict, pipeline::CalibrationVerdict::Usable);
   bool said = false;
-  for (const Sentence& reason : q.reasons) said = said || reason.text().find("known size of their squares") != std::string::npos;
+  for (const Sentence& reason : q.reasons)
+    said = said || reason.text().find("known size of their squares") != std::string::npos;
   EXPECT_TRUE(said);
 }
 

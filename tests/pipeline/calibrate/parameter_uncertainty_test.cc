@@ -27,16 +27,20 @@ TEST(ParameterUncertainty, ErrorsAreAsLargeAsSaid) {
     const auto done = pipeline::calibrate(boards.input());
     ASSERT_TRUE(done) << seed;
     const auto& u = done->quality.uncertainty.parameters;
-    const std::array<const pipeline::CameraIntrinsics*, 2> cameras = {&done->calibration.left, &done->calibration.right};
+    const std::array<const pipeline::CameraIntrinsics*, 2> cameras = {&done->calibration.left,
+                                                                      &done->calibration.right};
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      const std::array<double, 4> errors = {cameras[eye]->focal_px.x - rig.focal[eye], cameras[eye]->focal_px.y - rig.focal[eye],
-                                            cameras[eye]->centre_px.x - rig.centre[eye][0], cameras[eye]->centre_px.y - rig.centre[eye][1]};
+      const std::array<double, 4> errors = {
+          cameras[eye]->focal_px.x - rig.focal[eye], cameras[eye]->focal_px.y - rig.focal[eye],
+          cameras[eye]->centre_px.x - rig.centre[eye][0], cameras[eye]->centre_px.y - rig.centre[eye][1]};
       for (std::size_t i = 0; i < 4; ++i) lens += std::pow(errors[i] / u.lens[eye][i], 2) / (8.0 * kRigs);
       for (std::size_t i = 4; i < 9; ++i) EXPECT_GT(u.lens[eye][i], 0);
     }
     const pipeline::Vec3d& t = done->calibration.right_from_left.translation_mm;
-    const std::array<double, 3> errors = {t.x - rig.shift_mm[0], t.y - rig.shift_mm[1], t.z - rig.shift_mm[2]};
-    for (std::size_t i = 0; i < 3; ++i) relation += std::pow(errors[i] / u.translation_mm[i], 2) / (3.0 * kRigs);
+    const std::array<double, 3> errors = {t.x - rig.shift_mm[0], t.y - rig.shift_mm[1],
+                                          t.z - rig.shift_mm[2]};
+    for (std::size_t i = 0; i < 3; ++i)
+      relation += std::pow(errors[i] / u.translation_mm[i], 2) / (3.0 * kRigs);
     const double truth = std::hypot(rig.shift_mm[0], rig.shift_mm[1], rig.shift_mm[2]);
     baseline += std::pow((done->quality.baseline_mm - truth) / u.baseline_mm, 2) / kRigs;
   }
@@ -63,7 +67,9 @@ TEST(ParameterUncertainty, TurnsAreInDegrees) {
     const auto& r = done->calibration.right_from_left.rotation.m;
     // About y, nearly all of this rig's turn.
     const double found = std::acos((r[0] + r[4] + r[8] - 1) / 2);
-    square += std::pow((found - angle) * 57.29577951308232 / done->quality.uncertainty.parameters.turn_deg[1], 2) / kSets;
+    square +=
+        std::pow((found - angle) * 57.29577951308232 / done->quality.uncertainty.parameters.turn_deg[1], 2) /
+        kSets;
   }
   EXPECT_NEAR(square, 1, 4 * std::sqrt(2.0 / kSets));
 }

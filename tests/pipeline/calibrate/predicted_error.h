@@ -20,8 +20,8 @@ namespace relievo::tests {
 struct Band {
   std::string name;
   int cases = 0;
-  int within_one = 0;   // one predicted standard deviation
-  int within_95 = 0;    // 1.96 of them
+  int within_one = 0;  // one predicted standard deviation
+  int within_95 = 0;   // 1.96 of them
   void count(double error, double sigma) {
     ++cases;
     within_one += std::abs(error) <= sigma ? 1 : 0;
@@ -64,33 +64,42 @@ class PredictedError {
     return rig;
   }
 
-  static Eigen::Vector3d measured(const SimulatedRig& truth, const pipeline::bundle::Problem& rig, const Point& p) {
+  static Eigen::Vector3d measured(const SimulatedRig& truth, const pipeline::bundle::Problem& rig,
+                                  const Point& p) {
     Point q = turned(truth.turn, p);
     for (std::size_t c = 0; c < 3; ++c) q[c] += truth.shift_mm[c];
     return pipeline::point_of(rig, seen_by(truth, 0, p), seen_by(truth, 1, q));
   }
 
-  void measure(const SimulatedRig& truth, const pipeline::bundle::Problem& rig, const pipeline::CalibrationQuality& q) {
+  void measure(const SimulatedRig& truth, const pipeline::bundle::Problem& rig,
+               const pipeline::CalibrationQuality& q) {
     for (const auto& depth : q.uncertainty.depth) {
-      Band* band = depth.distance_mm == 400 ? &near : depth.distance_mm == 550 ? &face : depth.distance_mm == 750 ? &far : nullptr;
+      Band* band = depth.distance_mm == 400   ? &near
+                   : depth.distance_mm == 550 ? &face
+                   : depth.distance_mm == 750 ? &far
+                                              : nullptr;
       for (int i = 0; band != nullptr && i < 9; ++i)
-        band->count(measured(truth, rig, {(i % 3 - 1) * 80.0, (i / 3 - 1) * 80.0, depth.distance_mm}).z() - depth.distance_mm,
+        band->count(measured(truth, rig, {(i % 3 - 1) * 80.0, (i / 3 - 1) * 80.0, depth.distance_mm}).z() -
+                        depth.distance_mm,
                     depth.sigma_mm);
     }
     pipeline::Cloud found(3, 27);
     pipeline::Cloud known(3, 27);
     for (int i = 0; i < 27; ++i) {
-      const Point p = {(i % 3 - 1) * 80.0, (i / 3 % 3 - 1) * 80.0, q.working_distance_mm + (i / 9 - 1) * 80.0};
+      const Point p = {(i % 3 - 1) * 80.0, (i / 3 % 3 - 1) * 80.0,
+                       q.working_distance_mm + (i / 9 - 1) * 80.0};
       found.col(i) = measured(truth, rig, p);
       known.col(i) << p[0], p[1], p[2];
     }
     scale.count(100 * (pipeline::scale_between(known, found) - 1), q.uncertainty.scale_percent);
-    for (int eye = 0; eye < 2; ++eye) judge_projection(truth, rig, eye, q.uncertainty.projection[static_cast<std::size_t>(eye)]);
+    for (int eye = 0; eye < 2; ++eye)
+      judge_projection(truth, rig, eye, q.uncertainty.projection[static_cast<std::size_t>(eye)]);
   }
 
   // The true picture of the rays that the estimate gives the map's pixels, a small turn set aside by
   // least squares over the whole map, as the map itself does.
-  void judge_projection(const SimulatedRig& truth, const pipeline::bundle::Problem& rig, int eye, const pipeline::ProjectionMap& map) {
+  void judge_projection(const SimulatedRig& truth, const pipeline::bundle::Problem& rig, int eye,
+                        const pipeline::ProjectionMap& map) {
     const pipeline::CameraIntrinsics& camera = rig.camera[static_cast<std::size_t>(eye)];
     const auto cells = static_cast<Eigen::Index>(map.sigma_px.size());
     Eigen::VectorXd off(2 * cells);
@@ -99,7 +108,8 @@ class PredictedError {
     for (Eigen::Index i = 0; i < cells; ++i) {
       const auto column = static_cast<double>(i % map.columns);
       const auto row = static_cast<double>(i / map.columns);
-      const pipeline::Vec2d pixel{(column + 0.5) * camera.width_px / map.columns - 0.5, (row + 0.5) * camera.height_px / map.rows - 0.5};
+      const pipeline::Vec2d pixel{(column + 0.5) * camera.width_px / map.columns - 0.5,
+                                  (row + 0.5) * camera.height_px / map.rows - 0.5};
       const Eigen::Vector3d ray = pipeline::ray_of(camera, pixel);
       const pipeline::Vec2d at = seen_by(truth, eye, {ray.x(), ray.y(), ray.z()});
       off.segment<2>(2 * i) << at.x - pixel.x, at.y - pixel.y;
@@ -112,7 +122,8 @@ class PredictedError {
     }
     const Eigen::Matrix3d normal = by_turn.transpose() * by_turn;
     off -= by_turn * normal.ldlt().solve(by_turn.transpose() * off);
-    for (Eigen::Index i = 0; i < 2 * cells; ++i) projection.count(off[i], map.sigma_px[static_cast<std::size_t>(i / 2)]);
+    for (Eigen::Index i = 0; i < 2 * cells; ++i)
+      projection.count(off[i], map.sigma_px[static_cast<std::size_t>(i / 2)]);
   }
 };
 

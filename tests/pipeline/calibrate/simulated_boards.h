@@ -115,8 +115,10 @@ class BoardSimulator {
  private:
   // Tilted up to 35 degrees, somewhere in the common field at 400 to 560 mm. False when a corner is out.
   bool photograph(const Slip& slip, pipeline::BoardView& view) {
-    const Point turn = {variety * uniform(-0.6, 0.6), variety * uniform(-0.6, 0.6), variety * uniform(-0.5, 0.5)};
-    const Point middle = {variety * uniform(-60, 60), variety * uniform(-65, 65), 480 + variety * uniform(-80, 80)};
+    const Point turn = {variety * uniform(-0.6, 0.6), variety * uniform(-0.6, 0.6),
+                        variety * uniform(-0.5, 0.5)};
+    const Point middle = {variety * uniform(-60, 60), variety * uniform(-65, 65),
+                          480 + variety * uniform(-80, 80)};
     view.left.clear();
     view.right.clear();
     bool whole = true;

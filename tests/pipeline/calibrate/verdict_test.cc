@@ -36,7 +36,8 @@ TEST(Verdict, AGoodSetPassesAndNothingIsSaidAgainstIt) {
     EXPECT_TRUE(q.holds_still);
     EXPECT_FALSE(q.board_bent) << q.board_sag_mm;
     EXPECT_EQ(q.moved_after, -1);
-    for (const char* words : {"bent", "alike", "hold", "moved", "known to be", "agree with each other", "few"})
+    for (const char* words :
+         {"bent", "alike", "hold", "moved", "known to be", "agree with each other", "few"})
       EXPECT_FALSE(says(q, words)) << words << " seed " << seed;
   }
 }

@@ -46,7 +46,9 @@ double share_with(const Depth& beside, double tip_x = 240) {
 
 // From `near` to `far` aside of the tip, to the picture's right where positive.
 Depth plate(double near_mm, double far_mm, double z) {
-  return [=](double right, double down) { return right > near_mm && right < far_mm && std::abs(down + 30) < 60 ? z : 0; };
+  return [=](double right, double down) {
+    return right > near_mm && right < far_mm && std::abs(down + 30) < 60 ? z : 0;
+  };
 }
 
 TEST(BesideHead, AHeadAloneHasNothingBesideIt) { EXPECT_EQ(share_with({}), 0); }
@@ -54,7 +56,7 @@ TEST(BesideHead, AHeadAloneHasNothingBesideIt) { EXPECT_EQ(share_with({}), 0); }
 TEST(BesideHead, WhatStandsLevelWithTheFaceIsMeasuredOnEitherSide) {
   EXPECT_GT(share_with(plate(90, 190, kFaceMm + 60)), 0.8);
   EXPECT_GT(share_with(plate(-190, -90, kFaceMm - 60)), 0.8);
-  const double half = share_with(plate(90, 130, kFaceMm + 60));   // to 144 mm aside where it stands
+  const double half = share_with(plate(90, 130, kFaceMm + 60));  // to 144 mm aside where it stands
   EXPECT_GT(half, 0.3);
   EXPECT_LT(half, 0.7);
 }
@@ -67,17 +69,25 @@ TEST(BesideHead, WhatLiesBehindTheHeadOrFarBeforeItDoesNoHarm) {
 
 // Hair goes on from the head without a step, however wide.
 TEST(BesideHead, TheHeadsOwnHairIsNotBesideIt) {
-  EXPECT_EQ(share_with([](double right, double down) { return down < -20 && std::abs(right) < 190 ? kFaceMm + 60 : 0; }), 0);
+  EXPECT_EQ(share_with([](double right, double down) {
+              return down < -20 && std::abs(right) < 190 ? kFaceMm + 60 : 0;
+            }),
+            0);
 }
 
 // A bag held against the ear goes on from the head as well, but no hair fills the field.
 TEST(BesideHead, WhatTouchesTheHeadIsBesideItWhereNoHairWouldBe) {
-  EXPECT_GT(share_with([](double right, double down) { return right > 60 && right < 200 && std::abs(down + 30) < 85 ? kFaceMm + 60 : 0; }), GateLimits{}.beside_share);
+  EXPECT_GT(share_with([](double right, double down) {
+              return right > 60 && right < 200 && std::abs(down + 30) < 85 ? kFaceMm + 60 : 0;
+            }),
+            GateLimits{}.beside_share);
 }
 
 // Of a field out of the picture nothing can be said; the other one speaks.
 TEST(BesideHead, AFieldOutOfThePictureIsLeftOut) {
-  const Depth everywhere = [](double right, double down) { return std::abs(right) > 90 && std::abs(down + 30) < 60 ? kFaceMm + 60 : 0; };
+  const Depth everywhere = [](double right, double down) {
+    return std::abs(right) > 90 && std::abs(down + 30) < 60 ? kFaceMm + 60 : 0;
+  };
   EXPECT_GT(share_with(everywhere, 80), 0.8);
   EXPECT_EQ(share_with(plate(-190, -90, kFaceMm + 60), 80), 0);
 }

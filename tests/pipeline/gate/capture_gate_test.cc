@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gate/capture_gate.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "hal/sim/head/shape/head_field.h"
 #include "tests/support/gate_bench.h"
@@ -47,10 +47,11 @@ struct Step {
   Advice expected;  // after the last of them
   test::Extra extra = test::Extra::None;
   test::Guise guise = {};
-  Advice reason = Advice::None;   // of the last picture, where what is said has not followed yet
+  Advice reason = Advice::None;  // of the last picture, where what is said has not followed yet
 };
 
-// Glasses in which, at `pose` with the head inclined a little, a lamp is mirrored before an eye (or before none), by the geometry of lens and lamp.
+// Glasses in which, at `pose` with the head inclined a little, a lamp is mirrored before an eye (or before
+// none), by the geometry of lens and lamp.
 struct Worn {
   hal::sim::HeadPose pose;
   test::Guise guise;
@@ -72,8 +73,9 @@ Worn glasses(bool mirror) {
   return worn;
 }
 
-// A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, the lens fogs, a hand hides the face, a
-// friend looks in, they blink, close their eyes, put on glasses, and they leave and come back.
+// A visitor walks up, comes too near, stands right, looks aside, the lamps fail and return, one fails, the
+// lens fogs, a hand hides the face, a friend looks in, they blink, close their eyes, put on glasses, and they
+// leave and come back.
 TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
   const hal::sim::HeadPose right = standing(560);
   const Worn mirroring = glasses(true), clear = glasses(false);
@@ -98,10 +100,21 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
       {"looks again", right, {}, 4, Advice::None},
       {"closes the eyes", right, {}, 3, Advice::EyesClosed, {}, closed},
       {"opens them", right, {}, 4, Advice::None},
-      {"puts on glasses, which mirror a lamp", mirroring.pose, {}, 3, Advice::GlassesGlare, {}, mirroring.guise},
+      {"puts on glasses, which mirror a lamp",
+       mirroring.pose,
+       {},
+       3,
+       Advice::GlassesGlare,
+       {},
+       mirroring.guise},
       {"wears them so that they mirror none", clear.pose, {}, 4, Advice::None, {}, clear.guise},
       {"takes them off", right, {}, 4, Advice::None},
-      {"a bag held up beside the head", standing(560, -30), {}, 3, Advice::Background, test::Extra::BagBeside},
+      {"a bag held up beside the head",
+       standing(560, -30),
+       {},
+       3,
+       Advice::Background,
+       test::Extra::BagBeside},
       {"it is gone", right, {}, 4, Advice::None},
       {"steps out", nobody(), {}, 2, Advice::NoFace},
       {"comes back", right, {}, 4, Advice::None},
@@ -118,17 +131,25 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
         EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
       }
     }
-    EXPECT_EQ(answer.advice, step.expected) << step.event << ": yaw " << answer.measures.head.yaw_deg << " pitch " << answer.measures.head.pitch_deg << " light "
-                                            << answer.measures.light.luminance_mean << " sides " << answer.measures.light.side_ratio << " blur " << answer.measures.blur_mm
-                                            << " eyes " << answer.measures.eyes[0].contrast << " " << answer.measures.eyes[1].contrast << " glare " << answer.measures.eyes[0].glare_mm2 << " "
-                                            << answer.measures.eyes[1].glare_mm2 << " beside " << answer.measures.beside_share << " speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
-    if (step.reason != Advice::None) { EXPECT_EQ(answer.reason, step.reason) << step.event; }
+    EXPECT_EQ(answer.advice, step.expected)
+        << step.event << ": yaw " << answer.measures.head.yaw_deg << " pitch "
+        << answer.measures.head.pitch_deg << " light " << answer.measures.light.luminance_mean << " sides "
+        << answer.measures.light.side_ratio << " blur " << answer.measures.blur_mm << " eyes "
+        << answer.measures.eyes[0].contrast << " " << answer.measures.eyes[1].contrast << " glare "
+        << answer.measures.eyes[0].glare_mm2 << " " << answer.measures.eyes[1].glare_mm2 << " beside "
+        << answer.measures.beside_share << " speed " << answer.measures.speed_mm_s << " turn "
+        << answer.measures.turn_deg_s;
+    if (step.reason != Advice::None) {
+      EXPECT_EQ(answer.reason, step.reason) << step.event;
+    }
     EXPECT_EQ(answer.steady > GateTime{0}, answer.reason == Advice::None) << step.event;
-    EXPECT_EQ(answer.reason == Advice::None, step.expected == Advice::None && step.reason == Advice::None) << step.event;
+    EXPECT_EQ(answer.reason == Advice::None, step.expected == Advice::None && step.reason == Advice::None)
+        << step.event;
   }
 }
 
-// Of a face turned far one camera does not see the other cheek: that it is turned, and which way, is all that is asked.
+// Of a face turned far one camera does not see the other cheek: that it is turned, and which way, is all that
+// is asked.
 TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
   for (const double distance_mm : {400.0, 560.0}) {
     Rig rig;
@@ -165,7 +186,8 @@ TEST(CaptureGate, FastPicturesDoNotMakeARestingHeadHurry) {
   rig.every = std::chrono::milliseconds(5);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(560)), {.noise_seed = seed});
-    EXPECT_EQ(answer.reason, Advice::None) << "picture " << seed << ": speed " << answer.measures.speed_mm_s << " turn " << answer.measures.turn_deg_s;
+    EXPECT_EQ(answer.reason, Advice::None) << "picture " << seed << ": speed " << answer.measures.speed_mm_s
+                                           << " turn " << answer.measures.turn_deg_s;
   }
 }
 
@@ -173,7 +195,9 @@ TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
   Rig rig;
   rig.every = std::chrono::milliseconds(10);
   GateAnswer answer;
-  for (int i = 0; i < 12; ++i) answer = rig.look(shared_album().shoot(kPerson, standing(560, -12 + 2.0 * i)), {.noise_seed = static_cast<std::uint64_t>(i + 1)});
+  for (int i = 0; i < 12; ++i)
+    answer = rig.look(shared_album().shoot(kPerson, standing(560, -12 + 2.0 * i)),
+                      {.noise_seed = static_cast<std::uint64_t>(i + 1)});
   EXPECT_EQ(answer.advice, Advice::Moved);
   EXPECT_NEAR(answer.measures.speed_mm_s, 200, 60) << "a cascade's box moves in steps";
 }

@@ -26,7 +26,8 @@ double wave(double at, double deviation_px) {
   double sum = 0;
   for (int k = -2; k <= 2; ++k) {
     const double edge = (std::floor(at / kStripePx) + k) * kStripePx;
-    sum += (std::lround(edge / kStripePx) % 2 == 0 ? 1 : -1) * std::erf((at - edge) / (deviation_px * std::sqrt(2)));
+    sum += (std::lround(edge / kStripePx) % 2 == 0 ? 1 : -1) *
+           std::erf((at - edge) / (deviation_px * std::sqrt(2)));
   }
   return sum;  // -1 .. 1
 }
@@ -36,8 +37,11 @@ std::vector<std::uint8_t> picture(const Look& look, std::uint64_t seed) {
   std::vector<std::uint8_t> pixels(std::size_t{kWidth} * kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      pixels[static_cast<std::size_t>(y * kWidth + x)] =
-          static_cast<std::uint8_t>(std::lround(120 + 0.5 * look.contrast * (y < kHeight / 2 ? wave(x + 0.5, look.across_px) : wave(y + 0.5, look.down_px)) + look.noise * random.normal()));
+      pixels[static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(
+          std::lround(120 +
+                      0.5 * look.contrast *
+                          (y < kHeight / 2 ? wave(x + 0.5, look.across_px) : wave(y + 0.5, look.down_px)) +
+                      look.noise * random.normal()));
   return pixels;
 }
 
@@ -47,7 +51,10 @@ double blur_mm(const Look& left, const Look& right) {
   calibration.left = calibration.right = camera;
   calibration.right_from_left.translation_mm = {-60, 0, 0};
   const std::vector<std::uint8_t> a = picture(left, 1), b = picture(right, 2);
-  const auto view = [](const std::vector<std::uint8_t>& p) { return ImageView{reinterpret_cast<const std::byte*>(p.data()), kWidth, kHeight, kWidth, PixelFormat::Grey8}; };
+  const auto view = [](const std::vector<std::uint8_t>& p) {
+    return ImageView{reinterpret_cast<const std::byte*>(p.data()), kWidth, kHeight, kWidth,
+                     PixelFormat::Grey8};
+  };
   Workspace work(1, std::size_t{1} << 20, std::size_t{16} << 20);
   Relief relief(&work.output);
   HeadSight head;
@@ -59,7 +66,8 @@ double blur_mm(const Look& left, const Look& right) {
 double blur_mm(const Look& look) { return blur_mm(look, look); }
 
 TEST(EdgeBlur, MeasuresTheBlurInMillimetres) {
-  for (const double px : {1.0, 1.5, 2.0, 3.0}) EXPECT_NEAR(blur_mm({px, px}), px * kPixelMm, 0.15 * px * kPixelMm + 0.05) << px;
+  for (const double px : {1.0, 1.5, 2.0, 3.0})
+    EXPECT_NEAR(blur_mm({px, px}), px * kPixelMm, 0.15 * px * kPixelMm + 0.05) << px;
   EXPECT_LT(blur_mm({0.5, 0.5}), 0.6);
 }
 

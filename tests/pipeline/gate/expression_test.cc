@@ -21,12 +21,15 @@ using hal::sim::Expression;
 using test::Guise;
 using test::standing;
 
-constexpr std::uint32_t kPerson = 8;   // not one of those the limits were set with
+constexpr std::uint32_t kPerson = 8;  // not one of those the limits were set with
 
 std::string figures(const GateMeasures& m) {
   char text[240];
-  std::snprintf(text, sizeof text, "eyes: contrast %.2f %.2f, brightness %.2f %.2f, glare %.0f %.0f mm2; mouth: dark %.0f mm2, steps %.1f, before %.1f, rise %.1f mm", m.eyes[0].contrast,
-                m.eyes[1].contrast, m.eyes[0].brightness, m.eyes[1].brightness, m.eyes[0].glare_mm2, m.eyes[1].glare_mm2, m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm, m.mouth.rise_mm);
+  std::snprintf(
+      text, sizeof text,
+      "eyes: contrast %.2f %.2f, brightness %.2f %.2f, glare %.0f %.0f mm2; mouth: dark %.0f mm2, steps %.1f, before %.1f, rise %.1f mm",
+      m.eyes[0].contrast, m.eyes[1].contrast, m.eyes[0].brightness, m.eyes[1].brightness, m.eyes[0].glare_mm2,
+      m.eyes[1].glare_mm2, m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm, m.mouth.rise_mm);
   return text;
 }
 
@@ -43,12 +46,20 @@ TEST(GateExpression, TellsEyesMouthAndGlassesApart) {
   test::GateBench gate;
   hal::sim::Glasses dark;
   dark.passes = 0.12;
-  for (const Case& c : {Case{"at rest", {}, Advice::None}, Case{"dark glasses", {{}, true, dark}, Advice::EyesHidden}, Case{"eyes closed, a grin", {{0, 7, 1, 0}, false, {}}, Advice::EyesClosed}}) {
-    const GateMeasures m = gate.first_look(album, album.shoot(kPerson, standing(560), test::Extra::None, c.guise)).answer.measures;
+  for (const Case& c :
+       {Case{"at rest", {}, Advice::None}, Case{"dark glasses", {{}, true, dark}, Advice::EyesHidden},
+        Case{"eyes closed, a grin", {{0, 7, 1, 0}, false, {}}, Advice::EyesClosed}}) {
+    const GateMeasures m =
+        gate.first_look(album, album.shoot(kPerson, standing(560), test::Extra::None, c.guise))
+            .answer.measures;
     ASSERT_TRUE(m.head.known) << c.what;
     EXPECT_EQ(judge_expression(m, {}, Advice::None), c.expected) << c.what << ": " << figures(m);
-    if (c.expected == Advice::EyesClosed) { EXPECT_GT(m.mouth.steps_mm, GateLimits{}.steps_mm); }
-    if (c.expected == Advice::None) { EXPECT_GT(std::min(m.eyes[0].aperture_mm, m.eyes[1].aperture_mm), 4); }
+    if (c.expected == Advice::EyesClosed) {
+      EXPECT_GT(m.mouth.steps_mm, GateLimits{}.steps_mm);
+    }
+    if (c.expected == Advice::None) {
+      EXPECT_GT(std::min(m.eyes[0].aperture_mm, m.eyes[1].aperture_mm), 4);
+    }
   }
 }
 
@@ -58,7 +69,8 @@ std::optional<StereoCalibration> calibration_of(const fs::path& boards) {
   for (int i = 0; i < 8; ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "%02d.jpg", i);
-    const auto left = hal::read_picture(boards / ("left_" + std::string(name))), right = hal::read_picture(boards / ("right_" + std::string(name)));
+    const auto left = hal::read_picture(boards / ("left_" + std::string(name))),
+               right = hal::read_picture(boards / ("right_" + std::string(name)));
     if (!left || !right) return std::nullopt;
     auto a = find_board(left->view(), input.pattern), b = find_board(right->view(), input.pattern);
     if (!a || !b) continue;
@@ -71,14 +83,16 @@ std::optional<StereoCalibration> calibration_of(const fs::path& boards) {
   return found->calibration;
 }
 
-// Five photographs of one person: 1 grins, 2 and 3 show the tongue, 4 and 5 press the lips. No limit was set with them.
+// Five photographs of one person: 1 grins, 2 and 3 show the tongue, 4 and 5 press the lips. No limit was set
+// with them.
 TEST(GateExpression, RealFaces) {
   RELIEVO_MANY_TRIALS();
   const char* data = std::getenv("RELIEVO_TEST_DATA");
-  if (data == nullptr || !fs::exists(fs::path(data) / "real_faces/face_1")) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the real faces";
+  if (data == nullptr || !fs::exists(fs::path(data) / "real_faces/face_1"))
+    GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the real faces";
   const auto calibration = calibration_of(fs::path(data) / "real_faces/calibration");
   ASSERT_TRUE(calibration);
-  test::GateBench gate(2);   // pictures of 1024 x 1024: the small ones are about as large as a rig's
+  test::GateBench gate(2);  // pictures of 1024 x 1024: the small ones are about as large as a rig's
   for (int i = 1; i <= 5; ++i) {
     const fs::path face = fs::path(data) / "real_faces" / ("face_" + std::to_string(i));
     const auto left = hal::read_picture(face / "left.jpg"), right = hal::read_picture(face / "right.jpg");
@@ -87,7 +101,8 @@ TEST(GateExpression, RealFaces) {
     ASSERT_TRUE(m.head.known) << i;
     const Advice said = judge_expression(m, {}, Advice::None);
     if (i <= 3) {
-      EXPECT_TRUE(said == Advice::MouthOpen || said == Advice::NotNeutral) << i << ": " << static_cast<int>(said) << "; " << figures(m);
+      EXPECT_TRUE(said == Advice::MouthOpen || said == Advice::NotNeutral)
+          << i << ": " << static_cast<int>(said) << "; " << figures(m);
     } else {
       EXPECT_EQ(said, Advice::None) << i << ": " << figures(m);
     }
@@ -95,9 +110,11 @@ TEST(GateExpression, RealFaces) {
   // Boards in a hand: no face, no capture.
   for (int i = 0; i < 3; ++i) {
     const fs::path boards = fs::path(data) / "real_faces/calibration";
-    const auto left = hal::read_picture(boards / ("left_0" + std::to_string(i) + ".jpg")), right = hal::read_picture(boards / ("right_0" + std::to_string(i) + ".jpg"));
+    const auto left = hal::read_picture(boards / ("left_0" + std::to_string(i) + ".jpg")),
+               right = hal::read_picture(boards / ("right_0" + std::to_string(i) + ".jpg"));
     ASSERT_TRUE(left && right);
-    EXPECT_NE(gate.first_look({left->view(), right->view()}, *calibration).answer.reason, Advice::None) << "board " << i;
+    EXPECT_NE(gate.first_look({left->view(), right->view()}, *calibration).answer.reason, Advice::None)
+        << "board " << i;
   }
 }
 

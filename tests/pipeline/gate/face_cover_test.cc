@@ -21,7 +21,8 @@ const HeadHint kHint{{150, 140}, 150 / kPixelMm};
 // Depth at millimetres right and down of the middle of the face; 0: nothing known. `before` stands before it.
 using Depth = std::function<double(double right, double down)>;
 
-// A face as an egg of 70 x 95 mm that falls back by 60 mm to its rim, on a neck 65 mm behind its chin, before a room without depth.
+// A face as an egg of 70 x 95 mm that falls back by 60 mm to its rim, on a neck 65 mm behind its chin, before
+// a room without depth.
 double face(double right, double down) {
   const double a = right / 70, b = down / (down < 0 ? 100 : 78), rim = a * a + b * b;
   if (rim < 1) return kFaceMm + 60 * rim * rim;
@@ -53,7 +54,9 @@ double share_with(const Depth& before) {
 }
 
 Depth plate(double right, double down, double width, double height, double nearer_mm) {
-  return [=](double x, double y) { return std::abs(x - right) < width / 2 && std::abs(y - down) < height / 2 ? kFaceMm - nearer_mm : 0; };
+  return [=](double x, double y) {
+    return std::abs(x - right) < width / 2 && std::abs(y - down) < height / 2 ? kFaceMm - nearer_mm : 0;
+  };
 }
 
 TEST(FaceCover, AFaceAloneHidesNothing) { EXPECT_EQ(share_with({}), 0); }
@@ -66,7 +69,9 @@ TEST(FaceCover, SeesWhatStandsBeforeAFace) {
 }
 
 TEST(FaceCover, LeavesAloneWhatDoesNotCover) {
-  const Depth fringe = [](double x, double y) { return std::abs(x) < 50 && std::abs(y + 55) < 25 ? face(x, y) - 7 : 0; };
+  const Depth fringe = [](double x, double y) {
+    return std::abs(x) < 50 && std::abs(y + 55) < 25 ? face(x, y) - 7 : 0;
+  };
   EXPECT_EQ(share_with(fringe), 0) << "a fringe, glasses";
   EXPECT_EQ(share_with(plate(0, 30, 14, 14, 40)), 0) << "a finger's tip";
   EXPECT_EQ(share_with(plate(140, 60, 60, 60, 100)), 0) << "a hand that waves beside the face";

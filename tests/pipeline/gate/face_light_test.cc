@@ -8,12 +8,14 @@
 namespace relievo::pipeline {
 namespace {
 
-// The cheek that turns away from rig and lamps is darker, however even the light; one lamp is told on the same head.
+// The cheek that turns away from rig and lamps is darker, however even the light; one lamp is told on the
+// same head.
 TEST(FaceLight, ATurnedCheekIsNoUnevenLight) {
   RELIEVO_MANY_TRIALS();
   test::Album& album = test::shared_album();
   test::GateBench gate;
-  const test::Shot& turned = album.shoot(32, {13.4, 0.8, 0.1, 514, 21, -14});   // by 8 degrees, from the rig's middle
+  const test::Shot& turned =
+      album.shoot(32, {13.4, 0.8, 0.1, 514, 21, -14});  // by 8 degrees, from the rig's middle
   for (const double one_sided : {1.0, 0.05, 0.0}) {
     test::Developing how;
     how.one_sided = one_sided;

@@ -38,10 +38,13 @@ const std::vector<Row>& rows() {
       {"a friend looks in", Advice::MoreThanOneFace, [](GateMeasures& m) { m.faces = 2; }},
       {"too near", Advice::TooClose, [](GateMeasures& m) { m.head.tip_mm.z = l.nearest_mm - 1; }},
       {"too far", Advice::TooFar, [](GateMeasures& m) { m.head.tip_mm.z = l.farthest_mm + 1; }},
-      {"no light at all", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.9 * l.lost_dark_mean; }},
-      {"nothing but light", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.lost_bright_share + 0.01; }},
+      {"no light at all", Advice::TooDark,
+       [](GateMeasures& m) { m.light.luminance_mean = 0.9 * l.lost_dark_mean; }},
+      {"nothing but light", Advice::TooBright,
+       [](GateMeasures& m) { m.light.bright_share = l.lost_bright_share + 0.01; }},
       {"fog on the lens", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.lost_blur_mm + 0.1; }},
-      {"a hand before the face", Advice::FaceHidden, [](GateMeasures& m) { m.covered_share = l.covered_share + 0.01; }},
+      {"a hand before the face", Advice::FaceHidden,
+       [](GateMeasures& m) { m.covered_share = l.covered_share + 0.01; }},
       {"to the left", Advice::OffCentre, [](GateMeasures& m) { m.off_right_mm = -l.off_right_mm - 1; }},
       {"too low", Advice::OffCentre, [](GateMeasures& m) { m.off_down_mm = l.off_down_mm + 1; }},
       {"something flat before it", Advice::FaceHidden, [](GateMeasures& m) { m.head.relief_mm = 2; }},
@@ -51,23 +54,32 @@ const std::vector<Row>& rows() {
       {"moving", Advice::Moved, [](GateMeasures& m) { m.speed_mm_s = l.speed_mm_s + 1; }},
       {"turning", Advice::Moved, [](GateMeasures& m) { m.turn_deg_s = l.turn_deg_s + 1; }},
       {"dark", Advice::TooDark, [](GateMeasures& m) { m.light.luminance_mean = 0.9 * l.darkest_mean; }},
-      {"half of it black", Advice::TooDark, [](GateMeasures& m) { m.light.dark_share = l.dark_share + 0.01; }},
-      {"bright", Advice::TooBright, [](GateMeasures& m) { m.light.luminance_mean = l.brightest_mean + 0.01; }},
+      {"half of it black", Advice::TooDark,
+       [](GateMeasures& m) { m.light.dark_share = l.dark_share + 0.01; }},
+      {"bright", Advice::TooBright,
+       [](GateMeasures& m) { m.light.luminance_mean = l.brightest_mean + 0.01; }},
       {"burnt out", Advice::TooBright, [](GateMeasures& m) { m.light.bright_share = l.bright_share + 0.01; }},
       {"one lamp", Advice::UnevenLight, [](GateMeasures& m) { m.light.side_ratio = l.side_ratio - 0.01; }},
       {"oily", Advice::Highlights, [](GateMeasures& m) { m.light.glossy_share = l.glossy_share + 0.01; }},
       {"out of focus", Advice::Blurred, [](GateMeasures& m) { m.blur_mm = l.blur_mm + 0.05; }},
-      {"a hand", Advice::FaceHidden, [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
-      {"hair over one side", Advice::FaceHidden, [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
-      {"dark glasses", Advice::EyesHidden, [](GateMeasures& m) { m.eyes[0].brightness = l.eye_brightness - 0.01; }},
-      {"eyes closed", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[0].contrast = m.eyes[1].contrast = l.iris_contrast - 0.01; }},
-      {"a wink", Advice::EyesClosed, [](GateMeasures& m) { m.eyes[0].contrast = 0.3, m.eyes[1].contrast = 0.3 * l.one_eye_share - 0.01; }},
-      {"a lamp in the glasses", Advice::GlassesGlare, [](GateMeasures& m) { m.eyes[0].glare_mm2 = l.glare_mm2 + 1; }},
+      {"a hand", Advice::FaceHidden,
+       [](GateMeasures& m) { m.head.in_front_share = l.in_front_share + 0.01; }},
+      {"hair over one side", Advice::FaceHidden,
+       [](GateMeasures& m) { m.head.asymmetry_mm = l.asymmetry_mm + 0.1; }},
+      {"dark glasses", Advice::EyesHidden,
+       [](GateMeasures& m) { m.eyes[0].brightness = l.eye_brightness - 0.01; }},
+      {"eyes closed", Advice::EyesClosed,
+       [](GateMeasures& m) { m.eyes[0].contrast = m.eyes[1].contrast = l.iris_contrast - 0.01; }},
+      {"a wink", Advice::EyesClosed,
+       [](GateMeasures& m) { m.eyes[0].contrast = 0.3, m.eyes[1].contrast = 0.3 * l.one_eye_share - 0.01; }},
+      {"a lamp in the glasses", Advice::GlassesGlare,
+       [](GateMeasures& m) { m.eyes[0].glare_mm2 = l.glare_mm2 + 1; }},
       {"parted lips", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.dark_mm2 = l.dark_mm2 + 1; }},
       {"teeth", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.steps_mm = l.steps_mm + 0.1; }},
       {"the tongue", Advice::MouthOpen, [](GateMeasures& m) { m.mouth.before_mm = l.before_mm + 0.1; }},
       {"a smile", Advice::NotNeutral, [](GateMeasures& m) { m.mouth.rise_mm = l.rise_mm + 0.1; }},
-      {"a bag beside the head", Advice::Background, [](GateMeasures& m) { m.beside_share = l.beside_share + 0.01; }},
+      {"a bag beside the head", Advice::Background,
+       [](GateMeasures& m) { m.beside_share = l.beside_share + 0.01; }},
       {"no cascade sees it", Advice::NoFace, [](GateMeasures& m) { m.tracked = true; }},
   };
   return table;
@@ -92,8 +104,10 @@ TEST(Judgement, OfTwoFaultsTheEarlierOneIsSaid) {
       rows()[j].spoil(m);
       if (rows()[i].expected == Advice::TooClose && rows()[j].expected == Advice::TooFar) continue;
       if (rows()[i].expected == Advice::TooDark && rows()[j].expected == Advice::TooBright) continue;
-      if (rows()[i].expected == Advice::EyesClosed && rows()[j].expected == Advice::GlassesGlare) continue;  // what shines hides the lids
-      EXPECT_EQ(judge(m, {}, Advice::None), rows()[i].expected) << rows()[i].what << " and " << rows()[j].what;
+      if (rows()[i].expected == Advice::EyesClosed && rows()[j].expected == Advice::GlassesGlare)
+        continue;  // what shines hides the lids
+      EXPECT_EQ(judge(m, {}, Advice::None), rows()[i].expected)
+          << rows()[i].what << " and " << rows()[j].what;
     }
 }
 
@@ -113,7 +127,7 @@ TEST(Judgement, AnEyeInTheShadeIsNoWink) {
   m.eyes[1].contrast = l.iris_contrast - 0.01;
   ASSERT_GT(m.eyes[1].contrast, l.one_eye_share * m.eyes[0].contrast);
   EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::None);
-  m.eyes[0].known = false;   // alone it must be seen well
+  m.eyes[0].known = false;  // alone it must be seen well
   EXPECT_EQ(judge_expression(m, l, Advice::None), Advice::EyesClosed);
 }
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gate/relief/live_relief.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 
 #include <vector>
 
@@ -30,7 +30,9 @@ class Plates final : public sim::Scene {
     const sim::Sight a = near_.look(o, d);
     return a.body >= 0 ? a : far_.look(o, d);
   }
-  bool solid(sim::Vec3 o, sim::Vec3 d, sim::SolidPoint& out) const override { return near_.solid(o, d, out) || far_.solid(o, d, out); }
+  bool solid(sim::Vec3 o, sim::Vec3 d, sim::SolidPoint& out) const override {
+    return near_.solid(o, d, out) || far_.solid(o, d, out);
+  }
   bool blocked(sim::Vec3, sim::Vec3, double) const override { return false; }
   sim::Mesh solid_mesh() const override { return far_.solid_mesh(); }
 
@@ -67,7 +69,8 @@ LiveReliefOptions small() {
 
 Result<Relief> look(Workspace& work, const LiveReliefOptions& options = small()) {
   const Photographed& p = photographed();
-  return run_stage(work.context, [&](StageContext& c) { return LiveRelief(options).look(p.frame(), p.calibration, c); });
+  return run_stage(work.context,
+                   [&](StageContext& c) { return LiveRelief(options).look(p.frame(), p.calibration, c); });
 }
 
 TEST(LiveRelief, IsTrueToTheMillimetreAndKeepsTwoSurfacesApart) {
@@ -80,7 +83,9 @@ TEST(LiveRelief, IsTrueToTheMillimetreAndKeepsTwoSurfacesApart) {
   std::vector<long> near_names(static_cast<std::size_t>(relief->surfaces) + 1), far_names = near_names;
   for (int y = 0; y < relief->height_px; ++y)
     for (int x = 0; x < relief->width_px; ++x) {
-      const Vec3d ray = apply(transposed(relief->rectified_from_left), {(x - relief->centre_px.x) / relief->focal_px, (y - relief->centre_px.y) / relief->focal_px, 1});
+      const Vec3d ray = apply(
+          transposed(relief->rectified_from_left),
+          {(x - relief->centre_px.x) / relief->focal_px, (y - relief->centre_px.y) / relief->focal_px, 1});
       sim::SolidPoint truth;
       if (!p.scene.solid({0, 0, 0}, sim::normalised({ray.x, ray.y, ray.z}), truth)) continue;
       const double z = apply(relief->rectified_from_left, {truth.point.x, truth.point.y, truth.point.z}).z;
@@ -95,7 +100,9 @@ TEST(LiveRelief, IsTrueToTheMillimetreAndKeepsTwoSurfacesApart) {
   std::sort(off.begin(), off.end());
   EXPECT_LT(off[off.size() / 2], 1.0) << "median, mm";
   EXPECT_LT(off[off.size() * 9 / 10], 4.0) << "nine of ten, mm";
-  const auto most = [](const std::vector<long>& names) { return std::max_element(names.begin(), names.end()) - names.begin(); };
+  const auto most = [](const std::vector<long>& names) {
+    return std::max_element(names.begin(), names.end()) - names.begin();
+  };
   EXPECT_NE(most(near_names), most(far_names));
   EXPECT_GT(near_names[static_cast<std::size_t>(most(near_names))], 4000);
   EXPECT_EQ(near_names[static_cast<std::size_t>(most(far_names))], 0);
@@ -114,7 +121,8 @@ TEST(LiveRelief, SaysWhenMemoryEnds) {
   Workspace whole(1, kOutput, kScratch);
   ASSERT_TRUE(look(whole));
   for (const double share : {0.1, 0.5, 0.95}) {
-    Workspace work(1, kOutput, static_cast<std::size_t>(share * static_cast<double>(whole.scratch.high_water())));
+    Workspace work(1, kOutput,
+                   static_cast<std::size_t>(share * static_cast<double>(whole.scratch.high_water())));
     const auto relief = look(work);
     ASSERT_FALSE(relief) << share;
     EXPECT_EQ(relief.error().code, Errc::OutOfMemory);
@@ -125,7 +133,8 @@ TEST(LiveRelief, RefusesWhatItCannotUse) {
   Workspace work(1, kOutput, kScratch);
   const Photographed& p = photographed();
   const auto code = [&](const StereoFrame& frame, const LiveReliefOptions& options) {
-    const auto relief = run_stage(work.context, [&](StageContext& c) { return LiveRelief(options).look(frame, p.calibration, c); });
+    const auto relief = run_stage(
+        work.context, [&](StageContext& c) { return LiveRelief(options).look(frame, p.calibration, c); });
     return relief ? Errc::InvalidState : relief.error().code;
   };
   EXPECT_EQ(code({}, small()), Errc::InvalidInput);
@@ -149,8 +158,11 @@ TEST(SmallPair, EveryPixelIsTheMeanOfItsSquareInEveryFormat) {
   std::vector<std::uint16_t> deep(static_cast<std::size_t>(w * h));
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i * 37 % 256);
   for (std::size_t i = 0; i < deep.size(); ++i) deep[i] = static_cast<std::uint16_t>(i * 7919 % 65536);
-  const ImageView colour = reduced({reinterpret_cast<const std::byte*>(rgb.data()), w, h, 3 * w, PixelFormat::Rgb8}, factor, work.context);
-  const ImageView grey = reduced({reinterpret_cast<const std::byte*>(deep.data()), w, h, 2 * w, PixelFormat::Grey16}, factor, work.context);
+  const ImageView colour = reduced(
+      {reinterpret_cast<const std::byte*>(rgb.data()), w, h, 3 * w, PixelFormat::Rgb8}, factor, work.context);
+  const ImageView grey =
+      reduced({reinterpret_cast<const std::byte*>(deep.data()), w, h, 2 * w, PixelFormat::Grey16}, factor,
+              work.context);
   ASSERT_EQ(colour.width_px, 4);
   ASSERT_EQ(colour.height_px, 3);
   for (int y = 0; y < 3; ++y)
@@ -175,8 +187,10 @@ TEST(SmallPair, TheSmallCalibrationSeesWhatTheSquareSaw) {
   const StereoCalibration small = reduced(large, 4);
   // A ray through the middle of a square of 4 x 4 pixels goes through the middle of its pixel.
   const double x = 0.17, y = -0.08;
-  EXPECT_NEAR((large.left.focal_px.x * x + large.left.centre_px.x + 0.5) / 4, small.left.focal_px.x * x + small.left.centre_px.x + 0.5, 1e-9);
-  EXPECT_NEAR((large.left.focal_px.y * y + large.left.centre_px.y + 0.5) / 4, small.left.focal_px.y * y + small.left.centre_px.y + 0.5, 1e-9);
+  EXPECT_NEAR((large.left.focal_px.x * x + large.left.centre_px.x + 0.5) / 4,
+              small.left.focal_px.x * x + small.left.centre_px.x + 0.5, 1e-9);
+  EXPECT_NEAR((large.left.focal_px.y * y + large.left.centre_px.y + 0.5) / 4,
+              small.left.focal_px.y * y + small.left.centre_px.y + 0.5, 1e-9);
   EXPECT_EQ(small.left.width_px, 480);
 }
 

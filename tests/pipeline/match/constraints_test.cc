@@ -24,7 +24,8 @@ std::vector<Match> wall(int columns, int rows, float disparity, float cost = 0.1
   std::vector<Match> matches;
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x)
-      matches.push_back({{static_cast<float>(20 + 2 * x), static_cast<float>(2 * y)}, disparity, cost, 0.1F, 0});
+      matches.push_back(
+          {{static_cast<float>(20 + 2 * x), static_cast<float>(2 * y)}, disparity, cost, 0.1F, 0});
   return matches;
 }
 
@@ -34,16 +35,18 @@ TEST(SimilarityConstraint, TakesOnlyWhatIsUnlike) {
   matches[7].cost = 1.5F;
   matches[8].cost = std::numeric_limits<float>::quiet_NaN();
   SimilarityConstraint({.max_cost = 0.95F}).judge(picture(200, 40), matches, 2, 4, bench.context);
-  for (std::size_t k = 0; k < matches.size(); ++k) EXPECT_EQ(matches[k].rejected_by, k == 7 || k == 8 ? 4 : 0) << k;
+  for (std::size_t k = 0; k < matches.size(); ++k)
+    EXPECT_EQ(matches[k].rejected_by, k == 7 || k == 8 ? 4 : 0) << k;
 }
 
 TEST(UniquenessConstraint, TheNearerSurfaceHidesTheFarther) {
   test::StageBench bench(1024, 1 << 20, 1);
-  std::vector<Match> matches{{{60, 4}, 20, 0, 0, 0}, {{50, 4}, 10, 0, 0, 0}, {{50, 6}, 10, 0, 0, 0}, {{41, 4}, 0.5F, 0, 0, 0}};
+  std::vector<Match> matches{
+      {{60, 4}, 20, 0, 0, 0}, {{50, 4}, 10, 0, 0, 0}, {{50, 6}, 10, 0, 0, 0}, {{41, 4}, 0.5F, 0, 0, 0}};
   UniquenessConstraint({.margin_px = 1.5F}).judge(picture(200, 40), matches, 2, 2, bench.context);
-  EXPECT_EQ(matches[0].rejected_by, 0);   // in front
-  EXPECT_EQ(matches[1].rejected_by, 2);   // lands on the same right pixel, 10 px behind
-  EXPECT_EQ(matches[2].rejected_by, 0);   // another row
+  EXPECT_EQ(matches[0].rejected_by, 0);  // in front
+  EXPECT_EQ(matches[1].rejected_by, 2);  // lands on the same right pixel, 10 px behind
+  EXPECT_EQ(matches[2].rejected_by, 0);  // another row
   EXPECT_EQ(matches[3].rejected_by, 2);
 }
 

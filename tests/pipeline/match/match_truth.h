@@ -28,7 +28,8 @@ struct MatchErrors {
   double mean_cost = 0;
 };
 
-inline MatchErrors judge(const BumpScene& scene, const pipeline::Keypoints& keypoints, const pipeline::MatchSet& set) {
+inline MatchErrors judge(const BumpScene& scene, const pipeline::Keypoints& keypoints,
+                         const pipeline::MatchSet& set) {
   MatchErrors errors;
   double judged = 0;
   for (const pipeline::Keypoint& k : keypoints.points) judged += scene.judged(k.at_px.x, k.at_px.y) ? 1 : 0;
@@ -36,7 +37,8 @@ inline MatchErrors judge(const BumpScene& scene, const pipeline::Keypoints& keyp
   double right = 0;
   for (const pipeline::Match& m : set.matches) {
     if (!scene.judged(m.left_px.x, m.left_px.y)) continue;
-    const double e = std::abs(static_cast<double>(m.disparity_px) - scene.disparity(m.left_px.x, m.left_px.y));
+    const double e =
+        std::abs(static_cast<double>(m.disparity_px) - scene.disparity(m.left_px.x, m.left_px.y));
     ++n;
     errors.mean_cost += static_cast<double>(m.cost);
     EXPECT_GE(m.cost, 0);
@@ -66,25 +68,30 @@ inline void paint(const BumpScene& scene, pipeline::RectifiedPair& pair) {
     own.seed = scene.seed + 7 * c + 7;
     const pipeline::RectifiedPair channel = own.render(&memory);
     for (std::size_t k = 0; k < channel.left.grey.size(); ++k) {
-      pair.left.rgb[3 * k + c] = static_cast<std::uint8_t>(std::clamp(channel.left.grey[k] + 0.5F, 0.0F, 255.0F));
-      pair.right.rgb[3 * k + c] = static_cast<std::uint8_t>(std::clamp(channel.right.grey[k] + 0.5F, 0.0F, 255.0F));
+      pair.left.rgb[3 * k + c] =
+          static_cast<std::uint8_t>(std::clamp(channel.left.grey[k] + 0.5F, 0.0F, 255.0F));
+      pair.right.rgb[3 * k + c] =
+          static_cast<std::uint8_t>(std::clamp(channel.right.grey[k] + 0.5F, 0.0F, 255.0F));
     }
   }
 }
 
 // Anywhere, also between pixels, in no order.
-inline pipeline::Keypoints scattered(const pipeline::RectifiedPair& pair, int count, std::uint32_t seed, std::pmr::memory_resource* memory) {
+inline pipeline::Keypoints scattered(const pipeline::RectifiedPair& pair, int count, std::uint32_t seed,
+                                     std::pmr::memory_resource* memory) {
   pipeline::Keypoints keypoints(memory);
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0, 1);
   for (int k = 0; k < count; ++k)
-    keypoints.points.push_back({{unit(random) * static_cast<float>(pair.width_px - 1), unit(random) * static_cast<float>(pair.height_px - 1)}, 1});
+    keypoints.points.push_back({{unit(random) * static_cast<float>(pair.width_px - 1),
+                                 unit(random) * static_cast<float>(pair.height_px - 1)},
+                                1});
   return keypoints;
 }
 
 struct MatchTrial {
   BumpScene scene;
-  int scattered = 0;     // this many keypoints anywhere; 0: a lattice of two pixels
+  int scattered = 0;  // this many keypoints anywhere; 0: a lattice of two pixels
   bool colours = false;
 };
 
@@ -92,16 +99,19 @@ inline MatchErrors measure(const pipeline::Matcher& matcher, const MatchTrial& t
   StageBench bench(std::size_t{16} << 20, std::size_t{96} << 20, 2);
   pipeline::RectifiedPair pair = trial.scene.render(&bench.output);
   if (trial.colours) paint(trial.scene, pair);
-  const pipeline::Keypoints keypoints =
-      trial.scattered > 0 ? scattered(pair, trial.scattered, 99, &bench.output) : lattice(pair, 2, &bench.output);
-  const auto matches = pipeline::run_stage(bench.context, [&](pipeline::StageContext& c) { return matcher.match(pair, keypoints, c); });
+  const pipeline::Keypoints keypoints = trial.scattered > 0
+                                            ? scattered(pair, trial.scattered, 99, &bench.output)
+                                            : lattice(pair, 2, &bench.output);
+  const auto matches = pipeline::run_stage(
+      bench.context, [&](pipeline::StageContext& c) { return matcher.match(pair, keypoints, c); });
   EXPECT_TRUE(matches);
   if (!matches) return {};
   EXPECT_EQ(matches->lattice_step_px, keypoints.lattice_step_px);
   const MatchErrors errors = judge(trial.scene, keypoints, *matches);
   if (testing::Test::HasFailure() || std::getenv("RELIEVO_TEST_FIGURES") != nullptr)
-    std::printf("covered %.4f wrong %.4f rms %.4f px, within sigma %.3f, 1.96 sigma %.3f, cost %.3f\n", errors.covered, errors.wrong,
-                errors.rms_px, errors.within_sigma, errors.within_two_sigma, errors.mean_cost);
+    std::printf("covered %.4f wrong %.4f rms %.4f px, within sigma %.3f, 1.96 sigma %.3f, cost %.3f\n",
+                errors.covered, errors.wrong, errors.rms_px, errors.within_sigma, errors.within_two_sigma,
+                errors.mean_cost);
   return errors;
 }
 

@@ -23,14 +23,16 @@ std::vector<std::string> searching_matchers() {
   return names;
 }
 
-// The figures of pipeline/README.md, which a matcher keeps: on the bump of radius 40 px and height 5 px below.
+// The figures of pipeline/README.md, which a matcher keeps: on the bump of radius 40 px and height 5 px
+// below.
 struct Stated {
   std::string name;
   double rms_px, covered;
 };
 Stated stated(const std::string& name) {
-  for (const Stated& figures : {Stated{"refined", 0.04, 0.99}, Stated{"ssd", 0.20, 0.99}, Stated{"zmncc", 0.20, 0.99}, Stated{"wavelet", 0.10, 0.99},
-                                Stated{"sgm", 0.22, 0.99}, Stated{"opencv-sgbm", 0.14, 0.85}})
+  for (const Stated& figures :
+       {Stated{"refined", 0.04, 0.99}, Stated{"ssd", 0.20, 0.99}, Stated{"zmncc", 0.20, 0.99},
+        Stated{"wavelet", 0.10, 0.99}, Stated{"sgm", 0.22, 0.99}, Stated{"opencv-sgbm", 0.14, 0.85}})
     if (figures.name == name) return figures;
   ADD_FAILURE() << name << " states no figure";
   return {name, 0, 1};
@@ -63,7 +65,8 @@ TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
   StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   std::size_t next = 0;
   for (const Match& m : matches->matches) {
@@ -81,12 +84,14 @@ TEST_P(Matchers, GiveTheSameBytesForAnyNumberOfThreads) {
     StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20, threads);
     const RectifiedPair pair = scene.render(&bench.output);
     const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+    const auto matches =
+        run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     if (first.empty()) first.assign(matches->matches.begin(), matches->matches.end());
     ASSERT_EQ(first.size(), matches->matches.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
-      ASSERT_EQ(first[k].disparity_px, matches->matches[k].disparity_px) << threads << " threads, match " << k;
+      ASSERT_EQ(first[k].disparity_px, matches->matches[k].disparity_px)
+          << threads << " threads, match " << k;
       ASSERT_EQ(first[k].sigma_px, matches->matches[k].sigma_px);
       ASSERT_EQ(first[k].cost, matches->matches[k].cost);
     }
@@ -97,7 +102,8 @@ TEST_P(Matchers, RefuseAPairWithoutPixelsAndKeypointsThatAreNone) {
   StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
   const RectifiedPair nothing(&bench.output);
   const Keypoints none(&bench.output);
-  auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
+  auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::InvalidInput);
   const RectifiedPair pair = scene.render(&bench.output);
@@ -112,7 +118,8 @@ TEST_P(Matchers, FindNothingOnAPlainWall) {
   scene.noise = 0;
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
@@ -126,7 +133,8 @@ TEST_P(Matchers, EveryArenaTooSmallSaysSo) {
   bool succeeded = false;
   for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
     StageBench bench(size, size);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+    const auto matches =
+        run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
     succeeded = matches.has_value();
     if (succeeded) break;
     EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;

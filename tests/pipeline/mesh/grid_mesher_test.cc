@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
+#include "pipeline/mesh/grid_mesher.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
@@ -19,12 +19,15 @@ Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridM
 
 // A sphere with a round hole of so many pixels; the lattice is 2 px, about 1 mm.
 PointCloud pierced_sphere(double radius_px, double noise_mm = 0) {
-  return test::formula_cloud(2, 400, [&](double sx, double sy) {
-    const double dx = 1000 * sx - 30;
-    const double dy = 1000 * sy + 20;
-    if (dx * dx + dy * dy < radius_px * radius_px) return std::numeric_limits<double>::quiet_NaN();
-    return test::sphere_depth(sx, sy, 600, 90);
-  }, noise_mm);
+  return test::formula_cloud(
+      2, 400,
+      [&](double sx, double sy) {
+        const double dx = 1000 * sx - 30;
+        const double dy = 1000 * sy + 20;
+        if (dx * dx + dy * dy < radius_px * radius_px) return std::numeric_limits<double>::quiet_NaN();
+        return test::sphere_depth(sx, sy, 600, 90);
+      },
+      noise_mm);
 }
 
 TEST(GridMesher, ClosesASmallHoleWithTheCurvatureOfItsRim) {
@@ -80,7 +83,8 @@ TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
     return 500 + 8 * t;
   };
   StageRoom room;
-  const auto flank = mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.016); }), room);
+  const auto flank =
+      mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.016); }), room);
   ASSERT_TRUE(flank);
   const auto near_and_far = [](const FaceMesh& m) {
     bool near = false;
@@ -93,7 +97,8 @@ TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
   };
   EXPECT_TRUE(near_and_far(*flank));
   StageRoom other;
-  const auto step = mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.0019); }), other);
+  const auto step =
+      mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.0019); }), other);
   ASSERT_TRUE(step);
   EXPECT_FALSE(near_and_far(*step));
 }
@@ -139,7 +144,10 @@ TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
   StageRoom other;
   const auto whole = mesh_grid(cloud, other, options);
   ASSERT_TRUE(whole);
-  EXPECT_GT(std::max_element(whole->vertices_mm.begin(), whole->vertices_mm.end(), [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; })->x, 70);
+  EXPECT_GT(std::max_element(whole->vertices_mm.begin(), whole->vertices_mm.end(),
+                             [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; })
+                ->x,
+            70);
 }
 
 TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
@@ -153,11 +161,15 @@ TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
 
 // A lattice with ragged rims, cracks and noise, as many nodes as it may have.
 PointCloud torn_sheet(int size_px) {
-  return test::formula_cloud(1, size_px, [](double sx, double sy) {
-    const double ragged = 0.003 * std::sin(9000 * sy) * std::sin(700 * sx);
-    const bool crack = std::abs(std::sin(60 * sx + 9 * sy)) < 0.02;
-    return crack || std::hypot(sx, sy) > 0.29 + ragged ? std::numeric_limits<double>::quiet_NaN() : 500 + 20 * std::cos(20 * sx);
-  }, 0.1);
+  return test::formula_cloud(
+      1, size_px,
+      [](double sx, double sy) {
+        const double ragged = 0.003 * std::sin(9000 * sy) * std::sin(700 * sx);
+        const bool crack = std::abs(std::sin(60 * sx + 9 * sy)) < 0.02;
+        return crack || std::hypot(sx, sy) > 0.29 + ragged ? std::numeric_limits<double>::quiet_NaN()
+                                                           : 500 + 20 * std::cos(20 * sx);
+      },
+      0.1);
 }
 
 TEST(GridMesher, TheCapHoldsWhateverTheLattice) {
@@ -169,7 +181,8 @@ TEST(GridMesher, TheCapHoldsWhateverTheLattice) {
     const auto result = mesh_grid(torn_sheet(600), room, options);
     ASSERT_TRUE(result);
     EXPECT_LE(result->triangles.size(), static_cast<std::size_t>(most));
-    EXPECT_GT(result->triangles.size(), static_cast<std::size_t>(0.5 * most)) << "thinned no more than need be";
+    EXPECT_GT(result->triangles.size(), static_cast<std::size_t>(0.5 * most))
+        << "thinned no more than need be";
     test::expect_one_manifold_surface(*result);
   }
 }
@@ -188,7 +201,10 @@ TEST(GridMesher, ThinningKeepsWhatFits) {
 TEST(GridMesher, NoSlivers) {
   for (const double noise_mm : {0.0, 0.1, 0.3}) {
     StageRoom room;
-    const auto ball = mesh_grid(test::formula_cloud(2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm), room);
+    const auto ball = mesh_grid(
+        test::formula_cloud(
+            2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm),
+        room);
     ASSERT_TRUE(ball);
     EXPECT_GE(test::smallest_angle_deg(*ball), kSmallestAngleDeg - 0.01F);
     StageRoom other;
@@ -218,7 +234,8 @@ TEST(GridMesher, OptionsHaveLimits) {
   EXPECT_FALSE(options.check());
 }
 
-// Slow and obvious: each vertex against the truth it was made from; only the cut along the outline makes new ones.
+// Slow and obvious: each vertex against the truth it was made from; only the cut along the outline makes new
+// ones.
 TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
   const auto dir = test::rendered_head("d1");
   if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";

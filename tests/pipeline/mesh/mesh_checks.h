@@ -95,7 +95,8 @@ inline double smallest_angle_deg(const FaceMesh& m) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3f u = mesh::unit(mesh::minus(m.vertices_mm[t[(k + 1) % 3]], m.vertices_mm[t[k]]));
       const Vec3f v = mesh::unit(mesh::minus(m.vertices_mm[t[(k + 2) % 3]], m.vertices_mm[t[k]]));
-      const double cosine = static_cast<double>(u.x) * static_cast<double>(v.x) + static_cast<double>(u.y) * static_cast<double>(v.y) +
+      const double cosine = static_cast<double>(u.x) * static_cast<double>(v.x) +
+                            static_cast<double>(u.y) * static_cast<double>(v.y) +
                             static_cast<double>(u.z) * static_cast<double>(v.z);
       smallest = std::min(smallest, std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232);
     }

@@ -42,8 +42,8 @@ struct Expected {
   float off_mm = 0.02F, steep_off_mm = 0.02F;
   float normal = 0.998F;
   float plane_normal = 0.9999F;
-  std::size_t borders = 1;          // it may tear where the points are sparsest
-  double head_area_mm2 = 25'000;    // of a whole face
+  std::size_t borders = 1;        // it may tear where the points are sparsest
+  double head_area_mm2 = 25'000;  // of a whole face
 };
 Expected expected_of(const std::string& name) {
   if (name == "rbf" || name == "bezier") return {0.06F, 0.6F, 0.998F};
@@ -53,11 +53,13 @@ Expected expected_of(const std::string& name) {
 }
 
 PointCloud plane(double noise_mm = 0) {
-  return test::formula_cloud(2, 300, [](double sx, double sy) { return 500 / (1 - 0.3 * sx + 0.2 * sy); }, noise_mm);
+  return test::formula_cloud(
+      2, 300, [](double sx, double sy) { return 500 / (1 - 0.3 * sx + 0.2 * sy); }, noise_mm);
 }
 
 PointCloud sphere(double noise_mm = 0) {
-  return test::formula_cloud(2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
+  return test::formula_cloud(
+      2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
 }
 
 bool quick(const std::string& name) { return name == "grid" || name == "delaunay"; }
@@ -90,7 +92,8 @@ TEST_P(MesherContract, PointsThatAreNotNumbersAreLeftOut) {
   StageRoom room;
   PointCloud cloud = plane();
   for (std::size_t i = 0; i < cloud.points.size(); i += 997) {
-    cloud.points[i].at_mm.z = i % 2 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
+    cloud.points[i].at_mm.z =
+        i % 2 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
     if (i % 3 == 0) cloud.points[i].left_px.x = std::numeric_limits<float>::quiet_NaN();
   }
   const auto result = mesh(cloud, room);
@@ -108,14 +111,18 @@ TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
     const double sx = px / 1000, sy = py / 1000, z = 500 / (1 - 0.3 * sx + 0.2 * sy);
     return Vec3f{static_cast<float>(sx * z), static_cast<float>(sy * z), static_cast<float>(z)};
   };
-  const std::vector<Vec3f> corners{corner(-150, -150), corner(148, -150), corner(148, 148), corner(-150, 148)};
+  const std::vector<Vec3f> corners{corner(-150, -150), corner(148, -150), corner(148, 148),
+                                   corner(-150, 148)};
   const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}};
   const double truth = area_mm2(corners, two);
   const double area = area_mm2(result->vertices_mm, result->triangles);
   EXPECT_LT(area, truth * (quick(GetParam()) ? 1.0001 : 1.01));
-  EXPECT_GT(area, truth * 0.925);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
+  EXPECT_GT(
+      area,
+      truth * 0.925);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
   const Vec3f normal = mesh::unit({0.3F, -0.2F, -1});
-  for (const Vec3f& n : result->normals) EXPECT_GT(mesh::dot(n, normal), expected_of(GetParam()).plane_normal);
+  for (const Vec3f& n : result->normals)
+    EXPECT_GT(mesh::dot(n, normal), expected_of(GetParam()).plane_normal);
 }
 
 TEST_P(MesherContract, SphereKeepsItsShape) {
@@ -136,7 +143,9 @@ TEST_P(MesherContract, SphereKeepsItsShape) {
   // The cap 40 mm high, well inside the rim: 2 pi r h (Archimedes).
   std::vector<Triangle> cap;
   for (const Triangle& t : result->triangles)
-    if (result->vertices_mm[t[0]].z + result->vertices_mm[t[1]].z + result->vertices_mm[t[2]].z < 3 * (510 + 40)) cap.push_back(t);
+    if (result->vertices_mm[t[0]].z + result->vertices_mm[t[1]].z + result->vertices_mm[t[2]].z <
+        3 * (510 + 40))
+      cap.push_back(t);
   const double truth = 2 * std::numbers::pi * 90 * 40;
   EXPECT_NEAR(area_mm2(result->vertices_mm, cap), truth, 0.005 * truth);
 }
@@ -158,11 +167,13 @@ TEST_P(MesherContract, NoiseAndDropoutsStillGiveOneCleanSurface) {
 
 TEST_P(MesherContract, AStepIsNotBridged) {
   StageRoom room;
-  const PointCloud cloud = test::formula_cloud(2, 300, [](double sx, double) { return sx < 0.02 ? 500.0 : 540.0; });
+  const PointCloud cloud =
+      test::formula_cloud(2, 300, [](double sx, double) { return sx < 0.02 ? 500.0 : 540.0; });
   const auto result = mesh(cloud, room);
   ASSERT_TRUE(result);
   test::expect_clean(*result);
-  for (const Vec3f& v : result->vertices_mm) EXPECT_NEAR(v.z, 500, 1) << "the larger half is the one that stays";
+  for (const Vec3f& v : result->vertices_mm)
+    EXPECT_NEAR(v.z, 500, 1) << "the larger half is the one that stays";
 }
 
 TEST_P(MesherContract, NeverMoreTrianglesThanAllowed) {
@@ -234,7 +245,8 @@ TEST_P(MesherContract, RenderedHeads) {
     ASSERT_TRUE(result);
     test::expect_clean(*result);
     EXPECT_LE(result->triangles.size(), 470'000U);
-    EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), expected_of(GetParam()).head_area_mm2) << "a whole face";
+    EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), expected_of(GetParam()).head_area_mm2)
+        << "a whole face";
   }
 }
 

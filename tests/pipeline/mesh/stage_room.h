@@ -11,7 +11,8 @@
 namespace relievo::pipeline::test {
 
 struct StageRoom : relievo::test::StageBench {
-  explicit StageRoom(std::size_t output_bytes = std::size_t{64} << 20, std::size_t scratch_bytes = std::size_t{192} << 20)
+  explicit StageRoom(std::size_t output_bytes = std::size_t{64} << 20,
+                     std::size_t scratch_bytes = std::size_t{192} << 20)
       : StageBench(output_bytes, scratch_bytes) {}
 
   template <typename Work>

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -32,9 +32,9 @@ inline std::optional<std::filesystem::path> rendered_head(const std::string& nam
 
 struct TruthOptions {
   int step_px = 2;
-  double noise_mm = 0;          // along the line of sight
-  double outlier_share = 0;     // points thrown 5 to 60 mm off
-  std::uint8_t flags = 3;       // bit 0 face skin, bit 1 seen by both, bit 2 both angles under 60 degrees
+  double noise_mm = 0;       // along the line of sight
+  double outlier_share = 0;  // points thrown 5 to 60 mm off
+  std::uint8_t flags = 3;    // bit 0 face skin, bit 1 seen by both, bit 2 both angles under 60 degrees
   unsigned seed = 1;
 };
 
@@ -95,16 +95,19 @@ inline PointCloud truth_cloud(const std::filesystem::path& dir, const TruthOptio
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int y = 0; y < h; y += options.step_px)
     for (int x = 0; x < w; x += options.step_px) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+      const std::size_t i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
       const auto f = static_cast<std::uint8_t>(flag[i]);
       if (std::isnan(z[i]) || (f & options.flags) != options.flags) continue;
       const Vec3d ray = pixel_ray(k, d, x, y);
       const double l = std::sqrt(ray.x * ray.x + ray.y * ray.y + 1);
       double depth = static_cast<double>(z[i]) + options.noise_mm * noise(random) / l;
-      if (uniform(random) < options.outlier_share) depth += (uniform(random) < 0.5 ? -1 : 1) * (5 + 55 * uniform(random));
-      cloud.points.push_back({{static_cast<float>(ray.x * depth), static_cast<float>(ray.y * depth), static_cast<float>(depth)},
-                              {static_cast<float>(x), static_cast<float>(y)},
-                              static_cast<float>(std::max(options.noise_mm, 0.02))});
+      if (uniform(random) < options.outlier_share)
+        depth += (uniform(random) < 0.5 ? -1 : 1) * (5 + 55 * uniform(random));
+      cloud.points.push_back(
+          {{static_cast<float>(ray.x * depth), static_cast<float>(ray.y * depth), static_cast<float>(depth)},
+           {static_cast<float>(x), static_cast<float>(y)},
+           static_cast<float>(std::max(options.noise_mm, 0.02))});
     }
   return cloud;
 }

@@ -25,11 +25,13 @@ FaceModel painted_card() {
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i) {
       const Vec3d p = apply(camera_from_head, Vec3d{-60 + 2.0 * i, -80 + 160.0 / 60 * j, -30});
-      model.mesh.vertices_mm.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      model.mesh.vertices_mm.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
       model.mesh.measured.push_back(j < 55 ? 1 : 0);
     }
   const auto corner = [&](std::uint32_t i, std::uint32_t j) {
-    model.texture.uv.push_back({(static_cast<float>(i) * 4 + 0.5F) / 241, (static_cast<float>(j) * 4 + 0.5F) / 241});
+    model.texture.uv.push_back(
+        {(static_cast<float>(i) * 4 + 0.5F) / 241, (static_cast<float>(j) * 4 + 0.5F) / 241});
     return j * kSide + i;
   };
   for (std::uint32_t j = 0; j + 1 < kSide; ++j)
@@ -40,7 +42,8 @@ FaceModel painted_card() {
   model.texture.width_px = model.texture.height_px = 241;
   for (int y = 0; y < 241; ++y)
     for (int x = 0; x < 241; ++x) {
-      model.texture.rgb.insert(model.texture.rgb.end(), {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 77});
+      model.texture.rgb.insert(model.texture.rgb.end(),
+                               {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 77});
       model.texture.origin.push_back(kLeftPhotographTexel);
     }
   return model;
@@ -87,7 +90,9 @@ TEST(Portrait, EveryPlaceOfTheHeadFallsWhereAPinholeCameraSeesIt) {
       ++seen;
       ASSERT_NEAR(p.rgb[3 * k], (x + 60) * 2, 1.2) << "the person's left is the picture's right";
       ASSERT_NEAR(p.rgb[3 * k + 1], (y + 80) * 1.5, 1.2) << "up is up";
-      if (std::abs(y - 64) > 4) { EXPECT_EQ(p.shows[k], y < 64 ? kMeasuredShown : kCompletedShown) << y; }
+      if (std::abs(y - 64) > 4) {
+        EXPECT_EQ(p.shows[k], y < 64 ? kMeasuredShown : kCompletedShown) << y;
+      }
     }
   EXPECT_GT(seen, 3000u);
 }
@@ -104,7 +109,8 @@ TEST(Portrait, IsLaidOutByTheEyesWhereTheyWereFound) {
   };
   put(LandmarkName::ExocanthionRight, -45, 29, -30);
   put(LandmarkName::EndocanthionRight, -17, 27, -30);
-  EXPECT_NEAR(draw_portrait(model, heap(), heap()).between_eyes_mm, 62, 1e-3) << "the left eye is the right one's mirror image";
+  EXPECT_NEAR(draw_portrait(model, heap(), heap()).between_eyes_mm, 62, 1e-3)
+      << "the left eye is the right one's mirror image";
   model.landmarks[static_cast<std::size_t>(LandmarkName::ExocanthionRight)].found = false;
   EXPECT_EQ(draw_portrait(model, heap(), heap()).between_eyes_mm, 0) << "no outer corner, no eyes";
   put(LandmarkName::ExocanthionRight, -45, 29, -30);
@@ -142,7 +148,8 @@ TEST(Portrait, TooLittleMemoryIsAnError) {
   for (const bool small_output : {true, false}) {
     roomy.reset();
     small.reset();
-    const auto images = make_recognition_images(model, small_output ? small : roomy, small_output ? roomy : small);
+    const auto images =
+        make_recognition_images(model, small_output ? small : roomy, small_output ? roomy : small);
     ASSERT_FALSE(images);
     EXPECT_EQ(images.error().code, Errc::OutOfMemory);
   }

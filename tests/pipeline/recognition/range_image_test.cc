@@ -32,7 +32,8 @@ void add_sheet(FaceMesh& mesh, float lift, bool turned, std::uint8_t measured) {
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i) {
       const double x = (i - 40) * 1.3, y = (j - 40) * 1.3;
-      mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(height(x, y)) + lift});
+      mesh.vertices_mm.push_back(
+          {static_cast<float>(x), static_cast<float>(y), static_cast<float>(height(x, y)) + lift});
       mesh.sigma_mm.push_back(0.2F);
       mesh.measured.push_back(measured);
     }
@@ -61,7 +62,8 @@ TEST(RangeImage, HoldsTheHeightsOfTheSurface) {
       ++shown;
       ASSERT_NEAR(image.z_mm[k], height(x, y), 0.02) << "what triangles of 1.3 mm leave of the curve";
       const double slope = std::hypot(-x / 75 + 8.0 / 15 * std::cos(x / 15), -y / 150);
-      ASSERT_NEAR(image.sigma_mm[k], 0.2 * std::sqrt(1 + slope * slope), 0.02) << "along z, a slope makes it longer";
+      ASSERT_NEAR(image.sigma_mm[k], 0.2 * std::sqrt(1 + slope * slope), 0.02)
+          << "along z, a slope makes it longer";
     }
   EXPECT_GT(shown, 40000u);
 }
@@ -69,7 +71,7 @@ TEST(RangeImage, HoldsTheHeightsOfTheSurface) {
 TEST(RangeImage, TheOutermostSurfaceCountsAndWhatWasCompletedIsSaid) {
   FaceMesh mesh(heap());
   add_sheet(mesh, 0, false, 1);
-  add_sheet(mesh, 6, true, 1);    // nearer, but seen from behind: no surface of a face
+  add_sheet(mesh, 6, true, 1);  // nearer, but seen from behind: no surface of a face
   const std::size_t middle = 260u * 401u + 200u;
   EXPECT_NEAR(measure_range(mesh, {}, {}, heap(), heap()).z_mm[middle], height(0, 0), 0.02);
   add_sheet(mesh, 3, false, 0);
@@ -93,7 +95,9 @@ TEST(RangeImage, StandsInTheHeadFrameWhereverTheFaceWas) {
   }
   const RangeImage turned = measure_range(mesh, head_from_camera, {}, heap(), heap());
   for (std::size_t k = 0; k < turned.z_mm.size(); ++k)
-    if (turned.shows[k] != kNothingShown && straight.shows[k] != kNothingShown) { ASSERT_NEAR(turned.z_mm[k], straight.z_mm[k], 2e-3); }
+    if (turned.shows[k] != kNothingShown && straight.shows[k] != kNothingShown) {
+      ASSERT_NEAR(turned.z_mm[k], straight.z_mm[k], 2e-3);
+    }
 }
 
 // The whole way, judged by the surface the pictures were drawn from.
@@ -103,7 +107,8 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   StageContext& c = bench.context;
   hal::sim::HeadPose pose;
   pose.yaw_deg = 12;
-  const auto scene = hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(5), bench.pool), pose, bench.pool);
+  const auto scene =
+      hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(5), bench.pool), pose, bench.pool);
   const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, bench.pool);
   const auto pipeline = Pipeline::make({}, relievo::test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
@@ -132,21 +137,24 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
     for (int column = 0; column < range.width_px; column += 3) {
       const auto k = static_cast<std::size_t>(row * range.width_px + column);
       if (range.shows[k] != kMeasuredShown) continue;
-      const double x = range.first_mm.x + range.pitch_mm * column, y = range.first_mm.y - range.pitch_mm * row, z = double{range.z_mm[k]};
+      const double x = range.first_mm.x + range.pitch_mm * column,
+                   y = range.first_mm.y - range.pitch_mm * row, z = double{range.z_mm[k]};
       const hal::sim::Vec3 from = at(x, y, 60), to = at(x, y, 59);
       const hal::sim::Vec3 down{to.x - from.x, to.y - from.y, to.z - from.z};
       hal::sim::SolidPoint truth;
       if (!scene->solid(from, down, truth)) continue;
       const hal::sim::Vec3 base = at(x, y, z);
-      const double d = (base.x - truth.point.x) * down.x + (base.y - truth.point.y) * down.y + (base.z - truth.point.z) * down.z;
+      const double d = (base.x - truth.point.x) * down.x + (base.y - truth.point.y) * down.y +
+                       (base.z - truth.point.z) * down.z;
       off.push_back(std::abs(d));
       within += std::abs(d) < 2 * static_cast<double>(range.sigma_mm[k]) ? 1 : 0;
     }
   ASSERT_GT(off.size(), 3000u);
   std::sort(off.begin(), off.end());
   const double median = off[off.size() / 2], p90 = off[off.size() * 9 / 10];
-  std::printf("range image against the true surface at 864 x 540: median %.3f mm, 90 %% within %.3f mm, %.0f %% within 2 sigma (%zu pixels)\n", median, p90,
-              100.0 * static_cast<double>(within) / static_cast<double>(off.size()), off.size());
+  std::printf(
+      "range image against the true surface at 864 x 540: median %.3f mm, 90 %% within %.3f mm, %.0f %% within 2 sigma (%zu pixels)\n",
+      median, p90, 100.0 * static_cast<double>(within) / static_cast<double>(off.size()), off.size());
   EXPECT_LT(median, 0.25);
   EXPECT_LT(p90, 1.0);
 }

@@ -27,7 +27,8 @@ PointCloud dome_on_a_wall(std::pmr::memory_resource* memory) {
       const double nose = std::max(0.0, kNoseMm * (1 - std::sqrt(r2) / 20));
       const double z = (r2 < 4900 ? 570 - std::sqrt(4900 - r2) : 570) - nose;
       cloud.points.push_back({{static_cast<float>(u), static_cast<float>(v), static_cast<float>(z)},
-                              {static_cast<float>(x), static_cast<float>(y)}, 0.1F});
+                              {static_cast<float>(x), static_cast<float>(y)},
+                              0.1F});
     }
   return cloud;
 }
@@ -45,7 +46,8 @@ TEST(FaceCrop, KeepsTheBallAroundTheTipOfTheNose) {
   ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 110}, bench.context));
   double farthest = 0;
   for (const CloudPoint& p : cloud.points)
-    farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y + (p.at_mm.z - kTipMm) * (p.at_mm.z - kTipMm)));
+    farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y +
+                                            (p.at_mm.z - kTipMm) * (p.at_mm.z - kTipMm)));
   EXPECT_GT(farthest, 107);
   EXPECT_LT(farthest, 113);
 }
@@ -55,7 +57,8 @@ TEST(FaceCrop, ABowedHeadKeepsItsChin) {
   test::StageBench bench(1 << 24, 1 << 22, 1);
   PointCloud cloud = dome_on_a_wall(&bench.output);
   const double slope = std::tan(20 * std::numbers::pi / 180);
-  for (CloudPoint& p : cloud.points) p.at_mm.z += static_cast<float>(slope * static_cast<double>(p.at_mm.y));  // what is higher is nearer
+  for (CloudPoint& p : cloud.points)
+    p.at_mm.z += static_cast<float>(slope * static_cast<double>(p.at_mm.y));  // what is higher is nearer
   ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 80}, bench.context));
   double lowest = 0;
   for (const CloudPoint& p : cloud.points) lowest = std::max(lowest, static_cast<double>(p.at_mm.y));

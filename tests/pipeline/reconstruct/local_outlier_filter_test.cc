@@ -15,12 +15,14 @@ namespace {
 
 using test::StageRoom;
 
-Result<OutlierCounts> filter(PointCloud& cloud, StageRoom& room, const LocalOutlierFilterOptions& options = {}) {
+Result<OutlierCounts> filter(PointCloud& cloud, StageRoom& room,
+                             const LocalOutlierFilterOptions& options = {}) {
   return room.run([&](StageContext& c) { return reject_outliers(cloud, options, c); });
 }
 
 PointCloud sphere(double noise_mm = 0.05) {
-  return test::formula_cloud(2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
+  return test::formula_cloud(
+      2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
 }
 
 double off_sphere_mm(const CloudPoint& p) {
@@ -86,7 +88,8 @@ TEST(OutlierFilter, WorksOnScatteredPointsToo) {
   const auto counts = filter(cloud, room);
   ASSERT_TRUE(counts);
   EXPECT_GT(cloud.points.size(), (before - thrown) * 9 / 10);
-  const auto left = std::count_if(cloud.points.begin(), cloud.points.end(), [](const CloudPoint& p) { return off_sphere_mm(p) > 5; });
+  const auto left = std::count_if(cloud.points.begin(), cloud.points.end(),
+                                  [](const CloudPoint& p) { return off_sphere_mm(p) > 5; });
   EXPECT_LT(static_cast<std::size_t>(left), thrown / 5) << "two that fly side by side may support each other";
 }
 
@@ -108,7 +111,8 @@ TEST(OutlierFilter, KeepsOrderAndRepeats) {
   ASSERT_EQ(a.points.size(), b.points.size());
   for (std::size_t i = 1; i < a.points.size(); ++i)
     EXPECT_TRUE(a.points[i - 1].left_px.y < a.points[i].left_px.y ||
-                (a.points[i - 1].left_px.y == a.points[i].left_px.y && a.points[i - 1].left_px.x < a.points[i].left_px.x));
+                (a.points[i - 1].left_px.y == a.points[i].left_px.y &&
+                 a.points[i - 1].left_px.x < a.points[i].left_px.x));
 }
 
 TEST(OutlierFilter, EmptyCancelledTinyArenaAndOptions) {

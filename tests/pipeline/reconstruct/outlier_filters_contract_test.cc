@@ -26,7 +26,8 @@ class OutlierFilters : public testing::TestWithParam<std::string> {
     return *std::move(made);
   }
   static PointCloud sphere() {
-    return test::formula_cloud(2, 300, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, 0.05);
+    return test::formula_cloud(
+        2, 300, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, 0.05);
   }
 };
 
@@ -48,9 +49,11 @@ TEST_P(OutlierFilters, TakeFlyingPointsAndLeaveTheSurface) {
     ASSERT_TRUE(done);
     std::size_t flying = 0;
     for (const CloudPoint& p : cloud.points)
-      if (!(std::abs(std::hypot(double(p.at_mm.x), double(p.at_mm.y), double(p.at_mm.z) - 600) - 90) < 3)) ++flying;
+      if (!(std::abs(std::hypot(double(p.at_mm.x), double(p.at_mm.y), double(p.at_mm.z) - 600) - 90) < 3))
+        ++flying;
     EXPECT_LT(static_cast<double>(flying), 0.02 * static_cast<double>(thrown)) << on_lattice;
-    EXPECT_GT(static_cast<double>(cloud.points.size()), 0.95 * static_cast<double>(all - thrown)) << on_lattice;
+    EXPECT_GT(static_cast<double>(cloud.points.size()), 0.95 * static_cast<double>(all - thrown))
+        << on_lattice;
   }
 }
 

@@ -49,11 +49,16 @@ TEST_P(Triangulators, FindPointsWhereTheyWere) {
     const Vec3d p{80 * unit(random), 80 * unit(random), 560 + 100 * unit(random)};
     const double u = 1500 * p.x / p.z + 700;
     const double right = 1500 * (p.x - 120) / p.z + 300;
-    set.matches.push_back({{static_cast<float>(u), static_cast<float>(1500 * p.y / p.z + 400)}, static_cast<float>(u - right), 0, 0.1F, 0});
+    set.matches.push_back({{static_cast<float>(u), static_cast<float>(1500 * p.y / p.z + 400)},
+                           static_cast<float>(u - right),
+                           0,
+                           0.1F,
+                           0});
     truth.push_back(apply(transposed(pair.rectified_from_left), p));
   }
   set.matches[3].rejected_by = 1;  // is left out
-  const auto cloud = run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud =
+      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_TRUE(cloud);
   ASSERT_EQ(cloud->points.size(), 499U);
   for (std::size_t k = 0; k < cloud->points.size(); ++k) {
@@ -72,7 +77,8 @@ TEST_P(Triangulators, RefuseNothingAndAllRejected) {
   test::StageBench bench(1 << 20, 1 << 20, 1);
   MatchSet set(&bench.output);
   for (int pass = 0; pass < 2; ++pass) {
-    const auto cloud = run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+    const auto cloud = run_stage(
+        bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
     ASSERT_FALSE(cloud);
     EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
     set.matches.assign(50, {{500, 400}, 600, 0, 0.1F, 1});
@@ -84,7 +90,8 @@ TEST_P(Triangulators, LeaveOutWhatIsOutsideTheVolume) {
   test::StageBench bench(1 << 20, 1 << 20, 1);
   MatchSet set(&bench.output);
   set.matches.assign(50, {{500, 400}, static_cast<float>(pair.disparity_px(2000)), 0, 0.1F, 0});
-  const auto cloud = run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud =
+      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
 }
@@ -95,19 +102,25 @@ TEST_P(Triangulators, SayWhenMemoryIsUsedUpAndWhenCancelled) {
   test::StageBench bench(4096, 4096, 1);
   MatchSet set(std::pmr::get_default_resource());
   set.matches.assign(many.begin(), many.end());
-  auto cloud = run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  auto cloud =
+      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::OutOfMemory);
   bench.cancelled = true;
-  cloud = run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  cloud =
+      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::Cancelled);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Triangulators, testing::Values("inverse-disparity", "linear-least-squares", "optimal"), [](const auto& chosen) {
-  const std::string name = chosen.param;
-  return name == "optimal" ? "Optimal" : name == "inverse-disparity" ? "InverseDisparity" : "LinearLeastSquares";
-});
+INSTANTIATE_TEST_SUITE_P(All, Triangulators,
+                         testing::Values("inverse-disparity", "linear-least-squares", "optimal"),
+                         [](const auto& chosen) {
+                           const std::string name = chosen.param;
+                           return name == "optimal"             ? "Optimal"
+                                  : name == "inverse-disparity" ? "InverseDisparity"
+                                                                : "LinearLeastSquares";
+                         });
 
 // Two cameras turned towards each other by 20 degrees, lines of sight as x y 1.
 struct ToedRig {
@@ -118,10 +131,12 @@ struct ToedRig {
   ToedRig() {
     // (R l) . (t cross r) = 0, column by column.
     const auto cross = [&](const Vec3d& v) {
-      return Vec3d{translation.y * v.z - translation.z * v.y, translation.z * v.x - translation.x * v.z, translation.x * v.y - translation.y * v.x};
+      return Vec3d{translation.y * v.z - translation.z * v.y, translation.z * v.x - translation.x * v.z,
+                   translation.x * v.y - translation.y * v.x};
     };
     for (int j = 0; j < 3; ++j) {
-      const Vec3d column = apply(transposed(right_from_left), cross({j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0}));
+      const Vec3d column = apply(transposed(right_from_left),
+                                 cross({j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0}));
       relation.m[j] = column.x;
       relation.m[3 + j] = column.y;
       relation.m[6 + j] = column.z;
@@ -129,8 +144,9 @@ struct ToedRig {
   }
   double miss(const PlacePair& p) const {
     const double* m = relation.m;
-    return p.left.x * (m[0] * p.right.x + m[1] * p.right.y + m[2]) + p.left.y * (m[3] * p.right.x + m[4] * p.right.y + m[5]) +
-           m[6] * p.right.x + m[7] * p.right.y + m[8];
+    return p.left.x * (m[0] * p.right.x + m[1] * p.right.y + m[2]) +
+           p.left.y * (m[3] * p.right.x + m[4] * p.right.y + m[5]) + m[6] * p.right.x + m[7] * p.right.y +
+           m[8];
   }
   PlacePair see(const Vec3d& p) const {
     const Vec3d q = apply(right_from_left, p);
@@ -140,16 +156,19 @@ struct ToedRig {
 };
 
 double moved2(const PlacePair& a, const PlacePair& b) {
-  return std::pow(a.left.x - b.left.x, 2) + std::pow(a.left.y - b.left.y, 2) + std::pow(a.right.x - b.right.x, 2) + std::pow(a.right.y - b.right.y, 2);
+  return std::pow(a.left.x - b.left.x, 2) + std::pow(a.left.y - b.left.y, 2) +
+         std::pow(a.right.x - b.right.x, 2) + std::pow(a.right.y - b.right.y, 2);
 }
 
-// The slow twin: the depth and place whose images are nearest, by descent from the truth in ever smaller steps.
+// The slow twin: the depth and place whose images are nearest, by descent from the truth in ever smaller
+// steps.
 double least_moved2(const ToedRig& rig, const PlacePair& seen, Vec3d p) {
   double best = moved2(rig.see(p), seen);
   for (double step = 4; step > 1e-7; step /= 2)
     for (bool better = true; better;) {
       better = false;
-      for (const Vec3d& way : {Vec3d{step, 0, 0}, Vec3d{-step, 0, 0}, Vec3d{0, step, 0}, Vec3d{0, -step, 0}, Vec3d{step * p.x / p.z, step * p.y / p.z, step},
+      for (const Vec3d& way : {Vec3d{step, 0, 0}, Vec3d{-step, 0, 0}, Vec3d{0, step, 0}, Vec3d{0, -step, 0},
+                               Vec3d{step * p.x / p.z, step * p.y / p.z, step},
                                Vec3d{-step * p.x / p.z, -step * p.y / p.z, -step}}) {
         const Vec3d q{p.x + way.x, p.y + way.y, p.z + way.z};
         if (const double here = moved2(rig.see(q), seen); here < best) {
@@ -171,8 +190,10 @@ TEST(OptimalTriangulator, MovesThePlacesNoMoreThanItMust) {
     const Vec3d truth{90 * unit(random), 90 * unit(random), 560 + 60 * unit(random)};
     PlacePair seen = rig.see(truth);
     EXPECT_NEAR(rig.miss(seen), 0, 1e-9);
-    seen.left.x += noise(random); seen.left.y += noise(random);
-    seen.right.x += noise(random); seen.right.y += noise(random);
+    seen.left.x += noise(random);
+    seen.left.y += noise(random);
+    seen.right.x += noise(random);
+    seen.right.y += noise(random);
     const PlacePair moved = correct_optimally(rig.relation, seen);
     EXPECT_NEAR(rig.miss(moved), 0, 1e-6);
     EXPECT_LT(moved2(moved, seen), 1.0001 * least_moved2(rig, seen, truth) + 1e-14);
@@ -186,7 +207,8 @@ TEST(OptimalTriangulator, UsesTheRowsThatWereMeasured) {
   set.matches.assign(10, {{700, 400}, static_cast<float>(pair.disparity_px(560)), 0, 0.1F, 0});
   set.epipolar_shift.offset_px = 2;
   set.epipolar_shift.sigma_px = 0.1;
-  const auto cloud = run_stage(bench.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
+  const auto cloud = run_stage(
+      bench.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
   ASSERT_TRUE(cloud);
   // Half of the two pixels go to each view: 1 / 1500 * 560 mm.
   EXPECT_NEAR(cloud->points[0].at_mm.y, 560.0 / 1500, 0.01);

@@ -12,9 +12,9 @@
 #include <string>
 
 #include "hal/sim/sheet/sheet_shape.h"
+#include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
-#include "pipeline/mesh/delaunay_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_bench.h"
 
@@ -48,9 +48,11 @@ void add(FaceMesh& mesh, const Vec3& p, double sigma_mm) {
 }
 
 // A surface given over the sheet's own u and v, turned, held at kDepthMm, with noise along the line of sight.
-FaceMesh held(const std::function<Vec3(double, double)>& surface, double noise_mm, const Vec3& turn_deg = {0, 0, 0}) {
+FaceMesh held(const std::function<Vec3(double, double)>& surface, double noise_mm,
+              const Vec3& turn_deg = {0, 0, 0}) {
   FaceMesh mesh = empty_mesh();
-  const sim::Mat3 turn = sim::rotation(sim::radians(turn_deg.x), sim::radians(turn_deg.y), sim::radians(turn_deg.z));
+  const sim::Mat3 turn =
+      sim::rotation(sim::radians(turn_deg.x), sim::radians(turn_deg.y), sim::radians(turn_deg.z));
   std::mt19937 random(11);
   std::normal_distribution<double> noise(0, noise_mm);
   for (double v = -80; v <= 80; v += 1.25)
@@ -77,7 +79,8 @@ ReliefFigures relief_of(const FaceMesh& mesh) {
 }
 
 std::string name_of(const ReliefFigures& r) {
-  return "off a plane " + std::to_string(r.off_plane_mm) + ", a sheet " + std::to_string(r.off_sheet_mm) + " mm, curved " + std::to_string(r.curvature_sr) + " sr";
+  return "off a plane " + std::to_string(r.off_plane_mm) + ", a sheet " + std::to_string(r.off_sheet_mm) +
+         " mm, curved " + std::to_string(r.curvature_sr) + " sr";
 }
 
 TEST(ReliefCheck, APlaneIsAsFlatAsItsNoise) {
@@ -94,9 +97,12 @@ TEST(ReliefCheck, NoBentSheetIsAFace) {
   for (const double radius : {60.0, -110.0, 250.0})
     for (const double axis : {0.0, 57.0})
       for (const Vec3& turn : {Vec3{0, 0, 0}, Vec3{12, -25, 20}})
-        for (const sim::SheetBend& bend : {sim::SheetBend{radius, axis, 0, 0}, sim::SheetBend{radius, axis, 350, 0}, sim::SheetBend{radius, axis, 0, 150}}) {
+        for (const sim::SheetBend& bend :
+             {sim::SheetBend{radius, axis, 0, 0}, sim::SheetBend{radius, axis, 350, 0},
+              sim::SheetBend{radius, axis, 0, 150}}) {
           const ReliefFigures r = relief_of(held(bend, 0.15, turn));
-          const std::string which = std::to_string(radius) + " " + std::to_string(axis) + " " + std::to_string(bend.apex_mm) + " " + std::to_string(bend.wave_mm) + ": ";
+          const std::string which = std::to_string(radius) + " " + std::to_string(axis) + " " +
+                                    std::to_string(bend.apex_mm) + " " + std::to_string(bend.wave_mm) + ": ";
           EXPECT_GT(r.off_plane_mm, 0.3) << which << name_of(r);
           EXPECT_LT(r.off_sheet_mm, 0.3) << which << name_of(r);
           EXPECT_LT(r.curvature_sr, 1.25) << which << name_of(r);
@@ -114,8 +120,8 @@ TEST(ReliefCheck, AMirroredLampGivesASheetNoFace) {
   EXPECT_EQ(judge(r, {}), ReliefVerdict::Picture) << name_of(r);
 }
 
-// Gauss: a cap of a sphere curves by its area over the radius squared. Cells whose neighbourhood is cut by the
-// rim are left out: the cap is 8 to 12 mm smaller.
+// Gauss: a cap of a sphere curves by its area over the radius squared. Cells whose neighbourhood is cut by
+// the rim are left out: the cap is 8 to 12 mm smaller.
 TEST(ReliefCheck, TheCurvatureOfABallIsItsSolidAngle) {
   constexpr double kRadius = 75;
   const auto ball = [&](double u, double v) {
@@ -123,17 +129,23 @@ TEST(ReliefCheck, TheCurvatureOfABallIsItsSolidAngle) {
     return Vec3{u, v, kRadius - std::sqrt(kRadius * kRadius - r * r)};
   };
   const ReliefFigures r = relief_of(held(ball, 0.05));
-  const auto cap = [&](double chord) { return 3.14159265 * chord * chord / (kRadius * kRadius); };  // of an area chord^2 pi
+  const auto cap = [&](double chord) {
+    return 3.14159265 * chord * chord / (kRadius * kRadius);
+  };  // of an area chord^2 pi
   EXPECT_GT(r.curvature_sr, cap(48)) << name_of(r);
   EXPECT_LT(r.curvature_sr, cap(60)) << name_of(r);
 }
 
-FaceMesh head_in(std::uint32_t seed, const sim::HeadPose& pose, double noise_mm, double keep_from_mm = -1000) {
+FaceMesh head_in(std::uint32_t seed, const sim::HeadPose& pose, double noise_mm,
+                 double keep_from_mm = -1000) {
   static ThreadPool pool(2);
   const PointCloud cloud = test::FieldHead(seed).cloud(pose, pool, noise_mm);
   FaceMesh mesh = empty_mesh();
   for (const CloudPoint& p : cloud.points)
-    if (static_cast<double>(p.at_mm.x) > keep_from_mm) add(mesh, {static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)}, noise_mm);
+    if (static_cast<double>(p.at_mm.x) > keep_from_mm)
+      add(mesh,
+          {static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)},
+          noise_mm);
   return mesh;
 }
 
@@ -177,7 +189,8 @@ TEST(ReliefCheck, ScatteredPointsAreJudgedByTheSurfaceThatSpansThem) {
     return few;
   };
   const auto verdict_of = [&](const PointCloud& cloud) {
-    const auto mesh = run_stage(bench.context, [&](StageContext& c) { return DelaunayMesher({}).mesh(cloud, c); });
+    const auto mesh =
+        run_stage(bench.context, [&](StageContext& c) { return DelaunayMesher({}).mesh(cloud, c); });
     EXPECT_TRUE(mesh);
     EXPECT_LT(mesh->vertices_mm.size(), 2000U);
     const ReliefFigures r = relief_of(*mesh);
@@ -197,7 +210,8 @@ TEST(ReliefCheck, SaysToThePersonWhatToDoAndToTheTechnicianWhatWasMeasured) {
   const Error error = error_of(ReliefVerdict::Picture, {1, 0.1, 0.25, 0.21, 0.5, 0.4}, {});
   EXPECT_EQ(error.code, Errc::NoFace);
   EXPECT_NE(error.what.view().find("look into the cameras yourself"), std::string_view::npos);
-  for (const char* figure : {"0.25 mm off a plane", "0.21 mm off a bent sheet", "at least 1.2", "sigma 0.10", "0.4 sr"})
+  for (const char* figure :
+       {"0.25 mm off a plane", "0.21 mm off a bent sheet", "at least 1.2", "sigma 0.10", "0.4 sr"})
     EXPECT_NE(error.where().find(figure), std::string_view::npos) << figure << " in " << error.where();
 }
 
@@ -213,12 +227,14 @@ TEST(ReliefCheck, KeepsTheStagesContract) {
 
   Bench bench;
   bench.cancelled = true;
-  const auto stopped = run_stage(bench.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
+  const auto stopped =
+      run_stage(bench.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
 
   relievo::test::StageBench tiny(1 << 10, 1 << 16);
-  const auto full = run_stage(tiny.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
+  const auto full =
+      run_stage(tiny.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
   ASSERT_FALSE(full);
   EXPECT_EQ(full.error().code, Errc::OutOfMemory);
 }

@@ -22,7 +22,8 @@ TEST(Drawing, RoundsToOneTwoFive) {
   EXPECT_DOUBLE_EQ(report::rounded_down(7), 5);
   EXPECT_DOUBLE_EQ(report::rounded_down(1999), 1000);
   EXPECT_DOUBLE_EQ(report::rounded_down(0.001), 0.001);
-  for (const double nothing : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_GT(report::rounded_up(nothing), 0) << nothing;
+  for (const double nothing : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    EXPECT_GT(report::rounded_up(nothing), 0) << nothing;
 }
 
 TEST(Drawing, TicksCoverARangeInFewSteps) {
@@ -40,7 +41,9 @@ bool is_corner(const std::vector<Vec2d>& points, std::size_t which) {
   for (double angle = 0; angle < 6.2832; angle += 0.002) {
     bool outermost = true;
     for (std::size_t i = 0; i < points.size() && outermost; ++i)
-      outermost = i == which || (points[i].x - points[which].x) * std::cos(angle) + (points[i].y - points[which].y) * std::sin(angle) < 0;
+      outermost = i == which || (points[i].x - points[which].x) * std::cos(angle) +
+                                        (points[i].y - points[which].y) * std::sin(angle) <
+                                    0;
     if (outermost) return true;
   }
   return false;
@@ -57,7 +60,8 @@ TEST(Drawing, HullHoldsTheCornersAndNothingElse) {
     for (std::size_t i = 0; i < points.size(); ++i) corners += is_corner(points, i) ? 1U : 0U;
     EXPECT_EQ(around.size(), corners);
     for (const Vec2d& at : around) {
-      const auto found = std::find_if(points.begin(), points.end(), [&](const Vec2d& p) { return p.x == at.x && p.y == at.y; });
+      const auto found = std::find_if(points.begin(), points.end(),
+                                      [&](const Vec2d& p) { return p.x == at.x && p.y == at.y; });
       ASSERT_NE(found, points.end());
       EXPECT_TRUE(is_corner(points, static_cast<std::size_t>(found - points.begin())));
     }

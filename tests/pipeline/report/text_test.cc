@@ -60,7 +60,9 @@ TEST(ReportText, NumbersAreTheSameInEveryCountry) {
 }
 
 TEST(ReportText, Figures) {
-  EXPECT_EQ(report::figure(-1.005, 1), "\xE2\x88\x92" "1.0");
+  EXPECT_EQ(report::figure(-1.005, 1),
+            "\xE2\x88\x92"
+            "1.0");
   EXPECT_EQ(report::figure(-0.0004, 3), "0.000") << "nought has no sign";
   EXPECT_EQ(report::figure(2, 3), "2.000");
   EXPECT_EQ(report::figure(std::nan(""), 2), "\xE2\x80\x93");

@@ -20,7 +20,8 @@ namespace {
 TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   const hal::sim::SimRig rig(hal::sim::make_rig(test::small_rig(0.45)));
   test::StageBench bench;
-  const auto scene = hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(3), bench.pool), {}, bench.pool);
+  const auto scene =
+      hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(3), bench.pool), {}, bench.pool);
   const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig.left, {}, bench.pool), {}, 1);
   const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig.right, {}, bench.pool), {}, 2);
   const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
@@ -43,25 +44,35 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   std::size_t shown = 0, above = 0;
   for (int row = 0; row < b.rows; ++row)
     for (int column = 0; column < b.columns; ++column) {
-      const std::size_t k = static_cast<std::size_t>(row) * static_cast<std::size_t>(b.columns) + static_cast<std::size_t>(column);
+      const std::size_t k = static_cast<std::size_t>(row) * static_cast<std::size_t>(b.columns) +
+                            static_cast<std::size_t>(column);
       const bool edge = row == 0 || column == 0 || row + 1 == b.rows || column + 1 == b.columns;
       EXPECT_TRUE(!edge || b.rgba[k][3] == 0) << "column " << column << ", row " << row;
       if (b.rgba[k][3] < 200) continue;
       ++shown;
       const Vec3f& p = b.at_mm[k];
-      const Vec3d in_head = apply(model->head_from_camera, {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+      const Vec3d in_head =
+          apply(model->head_from_camera,
+                {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
       if (in_head.y > 105) ++above;
-      const Vec3d q = apply(pair->rectified_from_left, {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
-      const auto at = [&](double centre, double aside) { return static_cast<std::size_t>(std::lround(centre + pair->focal_px * aside / q.z)); };
+      const Vec3d q = apply(pair->rectified_from_left,
+                            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+      const auto at = [&](double centre, double aside) {
+        return static_cast<std::size_t>(std::lround(centre + pair->focal_px * aside / q.z));
+      };
       const std::size_t x = at(pair->left_centre_px.x, q.x), y = at(pair->left_centre_px.y, q.y);
       ASSERT_LT(x, static_cast<std::size_t>(pair->width_px));
       ASSERT_LT(y, static_cast<std::size_t>(pair->height_px));
       int brightest = 0;  // of what it may be the mean of
       for (int dy = -14; dy <= 14; ++dy)
         for (int dx = -14; dx <= 14; ++dx) {
-          const std::size_t u = std::clamp<std::size_t>(x + static_cast<std::size_t>(dx), 0, static_cast<std::size_t>(pair->width_px) - 1);
-          const std::size_t v = std::clamp<std::size_t>(y + static_cast<std::size_t>(dy), 0, static_cast<std::size_t>(pair->height_px) - 1);
-          brightest = std::max(brightest, static_cast<int>(pair->left.rgb[3 * (v * static_cast<std::size_t>(pair->width_px) + u)]));
+          const std::size_t u = std::clamp<std::size_t>(x + static_cast<std::size_t>(dx), 0,
+                                                        static_cast<std::size_t>(pair->width_px) - 1);
+          const std::size_t v = std::clamp<std::size_t>(y + static_cast<std::size_t>(dy), 0,
+                                                        static_cast<std::size_t>(pair->height_px) - 1);
+          brightest = std::max(
+              brightest,
+              static_cast<int>(pair->left.rgb[3 * (v * static_cast<std::size_t>(pair->width_px) + u)]));
         }
       EXPECT_LE(b.rgba[k][0], brightest) << "nothing is brighter than the photograph";
     }

@@ -25,7 +25,8 @@ inline Vec3d paint(double x, double y) {
 }
 
 // Both cameras look along z; the right one stands 100 mm to the right, its window follows the surface.
-inline RectifiedPair photographed(const std::function<double(double, double)>& depth_on_ray, double right_gain = 1) {
+inline RectifiedPair photographed(const std::function<double(double, double)>& depth_on_ray,
+                                  double right_gain = 1) {
   RectifiedPair pair(std::pmr::get_default_resource());
   pair.width_px = kWidth;
   pair.height_px = kHeight;
@@ -41,7 +42,8 @@ inline RectifiedPair photographed(const std::function<double(double, double)>& d
         const double sy = (y - centre.y) / kFocal;
         const double z = depth_on_ray(sx, camera_x);
         const Vec3d colour = paint(camera_x + sx * z, sy * z);
-        for (const double c : {colour.x, colour.y, colour.z}) view.rgb.push_back(static_cast<std::uint8_t>(std::lround(gain * c)));
+        for (const double c : {colour.x, colour.y, colour.z})
+          view.rgb.push_back(static_cast<std::uint8_t>(std::lround(gain * c)));
         view.valid.push_back(1);
       }
   };
@@ -62,7 +64,8 @@ inline FaceMesh plane_mesh(std::pmr::memory_resource* memory = std::pmr::get_def
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
       mesh.vertices_mm.push_back({static_cast<float>((40 + 4 * c - kWidth / 2.0) / kFocal * kDepth),
-                                  static_cast<float>((40 + 4 * r - kHeight / 2.0) / kFocal * kDepth), static_cast<float>(kDepth)});
+                                  static_cast<float>((40 + 4 * r - kHeight / 2.0) / kFocal * kDepth),
+                                  static_cast<float>(kDepth)});
       mesh.normals.push_back({0, 0, -1});
       mesh.sigma_mm.push_back(0.1F);
       mesh.measured.push_back(1);
@@ -88,7 +91,8 @@ inline Vec3d look_up(const TextureAtlas& atlas, const Vec2f& uv) {
       const double w = (dx == 0 ? 1 - (x - u) : x - u) * (dy == 0 ? 1 - (y - v) : y - v);
       const auto column = static_cast<std::size_t>(std::clamp(u + dx, 0, atlas.width_px - 1));
       const auto row = static_cast<std::size_t>(std::clamp(v + dy, 0, atlas.height_px - 1));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += w * atlas.rgb[3 * (row * static_cast<std::size_t>(atlas.width_px) + column) + c];
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[c] += w * atlas.rgb[3 * (row * static_cast<std::size_t>(atlas.width_px) + column) + c];
     }
   return {sum[0], sum[1], sum[2]};
 }

@@ -27,12 +27,18 @@ using test::SeamFigures;
 
 // Published pairs of Sharma, Wu and Dalal (2005), table 1: the formula's awkward corners.
 TEST(ColourDifference, AgreesWithThePublishedPairs) {
-  const struct { test::Lab one, two; double difference; } kPairs[] = {
-      {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},   {{50, -1.3802, -84.2814}, {50, 0, -82.7485}, 1.0000},
-      {{50, 0, 0}, {50, -1, 2}, 2.3669},                     {{50, 2.49, -0.001}, {50, -2.49, 0.0009}, 7.1792},
-      {{50, 2.49, -0.001}, {50, -2.49, 0.0011}, 7.2195},     {{50, 2.5, 0}, {73, 25, -18}, 27.1492},
-      {{50, 2.5, 0}, {56, -27, -3}, 31.9030},                {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
-      {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082}};
+  const struct {
+    test::Lab one, two;
+    double difference;
+  } kPairs[] = {{{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
+                {{50, -1.3802, -84.2814}, {50, 0, -82.7485}, 1.0000},
+                {{50, 0, 0}, {50, -1, 2}, 2.3669},
+                {{50, 2.49, -0.001}, {50, -2.49, 0.0009}, 7.1792},
+                {{50, 2.49, -0.001}, {50, -2.49, 0.0011}, 7.2195},
+                {{50, 2.5, 0}, {73, 25, -18}, 27.1492},
+                {{50, 2.5, 0}, {56, -27, -3}, 31.9030},
+                {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+                {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082}};
   for (const auto& pair : kPairs) EXPECT_NEAR(test::ciede2000(pair.one, pair.two), pair.difference, 1e-4);
   const test::Lab white = test::lab_of({255, 255, 255});
   EXPECT_NEAR(white.l, 100, 1e-3);
@@ -55,7 +61,8 @@ TEST(TextureSeams, TheMeasureSeesAStep) {
     return static_cast<std::uint32_t>(y * kSide + x);
   };
   for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), 500});
+    for (int x = 0; x < kSide; ++x)
+      mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), 500});
   for (int y = 0; y + 1 < kSide; ++y)
     for (int x = 0; x + 1 < kSide; ++x) {
       mesh.triangles.push_back({corner(x, y), corner(x, y + 1), corner(x + 1, y + 1)});
@@ -106,8 +113,9 @@ class SeamsOfAFace : public testing::Test {
     return test::measure_seams(model->mesh, model->texture, &*left_alone);
   }
   static void print(double exposure, const test::SeamReport& r) {
-    std::printf("right camera %.2f of the light: %zu seam edges, step %.2f / %.2f, over 3 mm %.2f / %.2f (CIEDE2000, median / 95 %%)\n",
-                exposure, r.step.count, r.step.median, r.step.p95, r.across.median, r.across.p95);
+    std::printf(
+        "right camera %.2f of the light: %zu seam edges, step %.2f / %.2f, over 3 mm %.2f / %.2f (CIEDE2000, median / 95 %%)\n",
+        exposure, r.step.count, r.step.median, r.step.p95, r.across.median, r.across.p95);
   }
   static hal::sim::SimRig* rig;
   static hal::sim::Scene* scene;
@@ -146,7 +154,8 @@ void mirror_a_lamp(hal::Picture& picture, const hal::sim::Scene& scene, const ha
       const double cosine = half.x * at.normal.x + half.y * at.normal.y + half.z * at.normal.z;
       const double light = cosine > 0 ? 70 * std::pow(cosine, 300) : 0;
       std::byte* p = &picture.bytes[3 * static_cast<std::size_t>(y * picture.width_px + x)];
-      for (int c = 0; c < 3; ++c) p[c] = static_cast<std::byte>(std::min(255.0, std::to_integer<int>(p[c]) + light));
+      for (int c = 0; c < 3; ++c)
+        p[c] = static_cast<std::byte>(std::min(255.0, std::to_integer<int>(p[c]) + light));
     }
 }
 
@@ -182,7 +191,9 @@ TEST_F(SeamsOfAFace, ALampMirroredByTheSkinIsNotPaintedOnIt) {
     count += 1;
   }
   ASSERT_GT(count, 200);
-  std::printf("a lamp on the skin, %.0f vertices: one photograph shows %.1f levels of it, both together %.1f\n", count, one / count, both / count);
+  std::printf(
+      "a lamp on the skin, %.0f vertices: one photograph shows %.1f levels of it, both together %.1f\n",
+      count, one / count, both / count);
   EXPECT_LT(both / one, 0.4);
 }
 

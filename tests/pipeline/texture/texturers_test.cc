@@ -37,7 +37,8 @@ TEST_P(TexturerContract, EveryCornerShowsThePaint) {
   ASSERT_TRUE(atlas);
   ASSERT_EQ(atlas->uv.size(), 3 * mesh.triangles.size());
   ASSERT_EQ(atlas->vertex_rgb.size(), 3 * mesh.vertices_mm.size());
-  ASSERT_EQ(atlas->rgb.size(), 3 * static_cast<std::size_t>(atlas->width_px) * static_cast<std::size_t>(atlas->height_px));
+  ASSERT_EQ(atlas->rgb.size(),
+            3 * static_cast<std::size_t>(atlas->width_px) * static_cast<std::size_t>(atlas->height_px));
   EXPECT_LE(std::max(atlas->width_px, atlas->height_px), 2048);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -65,7 +66,8 @@ TEST_P(TexturerContract, ASmallAtlasIsObeyed) {
   const FaceMesh mesh = plane_mesh();
   const RectifiedPair pair = photographed_plane();
   const auto atlas = room.run([&](StageContext& c) {
-    return GetParam() == "single-view" ? SingleViewTexturer(one).texture(mesh, pair, c) : TwoViewTexturer(two).texture(mesh, pair, c);
+    return GetParam() == "single-view" ? SingleViewTexturer(one).texture(mesh, pair, c)
+                                       : TwoViewTexturer(two).texture(mesh, pair, c);
   });
   ASSERT_TRUE(atlas);
   EXPECT_LE(atlas->width_px, 100);
@@ -141,13 +143,15 @@ TEST_P(TexturerContract, TheSameTwiceAndForAnyNumberOfThreads) {
     StageRoom room;
     ThreadPool pool(threads);
     StageContext context{room.output, room.scratch, pool, room.progress, room.cancelled};
-    const auto b = run_stage(context, [&](StageContext& c) { return make(GetParam())->texture(mesh, pair, c); });
+    const auto b =
+        run_stage(context, [&](StageContext& c) { return make(GetParam())->texture(mesh, pair, c); });
     ASSERT_TRUE(b);
     EXPECT_TRUE(a->rgb == b->rgb && a->origin == b->origin && a->vertex_rgb == b->vertex_rgb) << threads;
   }
 }
 
-// Whether a surface was measured says nothing of whether a camera saw it: a square is painted where the mesh was completed.
+// Whether a surface was measured says nothing of whether a camera saw it: a square is painted where the mesh
+// was completed.
 TEST_P(TexturerContract, WhatWasCompletedShowsThePhotographOfIt) {
   FaceMesh mesh = plane_mesh();
   RectifiedPair pair = photographed([](double, double) { return kDepth; });
@@ -177,10 +181,12 @@ TEST_P(TexturerContract, WhatWasCompletedShowsThePhotographOfIt) {
     EXPECT_LT(atlas->vertex_rgb[3 * v + 1], 15);
   }
   EXPECT_GT(painted, 50U);
-  EXPECT_EQ(std::count(atlas->origin.begin(), atlas->origin.end(), kFilledTexel), 0) << "every part of a plane before the cameras is seen";
+  EXPECT_EQ(std::count(atlas->origin.begin(), atlas->origin.end(), kFilledTexel), 0)
+      << "every part of a plane before the cameras is seen";
 }
 
-// A second plane 40 mm behind, seen from its back: no camera measured it, and no texel is shared with the front.
+// A second plane 40 mm behind, seen from its back: no camera measured it, and no texel is shared with the
+// front.
 TEST_P(TexturerContract, WhatTurnsAwayHasTexelsOfItsOwn) {
   FaceMesh mesh = plane_mesh();
   const auto n = static_cast<std::uint32_t>(mesh.vertices_mm.size());
@@ -213,7 +219,9 @@ TEST_P(TexturerContract, WhatTurnsAwayHasTexelsOfItsOwn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TexturerContract, testing::Values("single-view", "two-view"),
-                         [](const auto& test_case) { return test_case.param == "two-view" ? "two" : "single"; });
+                         [](const auto& test_case) {
+                           return test_case.param == "two-view" ? "two" : "single";
+                         });
 
 }  // namespace
 }  // namespace relievo::pipeline

@@ -18,7 +18,8 @@ namespace {
 
 using namespace test;  // NOLINT: the painted plane and its numbers
 
-// Crumbs of completed surface, each smaller than a texel of its chart, on a painted surface: they take its colour.
+// Crumbs of completed surface, each smaller than a texel of its chart, on a painted surface: they take its
+// colour.
 TEST(TwoViewTexturer, CrumbsTooSmallForATexelHaveTheirColour) {
   FaceMesh mesh = plane_mesh();
   const RectifiedPair pair = photographed_plane();
@@ -64,7 +65,8 @@ TEST(TwoViewTexturer, AFinerAtlasShowsTheSameLarger) {
   EXPECT_NEAR(two->height_px - 16, 2 * (one->height_px - 16), 4);
   EXPECT_LE(std::max(few->width_px, few->height_px), 300);
   double off = 0;
-  for (std::size_t c = 0; c < one->uv.size(); ++c) off = std::max(off, std::abs(look_up(*one, one->uv[c]).x - look_up(*two, two->uv[c]).x));
+  for (std::size_t c = 0; c < one->uv.size(); ++c)
+    off = std::max(off, std::abs(look_up(*one, one->uv[c]).x - look_up(*two, two->uv[c]).x));
   EXPECT_LT(off, 12);
 }
 
@@ -75,7 +77,8 @@ TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
   RectifiedPair pair = photographed_plane();
   constexpr double kGain[3] = {0.8, 0.9, 0.7}, kOffset[3] = {12, -8, 20};
   for (std::size_t k = 0; k < pair.right.rgb.size(); ++k)
-    pair.right.rgb[k] = static_cast<std::uint8_t>(std::lround(kGain[k % 3] * pair.right.rgb[k] + kOffset[k % 3]));
+    pair.right.rgb[k] =
+        static_cast<std::uint8_t>(std::lround(kGain[k % 3] * pair.right.rgb[k] + kOffset[k % 3]));
   const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
   ASSERT_TRUE(atlas);
   for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
@@ -100,7 +103,7 @@ TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
       }
   };
   RectifiedPair pair = photographed_plane();
-  shine(pair.left, pair.left_centre_px, 0, -20);   // in the left view alone
+  shine(pair.left, pair.left_centre_px, 0, -20);  // in the left view alone
   shine(pair.left, pair.left_centre_px, 0, 20);
   shine(pair.right, pair.right_centre_px, kBaseline, 20);
   StageRoom room;
@@ -117,16 +120,20 @@ TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
   EXPECT_GT(kept, 55);
 }
 
-// A dark bar, as a mouth is, that stood 4 mm lower when the right picture was taken: shown once, as one camera saw it.
+// A dark bar, as a mouth is, that stood 4 mm lower when the right picture was taken: shown once, as one
+// camera saw it.
 TEST(TwoViewTexturer, WhatMovedBetweenThePicturesIsShownOnce) {
   const FaceMesh mesh = plane_mesh();
-  const auto in_bar = [](double x, double y, double middle) { return std::abs(x) < 22 && std::abs(y - middle) < 2; };
+  const auto in_bar = [](double x, double y, double middle) {
+    return std::abs(x) < 22 && std::abs(y - middle) < 2;
+  };
   const auto draw = [&](RectifiedView& view, const Vec2d& centre, double camera_x, double middle) {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
         const double at_y = (y - centre.y) / kFocal * kDepth;
-        if (in_bar(at_x, at_y, middle)) std::fill_n(&view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)], 3, std::uint8_t{20});
+        if (in_bar(at_x, at_y, middle))
+          std::fill_n(&view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)], 3, std::uint8_t{20});
       }
   };
   RectifiedPair pair = photographed_plane();
@@ -140,7 +147,8 @@ TEST(TwoViewTexturer, WhatMovedBetweenThePicturesIsShownOnce) {
     const Vec3f& p = mesh.vertices_mm[v];
     for (std::size_t view = 0; view < 2; ++view) {
       const double middle = 4.0 * static_cast<double>(view);
-      if (std::abs(p.x) > 15 || std::abs(p.y) > 10 || std::abs(std::abs(double(p.y) - middle) - 2) < 1) continue;  // not the bar's edge
+      if (std::abs(p.x) > 15 || std::abs(p.y) > 10 || std::abs(std::abs(double(p.y) - middle) - 2) < 1)
+        continue;  // not the bar's edge
       const double truth = in_bar(double(p.x), double(p.y), middle) ? 20 : paint(double(p.x), double(p.y)).y;
       worst[view] = std::max(worst[view], std::abs(double(atlas->vertex_rgb[3 * v + 1]) - truth));
     }
@@ -152,7 +160,8 @@ TEST(TwoViewTexturer, WhatMovedBetweenThePicturesIsShownOnce) {
 TEST(TwoViewTexturer, AnUnderexposedRightViewLeavesNoTrace) {
   StageRoom room;
   const FaceMesh mesh = plane_mesh();
-  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, photographed_plane(0.7), c); });
+  const auto atlas = room.run(
+      [&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, photographed_plane(0.7), c); });
   ASSERT_TRUE(atlas);
   for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
     const Vec3d truth = paint(double(mesh.vertices_mm[v].x), double(mesh.vertices_mm[v].y));

@@ -35,8 +35,8 @@ std::string landmark_lines(const pipeline::FaceModel& model) {
   for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
     const pipeline::Landmark& l = model.landmarks[k];
     if (!l.found) continue;
-    lines << "comment landmark " << word(static_cast<pipeline::LandmarkName>(k)) << ' ' << l.at_mm.x << ' ' << l.at_mm.y
-          << ' ' << l.at_mm.z << ' ' << l.sigma_mm << '\n';
+    lines << "comment landmark " << word(static_cast<pipeline::LandmarkName>(k)) << ' ' << l.at_mm.x << ' '
+          << l.at_mm.y << ' ' << l.at_mm.z << ' ' << l.sigma_mm << '\n';
   }
   return lines.str();
 }
@@ -47,20 +47,20 @@ TEST(PlyWriter, HeaderAndFirstVertexAreAsPromised) {
   ASSERT_TRUE(mesh);
   const auto bytes = ply_bytes(*mesh);
   const std::string header = std::string() +
-      "ply\n"
-      "format binary_little_endian 1.0\n"
-      "comment Relievo face model, millimetres\n"
-      "comment frame camera: the left camera, x right, y down, z forward\n" +
-      landmark_lines(model) +
-      "element vertex 16\n"
-      "property float x\nproperty float y\nproperty float z\n"
-      "property float nx\nproperty float ny\nproperty float nz\n"
-      "property float sigma_mm\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "property uchar measured\n"
-      "element face 18\n"
-      "property list uchar int vertex_indices\n"
-      "end_header\n";
+                             "ply\n"
+                             "format binary_little_endian 1.0\n"
+                             "comment Relievo face model, millimetres\n"
+                             "comment frame camera: the left camera, x right, y down, z forward\n" +
+                             landmark_lines(model) +
+                             "element vertex 16\n"
+                             "property float x\nproperty float y\nproperty float z\n"
+                             "property float nx\nproperty float ny\nproperty float nz\n"
+                             "property float sigma_mm\n"
+                             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                             "property uchar measured\n"
+                             "element face 18\n"
+                             "property list uchar int vertex_indices\n"
+                             "end_header\n";
   ASSERT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), header.size()), header);
   ASSERT_EQ(bytes.size(), header.size() + 16 * 32 + 18 * 13);
   ByteReader from(std::span<const std::byte>(bytes).subspan(header.size()));
@@ -147,11 +147,13 @@ TEST(ModelFiles, ImagesForRecognitionGoBesideTheModel) {
   ASSERT_TRUE(files);
   std::string names;
   for (auto file = files->begin() + 7; file != files->end(); ++file) names += file->filename().string() + " ";
-  EXPECT_EQ(names, "portrait.png portrait_shows.png range.png range_sigma.png range_shows.png recognition.json ");
+  EXPECT_EQ(names,
+            "portrait.png portrait_shows.png range.png range_sigma.png range_shows.png recognition.json ");
   const std::string page = relievo::test::read_text(folder / "recognition.json");
   EXPECT_NE(page.find("\"generator\": \"Relievo 1.2.3\""), std::string::npos);
   EXPECT_NE(page.find("\"pitch_mm\": 0.5, \"first_pixel_xy_mm\": [-2.5, 7]"), std::string::npos);
-  EXPECT_NE(page.find("\"eyes_found\": true, \"right_eye_px\": [0.5, 0.25], \"left_eye_px\": [1.5, 0.25]"), std::string::npos);
+  EXPECT_NE(page.find("\"eyes_found\": true, \"right_eye_px\": [0.5, 0.25], \"left_eye_px\": [1.5, 0.25]"),
+            std::string::npos);
   EXPECT_NE(page.find("\"between_eyes_mm\": 63.25, \"between_eyes_px\": 1"), std::string::npos);
   const std::string glb = relievo::test::read_text(folder / "model.glb");
   EXPECT_NE(glb.find("\"generator\":\"Relievo 1.2.3\""), std::string::npos);
@@ -159,8 +161,13 @@ TEST(ModelFiles, ImagesForRecognitionGoBesideTheModel) {
 }
 
 TEST(NumberText, RoundsAndKeepsNoNeedlessDigit) {
-  const struct { double value; int decimals; const char* text; } kCases[] = {
-      {0, 3, "0"}, {-0.0004, 3, "0"}, {-0.0006, 3, "-0.001"}, {12.5, 3, "12.5"}, {-12.0625, 3, "-12.063"}, {100, 3, "100"}, {0.99999, 3, "1"}, {0.00001, 5, "0.00001"}, {7.25, 0, "7"}};
+  const struct {
+    double value;
+    int decimals;
+    const char* text;
+  } kCases[] = {{0, 3, "0"},       {-0.0004, 3, "0"},        {-0.0006, 3, "-0.001"},
+                {12.5, 3, "12.5"}, {-12.0625, 3, "-12.063"}, {100, 3, "100"},
+                {0.99999, 3, "1"}, {0.00001, 5, "0.00001"},  {7.25, 0, "7"}};
   for (const auto& c : kCases) {
     std::string text;
     append_rounded(text, c.value, c.decimals);

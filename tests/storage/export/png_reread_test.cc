@@ -26,7 +26,10 @@ Reread reread(const std::vector<std::byte>& file) {
   Reread out;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
-  struct Source { const std::byte* at; std::size_t left; } source{file.data(), file.size()};
+  struct Source {
+    const std::byte* at;
+    std::size_t left;
+  } source{file.data(), file.size()};
   png_set_read_fn(png, &source, [](png_structp p, png_bytep to, std::size_t size) {
     auto& from = *static_cast<Source*>(png_get_io_ptr(p));
     if (size > from.left) png_error(p, "the file is too short");
@@ -42,7 +45,8 @@ Reread reread(const std::vector<std::byte>& file) {
   png_bytepp rows = png_get_rows(png, info);
   for (int y = 0; y < out.height; ++y)
     for (int k = 0; k < out.width * out.channels; ++k)
-      out.values.push_back(out.bits == 8 ? rows[y][k] : static_cast<unsigned>(rows[y][2 * k] << 8 | rows[y][2 * k + 1]));
+      out.values.push_back(out.bits == 8 ? rows[y][k]
+                                         : static_cast<unsigned>(rows[y][2 * k] << 8 | rows[y][2 * k + 1]));
   png_destroy_read_struct(&png, &info, nullptr);
   return out;
 }
@@ -55,7 +59,8 @@ TEST(PngWriter, EveryKindReadsBackValueByValue) {
     grey.push_back(static_cast<std::uint8_t>(k * 5));
     deep.push_back(static_cast<std::uint16_t>(k * 77));
   }
-  const auto check = [](const Result<std::vector<std::byte>>& file, const auto& wanted, int bits, int channels) {
+  const auto check = [](const Result<std::vector<std::byte>>& file, const auto& wanted, int bits,
+                        int channels) {
     ASSERT_TRUE(file);
     const Reread got = reread(*file);
     EXPECT_EQ(got.width, 37);

@@ -29,7 +29,8 @@ TEST(Receipts, AreSpreadOverTheWholeRange) {
     ASSERT_GE(drawn, kLeastReceipt);
     ASSERT_LE(drawn, kMostReceipt);
     all.insert(drawn);
-    ++in_part[static_cast<std::size_t>((drawn - kLeastReceipt) * kParts / (kMostReceipt - kLeastReceipt + 1))];
+    ++in_part[static_cast<std::size_t>((drawn - kLeastReceipt) * kParts /
+                                       (kMostReceipt - kLeastReceipt + 1))];
     rises += drawn > before ? 1 : 0;
     before = drawn;
   }
@@ -67,7 +68,8 @@ TEST(Receipts, AGeneratorThatRepeatsItselfStoresNobody) {
   const auto store = opened(folder.path(), {.draw_receipt = [] { return std::int64_t{7}; }});
   ASSERT_TRUE(store->add_subject({"Ada"}).has_value());
   const auto model = test::sample_model();
-  EXPECT_EQ(store->add_enrolment(NewSubject{"Bob"}, test::sample_enrolment(model)).error().code, Errc::LibraryFailed);
+  EXPECT_EQ(store->add_enrolment(NewSubject{"Bob"}, test::sample_enrolment(model)).error().code,
+            Errc::LibraryFailed);
   EXPECT_EQ(store->subjects({})->size(), 1U) << "nothing half stored";
   EXPECT_TRUE(store->check().has_value());
 }

@@ -96,7 +96,8 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
     auto store = opened(dir);
     ASSERT_TRUE(store);
     EXPECT_EQ(store->subjects({})->front().name, "Ada");
-    EXPECT_EQ(store->subjects({})->front().receipt, 0) << "their code is of before receipts were drawn, and stays";
+    EXPECT_EQ(store->subjects({})->front().receipt, 0)
+        << "their code is of before receipts were drawn, and stays";
     EXPECT_NE(store->subject(*store->add_subject({"Bob"}))->receipt, 0);
     EXPECT_TRUE(store->set_setting("language", "de"));
     EXPECT_TRUE(store->check());
@@ -125,7 +126,8 @@ TEST(SqliteMigration, CalibrationsOfBeforeAreReadAndNewOnesJoinThem) {
     hex += {kDigits[std::to_integer<int>(b) >> 4], kDigits[std::to_integer<int>(b) & 15]};
   }
   Raw(folder / "relievo.db")
-      .run("INSERT INTO calibration (created_at_ms, note, record, active) VALUES (1, 'old', x'" + hex + "', 1)");
+      .run("INSERT INTO calibration (created_at_ms, note, record, active) VALUES (1, 'old', x'" + hex +
+           "', 1)");
   const auto store = opened(folder.path());
   ASSERT_TRUE(store);
   EXPECT_EQ(store->active_calibration()->rms_px, calibration.rms_px);

@@ -186,7 +186,8 @@ TEST_F(SqliteStoreVerbs, KnowsACalibrationByItsNumbers) {
   auto calibration = sample_calibration();
   EXPECT_EQ(*store->know_calibration(calibration, "rig.yml"), 1u);
   EXPECT_EQ(code_of(store->active_calibration()), Errc::NotCalibrated) << "to know one is not to use it";
-  EXPECT_NE(store->active_calibration().error().what.view().find("is in use"), std::string_view::npos) << "and it is not called none";
+  EXPECT_NE(store->active_calibration().error().what.view().find("is in use"), std::string_view::npos)
+      << "and it is not called none";
   calibration.epipolar_shift_px += 1e-16;
   ASSERT_EQ(*store->save_calibration(calibration, "live", {CalibrationGrade::Pass, 0.04, 0.2, 0.1}), 2u);
   reopen();

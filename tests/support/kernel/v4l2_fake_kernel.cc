@@ -17,24 +17,42 @@ constexpr std::uint32_t kTriggerId = V4L2_CID_USER_BASE + 0x1010;
 
 KernelCall call_of(unsigned long request) {
   switch (request) {
-    case VIDIOC_QUERYCAP: return KernelCall::QueryCap;
-    case VIDIOC_G_INPUT: return KernelCall::GetInput;
-    case VIDIOC_ENUMINPUT: return KernelCall::EnumInput;
-    case VIDIOC_QUERY_DV_TIMINGS: return KernelCall::QueryTimings;
-    case VIDIOC_S_DV_TIMINGS: return KernelCall::SetTimings;
-    case VIDIOC_ENUM_FMT: return KernelCall::EnumFormats;
-    case VIDIOC_S_FMT: return KernelCall::SetFormat;
-    case VIDIOC_G_PARM: return KernelCall::GetInterval;
-    case VIDIOC_S_PARM: return KernelCall::SetInterval;
-    case VIDIOC_QUERYCTRL: return KernelCall::QueryControl;
-    case VIDIOC_S_CTRL: return KernelCall::SetControl;
-    case VIDIOC_REQBUFS: return KernelCall::RequestBuffers;
-    case VIDIOC_QUERYBUF: return KernelCall::QueryBuffer;
-    case VIDIOC_QBUF: return KernelCall::Queue;
-    case VIDIOC_STREAMON: return KernelCall::StreamOn;
-    case VIDIOC_DQBUF: return KernelCall::Dequeue;
-    case VIDIOC_STREAMOFF: return KernelCall::StreamOff;
-    default: return KernelCall::Count;
+    case VIDIOC_QUERYCAP:
+      return KernelCall::QueryCap;
+    case VIDIOC_G_INPUT:
+      return KernelCall::GetInput;
+    case VIDIOC_ENUMINPUT:
+      return KernelCall::EnumInput;
+    case VIDIOC_QUERY_DV_TIMINGS:
+      return KernelCall::QueryTimings;
+    case VIDIOC_S_DV_TIMINGS:
+      return KernelCall::SetTimings;
+    case VIDIOC_ENUM_FMT:
+      return KernelCall::EnumFormats;
+    case VIDIOC_S_FMT:
+      return KernelCall::SetFormat;
+    case VIDIOC_G_PARM:
+      return KernelCall::GetInterval;
+    case VIDIOC_S_PARM:
+      return KernelCall::SetInterval;
+    case VIDIOC_QUERYCTRL:
+      return KernelCall::QueryControl;
+    case VIDIOC_S_CTRL:
+      return KernelCall::SetControl;
+    case VIDIOC_REQBUFS:
+      return KernelCall::RequestBuffers;
+    case VIDIOC_QUERYBUF:
+      return KernelCall::QueryBuffer;
+    case VIDIOC_QBUF:
+      return KernelCall::Queue;
+    case VIDIOC_STREAMON:
+      return KernelCall::StreamOn;
+    case VIDIOC_DQBUF:
+      return KernelCall::Dequeue;
+    case VIDIOC_STREAMOFF:
+      return KernelCall::StreamOff;
+    default:
+      return KernelCall::Count;
   }
 }
 
@@ -136,33 +154,45 @@ int FakeKernel::answer(unsigned long request, void* argument) {
     case VIDIOC_QUERYCAP: {
       auto& can = as<v4l2_capability>(argument);
       can.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-      can.device_caps = (!is_camera ? V4L2_CAP_META_CAPTURE : several_planes ? V4L2_CAP_VIDEO_CAPTURE_MPLANE : V4L2_CAP_VIDEO_CAPTURE) |
+      can.device_caps = (!is_camera       ? V4L2_CAP_META_CAPTURE
+                         : several_planes ? V4L2_CAP_VIDEO_CAPTURE_MPLANE
+                                          : V4L2_CAP_VIDEO_CAPTURE) |
                         (streams ? V4L2_CAP_STREAMING : 0U);
       return 0;
     }
-    case VIDIOC_G_INPUT: as<int>(argument) = 0; return 0;
+    case VIDIOC_G_INPUT:
+      as<int>(argument) = 0;
+      return 0;
     case VIDIOC_ENUMINPUT:
       as<v4l2_input>(argument).status = no_signal ? V4L2_IN_ST_NO_SIGNAL : 0;
       as<v4l2_input>(argument).capabilities = has_timings ? V4L2_IN_CAP_DV_TIMINGS : 0;
       return 0;
-    case VIDIOC_QUERY_DV_TIMINGS: as<v4l2_dv_timings>(argument).bt.interlaced = interlaced_signal ? V4L2_DV_INTERLACED : V4L2_DV_PROGRESSIVE; return 0;
-    case VIDIOC_S_DV_TIMINGS: return 0;
+    case VIDIOC_QUERY_DV_TIMINGS:
+      as<v4l2_dv_timings>(argument).bt.interlaced =
+          interlaced_signal ? V4L2_DV_INTERLACED : V4L2_DV_PROGRESSIVE;
+      return 0;
+    case VIDIOC_S_DV_TIMINGS:
+      return 0;
     case VIDIOC_ENUM_FMT: {
       auto& format = as<v4l2_fmtdesc>(argument);
       if (format.index >= formats.size()) return -EINVAL;
       format.pixelformat = formats[format.index];
       return 0;
     }
-    case VIDIOC_S_FMT: return set_format(argument);
+    case VIDIOC_S_FMT:
+      return set_format(argument);
     case VIDIOC_G_PARM:
       if (has_timings) return -ENOTTY;
       as<v4l2_streamparm>(argument).parm.capture.capability = V4L2_CAP_TIMEPERFRAME;
       return 0;
-    case VIDIOC_S_PARM: return has_timings ? -ENOTTY : 0;
+    case VIDIOC_S_PARM:
+      return has_timings ? -ENOTTY : 0;
     case VIDIOC_QUERYCTRL:
     case VIDIOC_QUERYMENU:
-    case VIDIOC_S_CTRL: return answer_control(request, argument);
-    default: return answer_buffer(request, argument);
+    case VIDIOC_S_CTRL:
+      return answer_control(request, argument);
+    default:
+      return answer_buffer(request, argument);
   }
 }
 
@@ -177,7 +207,8 @@ int FakeKernel::answer_control(unsigned long request, void* argument) {
   const std::uint32_t id = asked.id;
   asked.minimum = 1;
   if ((id & V4L2_CTRL_FLAG_NEXT_CTRL) != 0) {
-    if (trigger_control.empty() || (id & ~static_cast<std::uint32_t>(V4L2_CTRL_FLAG_NEXT_CTRL)) >= kTriggerId) return -EINVAL;
+    if (trigger_control.empty() || (id & ~static_cast<std::uint32_t>(V4L2_CTRL_FLAG_NEXT_CTRL)) >= kTriggerId)
+      return -EINVAL;
     asked.id = kTriggerId;
     asked.type = V4L2_CTRL_TYPE_BOOLEAN;
     asked.minimum = 0;
@@ -207,8 +238,10 @@ int FakeKernel::answer_buffer(unsigned long request, void* argument) {
     }
     case VIDIOC_QBUF: {
       const std::uint32_t index = as<v4l2_buffer>(argument).index;
-      const bool filled = std::any_of(filled_.begin(), filled_.end(), [&](const Filled& f) { return f.index == index; });
-      if (filled || std::find(queue_.begin(), queue_.end(), index) != queue_.end()) complain("queued a buffer twice");
+      const bool filled =
+          std::any_of(filled_.begin(), filled_.end(), [&](const Filled& f) { return f.index == index; });
+      if (filled || std::find(queue_.begin(), queue_.end(), index) != queue_.end())
+        complain("queued a buffer twice");
       queue_.push_back(index);
       return 0;
     }
@@ -229,15 +262,18 @@ int FakeKernel::answer_buffer(unsigned long request, void* argument) {
       auto& buffer = as<v4l2_buffer>(argument);
       buffer.index = first.index;
       buffer.sequence = first.sequence;
-      buffer.bytesused = first.exposed.bytes != 0 ? first.exposed.bytes : static_cast<std::uint32_t>(picture_bytes());
+      buffer.bytesused =
+          first.exposed.bytes != 0 ? first.exposed.bytes : static_cast<std::uint32_t>(picture_bytes());
       buffer.field = interlaced ? V4L2_FIELD_INTERLACED : V4L2_FIELD_NONE;
       buffer.flags = stamp_flags | (first.exposed.damaged ? V4L2_BUF_FLAG_ERROR : 0);
-      const auto since = std::chrono::duration_cast<std::chrono::microseconds>(first.at.time_since_epoch()).count();
+      const auto since =
+          std::chrono::duration_cast<std::chrono::microseconds>(first.at.time_since_epoch()).count();
       buffer.timestamp.tv_sec = since / 1'000'000;
       buffer.timestamp.tv_usec = since % 1'000'000;
       return 0;
     }
-    default: return -ENOTTY;
+    default:
+      return -ENOTTY;
   }
 }
 

@@ -20,8 +20,27 @@ namespace relievo::hal {
 
 // The calls a test may let fail, in the order in which a camera makes them.
 enum class KernelCall : std::uint8_t {
-  Open, QueryCap, GetInput, EnumInput, QueryTimings, SetTimings, EnumFormats, SetFormat, GetInterval, SetInterval,
-  QueryControl, SetControl, RequestBuffers, QueryBuffer, Map, Queue, StreamOn, Poll, Dequeue, StreamOff, Count
+  Open,
+  QueryCap,
+  GetInput,
+  EnumInput,
+  QueryTimings,
+  SetTimings,
+  EnumFormats,
+  SetFormat,
+  GetInterval,
+  SetInterval,
+  QueryControl,
+  SetControl,
+  RequestBuffers,
+  QueryBuffer,
+  Map,
+  Queue,
+  StreamOn,
+  Poll,
+  Dequeue,
+  StreamOff,
+  Count
 };
 
 class FakeKernel final : public Kernel {
@@ -38,13 +57,13 @@ class FakeKernel final : public Kernel {
   bool has_timings = false, interlaced_signal = false, no_signal = false;
   bool interlaced = false;
   bool has_exposure = true;
-  std::string trigger_control = "Trigger Mode";   // empty: none
-  std::vector<std::uint32_t> formats;             // default: GREY
-  int width_px = 64, height_px = 48;              // the only size
+  std::string trigger_control = "Trigger Mode";  // empty: none
+  std::vector<std::uint32_t> formats;            // default: GREY
+  int width_px = 64, height_px = 48;             // the only size
   int padding_bytes = 16;
   std::string serial = "A1";
   unsigned most_buffers = 8;
-  std::uint32_t stamp_flags;                      // default: monotonic
+  std::uint32_t stamp_flags;  // default: monotonic
 
   // What it was told.
   std::map<std::uint32_t, std::int32_t> set_controls;
@@ -60,7 +79,7 @@ class FakeKernel final : public Kernel {
   struct Exposed {
     std::uint8_t value = 0;
     bool damaged = false;
-    std::uint32_t bytes = 0;   // 0: the whole picture
+    std::uint32_t bytes = 0;  // 0: the whole picture
   };
   void expose(const Exposed& exposed);
   void unplug() { plugged_ = false; }

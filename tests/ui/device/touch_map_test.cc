@@ -31,11 +31,12 @@ TEST(TouchMapTest, FindsEveryQuarterTurnAndMirrorAndLeavesTheRest) {
     bool mirrored;
   };
   // Of the picture, from the panel: the other way round than what the panel does.
-  const Panel panels[] = {{{{1, 0, 0, 0, 1, 0}}, 0, false},
-                          {{{0, 1, 0, -1, 0, 1}}, 90, false},
-                          {{{-1, 0, 1, 0, -1, 1}}, 180, false},
-                          {{{-1, 0, 1, 0, 1, 0}}, 180, true},
-                          {{{0.9, 0.05, 0.03, -0.05, 0.9, 0.04}}, std::atan2(0.05, 0.9) * 180 / std::acos(-1.0), false}};
+  const Panel panels[] = {
+      {{{1, 0, 0, 0, 1, 0}}, 0, false},
+      {{{0, 1, 0, -1, 0, 1}}, 90, false},
+      {{{-1, 0, 1, 0, -1, 1}}, 180, false},
+      {{{-1, 0, 1, 0, 1, 0}}, 180, true},
+      {{{0.9, 0.05, 0.03, -0.05, 0.9, 0.04}}, std::atan2(0.05, 0.9) * 180 / std::acos(-1.0), false}};
   for (const Panel& panel : panels) {
     const auto fit = fit_touch_map(touches(panel.map, 0.004F));
     ASSERT_TRUE(fit.has_value()) << fit.error().what.view();
@@ -62,7 +63,8 @@ TEST(TouchMapTest, WhatIsNoPanelIsRefused) {
   EXPECT_FALSE(fit_touch_map(all).has_value()) << "on one line";
   for (TouchedCross& one : all) one.touched = {0.5F + one.cross.x * 0.1F, 0.5F + one.cross.y * 0.1F};
   EXPECT_FALSE(fit_touch_map(all).has_value()) << "a tenth of the screen";
-  for (const char* text : {"", "1 1 0 0", "2 1 0 0 0 1 0", "1 1 0 0 0 1 0 7", "1 0 0 0 0 0 0", "1 nan 0 0 0 1 0", "1 1e9 0 0 0 1 0"})
+  for (const char* text : {"", "1 1 0 0", "2 1 0 0 0 1 0", "1 1 0 0 0 1 0 7", "1 0 0 0 0 0 0",
+                           "1 nan 0 0 0 1 0", "1 1e9 0 0 0 1 0"})
     EXPECT_FALSE(parse_touch_map(text).has_value()) << text;
 }
 

@@ -28,7 +28,9 @@ class MissingScreen : public testing::Test {
 
   void add_card(const std::string& name) const { std::ofstream(places.devices / name) << "card"; }
   // As for a user outside of its group: root may open everything that is there.
-  void add_closed_card(const std::string& name) const { fs::create_symlink(places.devices / "nowhere", places.devices / name); }
+  void add_closed_card(const std::string& name) const {
+    fs::create_symlink(places.devices / "nowhere", places.devices / name);
+  }
   void add_socket(const std::string& name, const std::string& status) const {
     fs::create_directories(places.monitors / name);
     std::ofstream(places.monitors / name / "status") << status << '\n';

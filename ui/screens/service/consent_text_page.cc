@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a step of
-// the first start.
+// Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
+// step of the first start.
 #include "ui/screens/service/pin_verbs.h"
 #include "ui/screens/service/staff_screens.h"
 #include "ui/staff_views.h"
@@ -25,11 +25,16 @@ void ended(StaffFrame& page, const ConsentShelfView& seen) {
   const auto& tr = page.tr;
   if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
   if (seen.outcome == Outcome::None) return;
-  if (seen.outcome == Outcome::Done) return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
-  if (seen.outcome == Outcome::NoStick) page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
-  else if (seen.outcome == Outcome::StickGone) page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
-  else if (seen.outcome == Outcome::NotFound) page.status("outcome", tr("The stick has no folder named consent."), Mood::Bad);
-  else page.status("outcome", page.filled(tr("{}: {}"), {seen.file, page.said(seen.fault, false)}), Mood::Bad);
+  if (seen.outcome == Outcome::Done)
+    return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
+  if (seen.outcome == Outcome::NoStick)
+    page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
+  else if (seen.outcome == Outcome::StickGone)
+    page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
+  else if (seen.outcome == Outcome::NotFound)
+    page.status("outcome", tr("The stick has no folder named consent."), Mood::Bad);
+  else
+    page.status("outcome", page.filled(tr("{}: {}"), {seen.file, page.said(seen.fault, false)}), Mood::Bad);
   page.line(tr("Nothing was changed."));
 }
 
@@ -40,15 +45,24 @@ void consent_in_force(StaffFrame& page) {
   const ConsentTexts* own = page.view.consent;
   page.begin_list("consent");
   if (page.staff.consent != nullptr) ended(page, *page.staff.consent);
-  if (own == nullptr) page.status("in force", tr("Visitors read our sample. No lawyer has reviewed it; it says so."), Mood::Warn);
-  else page.status("in force", page.filled(tr("Visitors read your text, version {}. They are offered these languages:"), own->version), Mood::Good);
+  if (own == nullptr)
+    page.status("in force", tr("Visitors read our sample. No lawyer has reviewed it; it says so."),
+                Mood::Warn);
+  else
+    page.status("in force",
+                page.filled(tr("Visitors read your text, version {}. They are offered these languages:"),
+                            own->version),
+                Mood::Good);
   if (own != nullptr) titles(page, *own);
   page.section(tr("A text of your own"));
-  page.line(tr("On a stick, in the folder consent/VERSION, a file for each language, saved as UTF-8: en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt, ja.txt. VERSION is a name of your choice, such as 2026-03; of several the last in order is taken."));
-  page.line(tr("The first line is the title. Then, after an empty line each, the points: a title, and the words below it."));
+  page.line(tr(
+      "On a stick, in the folder consent/VERSION, a file for each language, saved as UTF-8: en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt, ja.txt. VERSION is a name of your choice, such as 2026-03; of several the last in order is taken."));
+  page.line(tr(
+      "The first line is the title. Then, after an empty line each, the points: a title, and the words below it."));
   page.tree.close();
   const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
-  page.small_button("take consent", tr("Take it from the stick"), kFetch, ButtonLook::Quiet, busy ? Action{} : Action{ActionKind::StaffDo, kConsentTake});
+  page.small_button("take consent", tr("Take it from the stick"), kFetch, ButtonLook::Quiet,
+                    busy ? Action{} : Action{ActionKind::StaffDo, kConsentTake});
 }
 
 void consent_text_page(StaffFrame& page) { consent_in_force(page); }

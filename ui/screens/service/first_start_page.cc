@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The first start: language, clock, consent text, both PINs; and the page on which somebody changes their own.
+// The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
+// own.
 #include "ui/screens/service/pin_verbs.h"
 #include "ui/screens/service/staff_screens.h"
 #include "ui/staff_views.h"
@@ -15,7 +16,9 @@ constexpr const char* kClockSign = "\uf0f0";
 void welcome(StaffFrame& page) {
   const auto& tr = page.tr;
   page.heading("welcome", tr("This device is new"), type::kHeading);
-  page.body("what", tr("Choose a language, check the clock and the consent text, and choose two PINs: one for the technician, one for the operator."));
+  page.body(
+      "what",
+      tr("Choose a language, check the clock and the consent text, and choose two PINs: one for the technician, one for the operator."));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "languages";
   list.box.scroll = true;
@@ -26,7 +29,8 @@ void welcome(StaffFrame& page) {
     const auto language = static_cast<Language>(i);
     const bool now = language == page.visit.language;
     if (i % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
-    page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr, ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(i)}, 1);
+    page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr,
+                      ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(i)}, 1);
     if (i % abreast == abreast - 1 || i + 1 == kLanguages) page.tree.close();
   }
   page.tree.close();
@@ -58,7 +62,8 @@ void clock(StaffFrame& page) {
   room.box.scroll = true;
   room.id = "clock room";
   page.tree.open(room);
-  Node time = page.text(page.date(page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  Node time = page.text(page.date(page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink,
+                        TextAlign::Centre);
   time.id = "clock";
   time.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.5F));  // it stays on one line
   time.role = Role::Status;
@@ -73,38 +78,54 @@ void clock(StaffFrame& page) {
   mover(page, tr("Ten minutes"), "ten", 10);
   mover(page, tr("Minute"), "minute", 1);
   page.tree.close();
-  if (page.staff.access.clock_refused) page.body("refused", tr("The system does not let this program set its clock. Set it there, then start again; or go on with this one."));
+  if (page.staff.access.clock_refused)
+    page.body(
+        "refused",
+        tr("The system does not let this program set its clock. Set it there, then start again; or go on with this one."));
   page.tree.close();
   page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffDo, kClockSet});
 }
 
 void consent(StaffFrame& page) {
   const auto& tr = page.tr;
-  const bool own = page.view.consent != nullptr, busy = page.staff.consent == nullptr || page.staff.consent->taking;
+  const bool own = page.view.consent != nullptr,
+             busy = page.staff.consent == nullptr || page.staff.consent->taking;
   page.heading("consent title", tr("What do visitors consent to?"), type::kHeading);
   consent_in_force(page);
-  page.button("consent right", own ? tr("Go on with this text") : tr("Go on with the sample"), page.onward(), ButtonLook::Main, busy ? Action{} : Action{ActionKind::StaffDo, kConsentRight});
+  page.button("consent right", own ? tr("Go on with this text") : tr("Go on with the sample"), page.onward(),
+              ButtonLook::Main, busy ? Action{} : Action{ActionKind::StaffDo, kConsentRight});
 }
 
 const char* title_of(const Words& tr, PinStep step) {
   switch (step) {
-    case PinStep::Technician: return tr("Choose the technician's PIN");
-    case PinStep::TechnicianAgain: return tr("The technician's PIN once more");
-    case PinStep::Operator: return tr("Choose the operator's PIN");
-    case PinStep::OperatorAgain: return tr("The operator's PIN once more");
-    case PinStep::Own: return tr("Choose your new PIN");
-    case PinStep::OwnAgain: return tr("Your new PIN once more");
-    case PinStep::Done: break;
+    case PinStep::Technician:
+      return tr("Choose the technician's PIN");
+    case PinStep::TechnicianAgain:
+      return tr("The technician's PIN once more");
+    case PinStep::Operator:
+      return tr("Choose the operator's PIN");
+    case PinStep::OperatorAgain:
+      return tr("The operator's PIN once more");
+    case PinStep::Own:
+      return tr("Choose your new PIN");
+    case PinStep::OwnAgain:
+      return tr("Your new PIN once more");
+    case PinStep::Done:
+      break;
   }
   return tr("Your PIN has been changed");
 }
 
 const char* words_of(const Words& tr, PinFault fault) {
   switch (fault) {
-    case PinFault::Differ: return tr("The two were not the same. Choose again.");
-    case PinFault::Simple: return tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another.");
-    case PinFault::Taken: return tr("The other role already has this PIN. Choose another.");
-    case PinFault::None: break;
+    case PinFault::Differ:
+      return tr("The two were not the same. Choose again.");
+    case PinFault::Simple:
+      return tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another.");
+    case PinFault::Taken:
+      return tr("The other role already has this PIN. Choose another.");
+    case PinFault::None:
+      break;
   }
   return nullptr;
 }
@@ -113,7 +134,8 @@ PinWords words_of(const Words& tr, const AccessView& access) {
   if (access.checking) return {tr("One moment, please"), {}, Mood::Plain};
   if (access.step == PinStep::Done) return {nullptr, tr("It applies from now on."), Mood::Good};
   const char* fault = words_of(tr, access.fault);
-  return {tr("Four to eight digits. Nobody else should know it."), fault == nullptr ? std::string_view() : fault, Mood::Bad};
+  return {tr("Four to eight digits. Nobody else should know it."),
+          fault == nullptr ? std::string_view() : fault, Mood::Bad};
 }
 
 void new_pin(StaffFrame& page) {

@@ -10,28 +10,38 @@
 namespace relievo::ui {
 namespace {
 
-constexpr double kManyMib = 10 * 1024;   // from here on a figure is easier read, and fits its line, in GiB
+constexpr double kManyMib = 10 * 1024;  // from here on a figure is easier read, and fits its line, in GiB
 
 const char* words_of(const Words& tr, Gauge gauge) {
   switch (gauge) {
-    case Gauge::Stages: return tr("Memory of the stages");
-    case Gauge::Process: return tr("Memory of the whole program");
-    case Gauge::Disk: return tr("Disk used");
-    case Gauge::Temperature: return tr("Temperature");
+    case Gauge::Stages:
+      return tr("Memory of the stages");
+    case Gauge::Process:
+      return tr("Memory of the whole program");
+    case Gauge::Disk:
+      return tr("Disk used");
+    case Gauge::Temperature:
+      return tr("Temperature");
   }
   return "";
 }
 
 void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   char text[64]{};
-  if (row.of < kManyMib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
-  else std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024, row.of / 1024);
-  const std::string_view value = row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
+  if (row.of < kManyMib)
+    std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
+  else
+    std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024,
+                  row.of / 1024);
+  const std::string_view value =
+      row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
   const std::string_view id = page.tree.keep("gauge "), which = page.number(static_cast<double>(index));
   const char* words = words_of(page.tr, row.gauge);
-  char named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
+  char
+      named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
   std::snprintf(named, sizeof named, "%s ({})", words);
-  page.row({id.data(), id.size() + which.size()}, row.name.empty() ? std::string_view(words) : page.filled(named, {row.name}), value, row.mood);
+  page.row({id.data(), id.size() + which.size()},
+           row.name.empty() ? std::string_view(words) : page.filled(named, {row.name}), value, row.mood);
 }
 
 }  // namespace

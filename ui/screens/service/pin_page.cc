@@ -16,7 +16,9 @@ void dots(StaffFrame& page) {
   row.id = "typed";
   row.role = Role::Field;
   row.name = page.tr("Your PIN");
-  row.box.along = page.portrait ? Along::Centre : page.mirrored() ? Along::End : Along::Start;  // as the words above it
+  row.box.along = page.portrait     ? Along::Centre
+                  : page.mirrored() ? Along::End
+                                    : Along::Start;  // as the words above it
   row.box.across = Across::Centre;
   row.box.left_to_right = true;
   row.box.height = page.px(36);
@@ -32,7 +34,8 @@ void dots(StaffFrame& page) {
 }
 
 void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mood) {
-  Node node = page.text(words, type::kBody, Weight::Regular, mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
+  Node node = page.text(words, type::kBody, Weight::Regular,
+                        mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
                         page.portrait ? TextAlign::Centre : TextAlign::Start);
   node.id = id;
   node.role = Role::Status;
@@ -45,10 +48,13 @@ PinWords words_of(StaffFrame& page) {
   if (access.wait_s > 0) {
     char text[16];
     std::snprintf(text, sizeof text, "%d", access.wait_s);
-    const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.", "Too many wrong PINs. The next try is possible in {} seconds.", static_cast<unsigned long>(access.wait_s));
+    const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.",
+                                       "Too many wrong PINs. The next try is possible in {} seconds.",
+                                       static_cast<unsigned long>(access.wait_s));
     return {nullptr, page.filled(words, text), Mood::Bad};
   }
-  return {page.tr("Type your PIN, then touch the tick."), access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
+  return {page.tr("Type your PIN, then touch the tick."),
+          access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
 }
 
 }  // namespace
@@ -75,7 +81,8 @@ void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Technician or operator"), words_of(page), ready ? Action{ActionKind::StaffDo, kPinCheck} : Action{});
+  pin_entry(page, page.tr("Technician or operator"), words_of(page),
+            ready ? Action{ActionKind::StaffDo, kPinCheck} : Action{});
   page.end();
 }
 

@@ -21,7 +21,8 @@ std::optional<Parts> parts_of(std::string_view text, std::string_view key) {
   Parts parts;
   for (std::size_t hole = key.find("{}");; hole = key.find("{}")) {
     if (!text.starts_with(key.substr(0, hole))) return std::nullopt;
-    if (hole == std::string_view::npos) return text.size() == key.size() ? std::optional(parts) : std::nullopt;
+    if (hole == std::string_view::npos)
+      return text.size() == key.size() ? std::optional(parts) : std::nullopt;
     text.remove_prefix(hole);
     key.remove_prefix(hole + 2);
     const std::string_view behind = key.substr(0, key.find("{}"));
@@ -33,7 +34,8 @@ std::optional<Parts> parts_of(std::string_view text, std::string_view key) {
 }
 
 std::string_view said_camera(StaffFrame& page, std::string_view name) {
-  if (const auto serial = parts_of(name, "serial {}")) return page.filled(page.tr("serial {}"), serial->values[0]);
+  if (const auto serial = parts_of(name, "serial {}"))
+    return page.filled(page.tr("serial {}"), serial->values[0]);
   if (const auto socket = parts_of(name, "at {}")) return page.filled(page.tr("at {}"), socket->values[0]);
   return name;
 }
@@ -42,20 +44,24 @@ std::string_view said_camera(StaffFrame& page, std::string_view name) {
 std::string_view said_exchange(StaffFrame& page, std::string_view place) {
   const std::size_t arrow = place.find(kBecame);
   if (arrow == std::string_view::npos) return {};
-  const std::string_view was = said_camera(page, place.substr(0, arrow)), is = said_camera(page, place.substr(arrow + kBecame.size()));
+  const std::string_view was = said_camera(page, place.substr(0, arrow)),
+                         is = said_camera(page, place.substr(arrow + kBecame.size()));
   return page.filled(page.tr("{} instead of {}"), {is, was});
 }
 
 std::string_view said_cameras(StaffFrame& page, std::string_view place) {
   const std::size_t apart = place.find("; ");
   if (apart == std::string_view::npos) return said_exchange(page, place);
-  const std::string_view left = said_exchange(page, place.substr(0, apart)), right = said_exchange(page, place.substr(apart + 2));
-  return left.empty() || right.empty() ? std::string_view{} : page.filled(page.tr("left {}, right {}"), {left, right});
+  const std::string_view left = said_exchange(page, place.substr(0, apart)),
+                         right = said_exchange(page, place.substr(apart + 2));
+  return left.empty() || right.empty() ? std::string_view{}
+                                       : page.filled(page.tr("left {}, right {}"), {left, right});
 }
 
 // Their keys, as the catalogues have them.
 constexpr const char* kPlaces[] = {
-    "left picture", "right picture",
+    "left picture",
+    "right picture",
     "{} mm off a plane; {} mm off a bent sheet, a face at least {}, sigma {}; curved by {} sr, a face at least {}",
 };
 

@@ -12,7 +12,9 @@ namespace {
 
 enum RecordsMode : int { kList, kTyping, kErasing };
 
-Action ask(std::uint8_t verb, std::int64_t number = 0) { return {ActionKind::StaffDo, verb, static_cast<std::int32_t>(number)}; }
+Action ask(std::uint8_t verb, std::int64_t number = 0) {
+  return {ActionKind::StaffDo, verb, static_cast<std::int32_t>(number)};
+}
 
 std::string_view joined(StaffFrame& page, std::string_view first, std::string_view second) {
   const std::string_view a = page.tree.keep(first), b = page.tree.keep(second);
@@ -33,7 +35,8 @@ void typing(StaffFrame& page) {
   field.box.radius = page.px(18);
   page.tree.open(field);
   const std::string_view typed = page.service.typed();
-  page.tree.leaf(page.text(typed.empty() ? std::string_view(page.tr("Name or number")) : typed, type::kBody, Weight::Medium, typed.empty() ? page.palette.ink_soft : page.palette.ink));
+  page.tree.leaf(page.text(typed.empty() ? std::string_view(page.tr("Name or number")) : typed, type::kBody,
+                           Weight::Medium, typed.empty() ? page.palette.ink_soft : page.palette.ink));
   page.tree.close();
   if (page.portrait) page.space(1);
   keyboard(page, {ActionKind::StaffAnswer, kRecordsSearch});
@@ -52,7 +55,9 @@ void working(StaffFrame& page) {
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
   const auto figure = [&](int value) { return page.number(value); };
-  Node line = page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."), {figure(seen.whole), figure(seen.asked)}), type::kSmall, Weight::Regular, page.palette.ink);
+  Node line = page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."),
+                                    {figure(seen.whole), figure(seen.asked)}),
+                        type::kSmall, Weight::Regular, page.palette.ink);
   line.id = "whole";
   line.role = Role::Status;
   page.tree.leaf(line);
@@ -61,16 +66,23 @@ void whole_of(StaffFrame& page, const RecordsView& seen) {
 void said(StaffFrame& page, const RecordsView& seen) {
   const bool done = page.staff.work.outcome == Outcome::Done;
   if (done && (seen.erased || seen.exported)) {
-    const char* words = seen.erased ? page.tr("Erased. Nothing of this person is left.") : page.tr("It is all there and has been read back. You can pull out the stick.");
+    const char* words = seen.erased
+                            ? page.tr("Erased. Nothing of this person is left.")
+                            : page.tr("It is all there and has been read back. You can pull out the stick.");
     page.status("outcome", words, Mood::Good);
     return;
   }
   // Of an export it matters what the stick has; one that was pulled out has nothing that is sure.
   const Outcome outcome = page.staff.work.outcome;
-  if (seen.asked > 0 && outcome == Outcome::StickFull) page.status("outcome", page.tr("The stick is full. Make room on it or plug in another one, then export again."), Mood::Bad);
-  else if (seen.asked > 0 && outcome == Outcome::Cancelled) page.status("outcome", page.tr("The export was stopped. Export again whenever you like."), Mood::Warn);
+  if (seen.asked > 0 && outcome == Outcome::StickFull)
+    page.status("outcome",
+                page.tr("The stick is full. Make room on it or plug in another one, then export again."),
+                Mood::Bad);
+  else if (seen.asked > 0 && outcome == Outcome::Cancelled)
+    page.status("outcome", page.tr("The export was stopped. Export again whenever you like."), Mood::Warn);
   else page.outcome();
-  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled || outcome == Outcome::Failed || outcome == Outcome::StickBad;
+  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled ||
+                      outcome == Outcome::Failed || outcome == Outcome::StickBad;
   if (seen.asked > 1 && counts) whole_of(page, seen);
 }
 
@@ -78,23 +90,33 @@ void list(StaffFrame& page, const RecordsView& seen) {
   const auto& tr = page.tr;
   said(page, seen);
   page.begin_list("records");
-  for (const RecordRow& row : seen.rows) page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain, ask(kRecordShow, row.number));
-  if (seen.rows.empty()) page.nothing("nobody", icon::kPerson, seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
+  for (const RecordRow& row : seen.rows)
+    page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain,
+             ask(kRecordShow, row.number));
+  if (seen.rows.empty())
+    page.nothing("nobody", icon::kPerson,
+                 seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
   page.tree.close();
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;
   page.tree.open(page.box(Flow::Row, space::kS));
-  page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping}, share);
-  if (!seen.searched.empty()) page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, ask(kRecordsSearch), share);
-  if (seen.newer) page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, ask(kRecordsNewer), share);
-  if (seen.older) page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, ask(kRecordsOlder), share);
+  page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},
+                    share);
+  if (!seen.searched.empty())
+    page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, ask(kRecordsSearch), share);
+  if (seen.newer)
+    page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, ask(kRecordsNewer), share);
+  if (seen.older)
+    page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, ask(kRecordsOlder), share);
   if (narrow) {
     page.tree.close();
     page.tree.open(page.box(Flow::Row, space::kS));
   } else {
     page.space(1);
   }
-  if (!seen.rows.empty()) page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet, ask(kRecordExport), share);
+  if (!seen.rows.empty())
+    page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet,
+                      ask(kRecordExport), share);
   page.tree.close();
 }
 
@@ -129,8 +151,10 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.row("consent text", tr("Consent text"), seen.consent);
   page.tree.close();
   said(page, seen);
-  page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main, ask(kRecordExport, seen.shown->number));
-  page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet, {ActionKind::StaffMode, kErasing});
+  page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main,
+                    ask(kRecordExport, seen.shown->number));
+  page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet,
+                    {ActionKind::StaffMode, kErasing});
   page.tree.close();
   page.tree.close();
 }
@@ -145,8 +169,12 @@ void records_page(StaffFrame& page) {
   if (page.service.mode == kTyping) return typing(page);
   if (seen->shown == nullptr) return list(page, *seen);
   if (page.service.mode != kErasing) return record(page, *seen);
-  page.grave_question(tr("Erase for ever?"), tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."), tr("Hold to erase"),
-                {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)}, tr("No, keep it"), {ActionKind::StaffMode, kList});
+  page.grave_question(
+      tr("Erase for ever?"),
+      tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
+      tr("Hold to erase"),
+      {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)},
+      tr("No, keep it"), {ActionKind::StaffMode, kList});
 }
 
 }  // namespace relievo::ui

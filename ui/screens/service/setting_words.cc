@@ -20,49 +20,71 @@ std::string_view days(StaffFrame& page, std::int32_t value) {
 
 const char* name_of(const Words& tr, Setting setting) {
   switch (setting) {
-    case Setting::Language: return tr("Language in which a visit begins");
-    case Setting::TextPercent: return tr("Size of the text");
-    case Setting::Contrast: return tr("High contrast");
-    case Setting::PatienceS: return tr("Visitors are asked whether they are still there after");
-    case Setting::Automatic: return tr("The picture is taken by itself");
-    case Setting::CountdownMs: return tr("Countdown before the picture");
-    case Setting::Attempts: return tr("Tries, if a picture is refused");
-    case Setting::StaffPatienceS: return tr("Staff are signed out after");
-    case Setting::TellsKnown: return tr("Visitors are told that their name is already in the records");
-    case Setting::KeepDays: return tr("Records are erased by themselves after");
-    case Setting::LeastRoomMib: return tr("Room kept free on the disk");
-    case Setting::Count: break;
+    case Setting::Language:
+      return tr("Language in which a visit begins");
+    case Setting::TextPercent:
+      return tr("Size of the text");
+    case Setting::Contrast:
+      return tr("High contrast");
+    case Setting::PatienceS:
+      return tr("Visitors are asked whether they are still there after");
+    case Setting::Automatic:
+      return tr("The picture is taken by itself");
+    case Setting::CountdownMs:
+      return tr("Countdown before the picture");
+    case Setting::Attempts:
+      return tr("Tries, if a picture is refused");
+    case Setting::StaffPatienceS:
+      return tr("Staff are signed out after");
+    case Setting::TellsKnown:
+      return tr("Visitors are told that their name is already in the records");
+    case Setting::KeepDays:
+      return tr("Records are erased by themselves after");
+    case Setting::LeastRoomMib:
+      return tr("Room kept free on the disk");
+    case Setting::Count:
+      break;
   }
   return "";
 }
 
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value) {
   switch (setting) {
-    case Setting::Language: return info_of(static_cast<Language>(value)).own_name;
+    case Setting::Language:
+      return info_of(static_cast<Language>(value)).own_name;
     case Setting::Contrast:
     case Setting::Automatic:
-    case Setting::TellsKnown: return value != 0 ? page.tr("on") : page.tr("off");
-    case Setting::TextPercent: return page.number(value, 0, "%");
+    case Setting::TellsKnown:
+      return value != 0 ? page.tr("on") : page.tr("off");
+    case Setting::TextPercent:
+      return page.number(value, 0, "%");
     case Setting::PatienceS:
-    case Setting::StaffPatienceS: return page.number(value, 0, "s");
-    case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
-    case Setting::KeepDays: return days(page, value);
-    case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
+    case Setting::StaffPatienceS:
+      return page.number(value, 0, "s");
+    case Setting::CountdownMs:
+      return page.number(value * 1e-3, 1, "s");
+    case Setting::KeepDays:
+      return days(page, value);
+    case Setting::LeastRoomMib:
+      return page.number(value, 0, "MiB");
     case Setting::Attempts:
-    case Setting::Count: break;
+    case Setting::Count:
+      break;
   }
   return page.number(value);
 }
 
 std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value) {
   std::int32_t figure = 0;
-  if (std::from_chars(value.data(), value.data() + value.size(), figure).ptr != value.data() + value.size()) return {};
+  if (std::from_chars(value.data(), value.data() + value.size(), figure).ptr != value.data() + value.size())
+    return {};
   for (std::size_t i = 0; i < kSettings; ++i) {
     const auto setting = static_cast<Setting>(i);
     const SettingInfo& info = info_of(setting);
     if (info.key != key) continue;
     if (std::find(info.values.begin(), info.values.end(), figure) == info.values.end()) return {};
-    return page.filled(page.tr("Setting “{}”: {}"), {name_of(page.tr, setting), said_value(page, setting, figure)});
+    return page.filled(page.tr("Setting “{}”: {}"),
+                       {name_of(page.tr, setting), said_value(page, setting, figure)});
   }
   return {};
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a setting and its values are called: alike on the settings page and in the log. Thread: main. Errors: none.
+// What a setting and its values are called: alike on the settings page and in the log. Thread: main. Errors:
+// none.
 #pragma once
 
 #include <string_view>

@@ -16,7 +16,8 @@ void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
     const bool end = settings.beside(setting, verb == kSettingMore ? 1 : -1) == settings.of(setting);
     return end ? Action{} : Action{ActionKind::StaffDo, verb, static_cast<std::int32_t>(setting)};
   };
-  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)), icon::kLess, ask(kSettingLess), icon::kMore, ask(kSettingMore));
+  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)),
+               icon::kLess, ask(kSettingLess), icon::kMore, ask(kSettingMore));
 }
 
 void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {
@@ -43,18 +44,26 @@ void settings_page(StaffFrame& page) {
   if (page.staff.settings == nullptr) return page.body("wait", tr("One moment, please"));
   said(page);
   page.begin_list("settings");
-  group(page, tr("How a visit begins"), std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
+  group(page, tr("How a visit begins"),
+        std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
   group(page, tr("Pictures"), std::array{Setting::Automatic, Setting::CountdownMs, Setting::Attempts});
   group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
-    page.line(tr("Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
+    page.line(tr(
+        "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
   if (page.staff.role == StaffRole::Operator) {
     page.section(tr("Consent"));
     const ConsentTexts* own = page.view.consent;
-    page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"), own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
+    page.row("consent", tr("Consent text"),
+             own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"),
+             own != nullptr ? Mood::Plain : Mood::Warn,
+             {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
   }
-  if (page.staff.settings->clock_jumped) page.line(tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."), Mood::Warn);
+  if (page.staff.settings->clock_jumped)
+    page.line(
+        tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),
+        Mood::Warn);
   page.tree.close();
 }
 

@@ -19,20 +19,28 @@ float key_share(const Page& page) { return page.text_share * (page.portrait ? 1.
 
 Colour StaffFrame::ink_of(Mood mood) const {
   switch (mood) {
-    case Mood::Good: return palette.good;
-    case Mood::Warn: return palette.warn;
-    case Mood::Bad: return palette.bad;
-    case Mood::Plain: break;
+    case Mood::Good:
+      return palette.good;
+    case Mood::Warn:
+      return palette.warn;
+    case Mood::Bad:
+      return palette.bad;
+    case Mood::Plain:
+      break;
   }
   return palette.ink;
 }
 
 const char* StaffFrame::sign_of(Mood mood) const {
   switch (mood) {
-    case Mood::Good: return icon::kGood;
-    case Mood::Warn: return icon::kInfo;
-    case Mood::Bad: return icon::kAlert;
-    case Mood::Plain: break;
+    case Mood::Good:
+      return icon::kGood;
+    case Mood::Warn:
+      return icon::kInfo;
+    case Mood::Bad:
+      return icon::kAlert;
+    case Mood::Plain:
+      break;
   }
   return nullptr;
 }
@@ -65,7 +73,8 @@ void StaffFrame::begin(const char* title, const char* letter) {
   tree.close();
   if (portrait) {
     Node row = box(Flow::Row);
-    row.box.min_height = px(2 * type::kSmall * text_share) * type::kLines.apart;   // of what may stand in the title's place
+    row.box.min_height =
+        px(2 * type::kSmall * text_share) * type::kLines.apart;  // of what may stand in the title's place
     tree.open(row);
     name_page();
     tree.close();
@@ -76,7 +85,11 @@ void StaffFrame::begin(const char* title, const char* letter) {
 void StaffFrame::leaving() {
   char seconds[16];
   std::snprintf(seconds, sizeof seconds, "%d", staff.leaves_in_s);
-  Node soon = text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.", "You are signed out in {} seconds. Touch the screen to stay.", static_cast<unsigned long>(staff.leaves_in_s)), seconds), type::kSmall, Weight::Bold, palette.warn);
+  Node soon = text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.",
+                                    "You are signed out in {} seconds. Touch the screen to stay.",
+                                    static_cast<unsigned long>(staff.leaves_in_s)),
+                          seconds),
+                   type::kSmall, Weight::Bold, palette.warn);
   soon.id = "leaves";
   soon.role = Role::Status;
   soon.style.tabular = true;
@@ -107,19 +120,52 @@ void StaffFrame::outcome() {
   const char* words = nullptr;
   Mood mood = Mood::Bad;
   switch (staff.work.outcome) {
-    case Outcome::None: return;
-    case Outcome::Done: words = tr("Done."); mood = Mood::Good; break;
-    case Outcome::Cancelled: words = tr("Cancelled. Nothing was left half done."); mood = Mood::Warn; break;
-    case Outcome::NoStick: words = tr("There is no stick. Plug one in, then try again."); break;
-    case Outcome::StickFull: words = tr("There is no room left. Nothing was left half written."); break;
-    case Outcome::StickGone: words = tr("The stick was pulled out too early. Plug it in and export again: what is half written on it does not count."); break;
-    case Outcome::StickLocked: words = tr("The stick is write-protected. Slide its switch back or plug in another one, then export again."); break;
-    case Outcome::StickBad: words = tr("The stick does not keep what is written on it. Plug in another one and export again."); break;
-    case Outcome::StickHeld: words = tr("It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out."); mood = Mood::Warn; break;
-    case Outcome::StickUnchecked: words = tr("It is written and was read back, but the device cannot open the stick once more to be sure. You can pull it out; export again to another one."); mood = Mood::Warn; break;
-    case Outcome::NotFound: words = tr("It is no longer there."); break;
-    case Outcome::Refused: words = tr("This cannot be accepted."); break;
-    case Outcome::Failed: words = tr("It could not be done. The log says why."); break;
+    case Outcome::None:
+      return;
+    case Outcome::Done:
+      words = tr("Done.");
+      mood = Mood::Good;
+      break;
+    case Outcome::Cancelled:
+      words = tr("Cancelled. Nothing was left half done.");
+      mood = Mood::Warn;
+      break;
+    case Outcome::NoStick:
+      words = tr("There is no stick. Plug one in, then try again.");
+      break;
+    case Outcome::StickFull:
+      words = tr("There is no room left. Nothing was left half written.");
+      break;
+    case Outcome::StickGone:
+      words = tr(
+          "The stick was pulled out too early. Plug it in and export again: what is half written on it does not count.");
+      break;
+    case Outcome::StickLocked:
+      words = tr(
+          "The stick is write-protected. Slide its switch back or plug in another one, then export again.");
+      break;
+    case Outcome::StickBad:
+      words = tr("The stick does not keep what is written on it. Plug in another one and export again.");
+      break;
+    case Outcome::StickHeld:
+      words = tr(
+          "It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out.");
+      mood = Mood::Warn;
+      break;
+    case Outcome::StickUnchecked:
+      words = tr(
+          "It is written and was read back, but the device cannot open the stick once more to be sure. You can pull it out; export again to another one.");
+      mood = Mood::Warn;
+      break;
+    case Outcome::NotFound:
+      words = tr("It is no longer there.");
+      break;
+    case Outcome::Refused:
+      words = tr("This cannot be accepted.");
+      break;
+    case Outcome::Failed:
+      words = tr("It could not be done. The log says why.");
+      break;
   }
   status("outcome", words, mood);
 }
@@ -155,7 +201,8 @@ void StaffFrame::asked(const char* title, const char* words, const char* hint) {
   tree.open(box(portrait || text_share > 1.3F ? Flow::Column : Flow::Row, space::kS));
 }
 
-void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
+void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action,
+                          const char* no, Action no_action) {
   asked(title, words, nullptr);
   const float grow = portrait || text_share > 1.3F ? 0 : 1;
   button("no", no, nullptr, ButtonLook::Quiet, no_action, grow);
@@ -163,15 +210,19 @@ void StaffFrame::question(const char* title, const char* words, const char* yes,
   tree.close();
 }
 
-void StaffFrame::grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action) {
-  asked(title, words, tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."));
+void StaffFrame::grave_question(const char* title, const char* words, const char* yes, Action yes_action,
+                                const char* no, Action no_action) {
+  asked(
+      title, words,
+      tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."));
   const float grow = portrait || text_share > 1.3F ? 0 : 1;
   button("no", no, nullptr, ButtonLook::Main, no_action, grow);
   held_button("yes", yes, yes_action, grow);
   tree.close();
 }
 
-// As wide and high as the button beside it, in the colour of what is bad; the bar that fills is as dark as its letters.
+// As wide and high as the button beside it, in the colour of what is bad; the bar that fills is as dark as
+// its letters.
 void StaffFrame::held_button(std::string_view id, std::string_view label, Action action, float grow) {
   constexpr ButtonSize kSize = size::kMainButton;
   Node node = box(Flow::Row, kSize.gap, text_share > 1.3F ? 14 : kSize.pad_x, kSize.pad_y);
@@ -225,7 +276,8 @@ void StaffFrame::keypad(Action done) {
   Node row = box(Flow::Row, 10);
   row.box.left_to_right = true;
   tree.open(row);
-  const auto key = [&](std::string_view id, const char* spoken, const char* letter, Action action, bool main) {
+  const auto key = [&](std::string_view id, const char* spoken, const char* letter, Action action,
+                       bool main) {
     Node node = grown(box(Flow::Row));
     node.id = id;
     node.name = spoken;

@@ -20,7 +20,8 @@ inline constexpr ButtonSize kStaffButton{kStaffTarget, kStaffTarget, 20, 8, 10, 
 
 class StaffFrame : public Page {
  public:
-  StaffFrame(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Service& service_in, const Palette& palette_in, const Rect& screen)
+  StaffFrame(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Service& service_in,
+             const Palette& palette_in, const Rect& screen)
       : Page(tree_in, view_in, visit_in, palette_in, screen), service(service_in), staff(*view_in.service) {}
 
   const Service& service;
@@ -30,33 +31,39 @@ class StaffFrame : public Page {
   void begin(const char* title, const char* letter);
   void end() { tree.close(); }
 
-  // A card whose rows can be scrolled. A list has the room that is left and ends with its last row; a panel, which stands beside
-  // pictures, fills its room. Closed by Tree::close().
+  // A card whose rows can be scrolled. A list has the room that is left and ends with its last row; a panel,
+  // which stands beside pictures, fills its room. Closed by Tree::close().
   void begin_list(std::string_view id) { begin_card(id, true); }
   void begin_panel(std::string_view id) { begin_card(id, false); }
   // Label at the start, value at the end; with an action it can be touched.
-  void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain, Action action = {});
+  void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain,
+           Action action = {});
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
-  void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more);
+  void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter,
+               Action less, const char* more_letter, Action more);
   // A heading between rows.
   void section(std::string_view words);
   // In the middle of a card that has no rows.
   void nothing(std::string_view id, const char* letter, std::string_view words);
-  void rule();   // a thin line between rows
+  void rule();  // a thin line between rows
   // A line over the whole width.
   void line(std::string_view words, Mood mood = Mood::Plain);
   // A line of the log, in the reader's language.
   void logged(const struct LogLine& what);
-  // A sentence of the appliance (a key of the catalogues) in the reader's language; as it is where they lack it.
-  // What stands in it follows behind tabs (hal/base/sentence.h); numbers get the decimal mark of the language.
-  std::string_view said(std::string_view sentence, bool begins = true);   // not so behind a colon
+  // A sentence of the appliance (a key of the catalogues) in the reader's language; as it is where they lack
+  // it. What stands in it follows behind tabs (hal/base/sentence.h); numbers get the decimal mark of the
+  // language.
+  std::string_view said(std::string_view sentence, bool begins = true);  // not so behind a colon
   // As high as a member of staff needs it.
-  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action, float grow = 0) {
+  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
+                    Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);
   }
-  // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins large.
+  // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins
+  // large.
   const char* begun(const char* words);
-  // What begins large behind a colon, where French and Spanish go on small; English keys do anyway, German begins anew.
+  // What begins large behind a colon, where French and Spanish go on small; English keys do anyway, German
+  // begins anew.
   const char* continued(const char* words);
   void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
@@ -64,12 +71,16 @@ class StaffFrame : public Page {
   // How the page's work ended, with a sign; nothing where nothing has.
   void outcome();
   // A big question in place of the page: two answers.
-  void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
-  // The same, of what nobody can undo: "yes" is held for three seconds; by a keypad it waits as long, and another key calls it back.
-  void grave_question(const char* title, const char* words, const char* yes, Action yes_action, const char* no, Action no_action);
+  void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no,
+                Action no_action);
+  // The same, of what nobody can undo: "yes" is held for three seconds; by a keypad it waits as long, and
+  // another key calls it back.
+  void grave_question(const char* title, const char* words, const char* yes, Action yes_action,
+                      const char* no, Action no_action);
   // Digits to be typed; `done` when the tick is touched.
   void keypad(Action done);
-  // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction of the words around.
+  // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
+  // of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
   // What is a number with a point, behind it perhaps a unit, with the language's decimal mark; else as it is.
   std::string_view as_number(std::string_view text);
@@ -82,14 +93,15 @@ class StaffFrame : public Page {
 
  private:
   std::string_view noted(const struct LogLine& what);
-  bool rule_due_ = false;   // a row stands above what comes next
+  bool rule_due_ = false;  // a row stands above what comes next
   void due_rule();
   void begin_card(std::string_view id, bool hugs);
   void leaving();
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void digit(const char* letter);
-  void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action);
+  void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
+                   const char* letter, Action action);
 };
 
 }  // namespace relievo::ui

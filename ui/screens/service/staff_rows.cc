@@ -9,7 +9,7 @@
 
 namespace relievo::ui {
 
-constexpr float kUprightSpread = 1.8F;   // of rows on an upright screen, where there is room
+constexpr float kUprightSpread = 1.8F;  // of rows on an upright screen, where there is room
 
 void StaffFrame::begin_card(std::string_view id, bool hugs) {
   Node list = grown(box(Flow::Column, 0, space::kM, 8));
@@ -26,7 +26,8 @@ void StaffFrame::begin_card(std::string_view id, bool hugs) {
 }
 
 // Beside each other where both have room; else the value under its label, at the same end.
-void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood, Action action) {
+void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood,
+                     Action action) {
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.id = id;
@@ -51,7 +52,8 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
     end.box.across = Across::Centre;
     tree.open(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
-    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular, mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
+    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
+                   mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
     tree.close();
   }
   tree.close();
@@ -73,7 +75,8 @@ void StaffFrame::rule() {
   tree.leaf(line);
 }
 
-void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label, const char* letter, Action action) {
+void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
+                             const char* letter, Action action) {
   const auto joined = [&](std::string_view a, std::string_view between, std::string_view b) {
     const std::string_view first = tree.keep(a);
     return std::string_view{first.data(), first.size() + tree.keep(between).size() + tree.keep(b).size()};
@@ -95,11 +98,12 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   tree.close();
 }
 
-void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter, Action less, const char* more_letter, Action more) {
+void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value,
+                         const char* less_letter, Action less, const char* more_letter, Action more) {
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.across = Across::Centre;
-  row.box.along = Along::Centre;   // of a folded one
+  row.box.along = Along::Centre;  // of a folded one
   row.box.folds = true;
   tree.open(row);
   tree.open(grown(box(Flow::Column)));

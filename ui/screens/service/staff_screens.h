@@ -14,17 +14,18 @@ namespace relievo::ui {
 // A row of the menu: one page of the staff's side.
 struct StaffPageInfo {
   StaffPage page;
-  std::string_view id;      // of its tile
-  const char* title;        // English, the key of its words
-  const char* letter;       // of the icon font
-  bool technician, clerk;   // who may open it: technician, operator
+  std::string_view id;     // of its tile
+  const char* title;       // English, the key of its words
+  const char* letter;      // of the icon font
+  bool technician, clerk;  // who may open it: technician, operator
   void (*draw)(StaffFrame&);
 };
 std::span<const StaffPageInfo> staff_pages();
 bool may_open(StaffRole role, const StaffPageInfo& info);
 
 // The page of this moment, with what lies over it; view.service is not null. Returns its palette.
-const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit, const Service& service, const Rect& screen);
+const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit,
+                                  const Service& service, const Rect& screen);
 // The pictures and the model that it shows.
 void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& visit, const Service& service);
 // The way in, over the pages of the visitor that have one.
@@ -41,7 +42,8 @@ void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
 void settings_page(StaffFrame& page);
 void consent_text_page(StaffFrame& page);
-// What it shows: what is in force, how another comes from a stick, how the last try ended; then the button that asks for it.
+// What it shows: what is in force, how another comes from a stick, how the last try ended; then the button
+// that asks for it.
 void consent_in_force(StaffFrame& page);
 void touch_page(StaffFrame& page);
 void pins_page(StaffFrame& page);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kMostValues = 8, kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
 constexpr std::string_view kMinus = "\u2212";
-constexpr std::string_view kAngle = "°";               // stands at its number, as no other unit does (ISO 80000-1), °C neither
+constexpr std::string_view kAngle =
+    "°";  // stands at its number, as no other unit does (ISO 80000-1), °C neither
 constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -64,19 +65,25 @@ std::string_view StaffFrame::number(double value, int decimals, const char* unit
 }
 
 std::string_view StaffFrame::as_number(std::string_view text) {
-  const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0, whole = digits(text.substr(sign));
+  const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0,
+                    whole = digits(text.substr(sign));
   const std::size_t point = sign + whole, rest = point + 1;
   if (whole == 0 || point >= text.size() || text[point] != '.') return text;
   std::size_t behind = rest + digits(text.substr(rest));
   if (behind == rest) return text;
-  if (behind < text.size() && text[behind] == 'e') {   // 2.5e-05
-    const std::size_t power = behind + 1 + (behind + 1 < text.size() && (text[behind + 1] == '-' || text[behind + 1] == '+') ? 1 : 0);
+  if (behind < text.size() && text[behind] == 'e') {  // 2.5e-05
+    const std::size_t power =
+        behind + 1 +
+        (behind + 1 < text.size() && (text[behind + 1] == '-' || text[behind + 1] == '+') ? 1 : 0);
     behind = power + digits(text.substr(std::min(power, text.size())));
   }
   if (behind < text.size() && text[behind] != ' ') return text;
   const std::string_view first = tree.keep(isolate::kLeft);
   std::size_t length = first.size() + tree.keep(text[0] == '-' ? kMinus : text.substr(0, sign)).size();
-  for (const std::string_view part : {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1), text.substr(rest), std::string_view(isolate::kEnd)}) length += tree.keep(part).size();
+  for (const std::string_view part :
+       {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1),
+        text.substr(rest), std::string_view(isolate::kEnd)})
+    length += tree.keep(part).size();
   return {first.data(), length};
 }
 
@@ -92,28 +99,35 @@ std::string_view StaffFrame::with_numbers(std::string_view text) {
   }
   const std::string_view first = tree.keep({});
   std::size_t length = 0;
-  for (std::size_t i = 0; i < count; ++i) length += tree.keep(i > 0 ? " " : "").size() + tree.keep(words[i]).size();
+  for (std::size_t i = 0; i < count; ++i)
+    length += tree.keep(i > 0 ? " " : "").size() + tree.keep(words[i]).size();
   return {first.data(), length};
 }
 
 std::string_view StaffFrame::date(std::string_view iso) {
   if (!begins_with_date(iso)) return iso;
-  const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2), day = iso.substr(8, 2);
+  const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2),
+                         day = iso.substr(8, 2);
   const std::string_view first = tree.keep(isolate::kLeft);
   std::size_t length = first.size();
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const char part = shape[i] == '%' && i + 1 < shape.size() ? shape[i + 1] : '\0';
-    const std::string_view said = part == 'Y' ? year : part == 'm' ? month : part == 'd' ? day : shape.substr(i, 1);
+    const std::string_view said = part == 'Y'   ? year
+                                  : part == 'm' ? month
+                                  : part == 'd' ? day
+                                                : shape.substr(i, 1);
     if (part != '\0') ++i;
     length += tree.keep(said).size();
   }
-  for (const char c : iso.substr(10)) length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
+  for (const char c : iso.substr(10))
+    length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
   return {first.data(), length + tree.keep(isolate::kEnd).size()};
 }
 
 const char* StaffFrame::begun(const char* words) {
   // The small letters of a to z, and à to þ behind their lead byte: 0x20 above the capitals.
-  const bool latin = *words >= 'a' && *words <= 'z', accented = words[0] == '\xc3' && words[1] >= '\xa0' && words[1] <= '\xbe' && words[1] != '\xb7';
+  const bool latin = *words >= 'a' && *words <= 'z',
+             accented = words[0] == '\xc3' && words[1] >= '\xa0' && words[1] <= '\xbe' && words[1] != '\xb7';
   if (!latin && !accented) return words;
   const std::size_t at = accented ? 1 : 0;
   const char capital = static_cast<char>(words[at] - 0x20);
@@ -125,7 +139,8 @@ const char* StaffFrame::begun(const char* words) {
 
 const char* StaffFrame::continued(const char* words) {
   const bool small = visit.language == Language::French || visit.language == Language::Spanish;
-  const bool latin = words[0] >= 'A' && words[0] <= 'Z', accented = words[0] == '\xc3' && words[1] <= '\x9e' && words[1] != '\x97';
+  const bool latin = words[0] >= 'A' && words[0] <= 'Z',
+             accented = words[0] == '\xc3' && words[1] <= '\x9e' && words[1] != '\x97';
   if (!small || (!latin && !accented)) return words;
   const std::size_t at = accented ? 1 : 0;
   // OpenCV, GPIO, JPEG stay as they are.
@@ -140,7 +155,7 @@ const char* StaffFrame::continued(const char* words) {
 }
 
 std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
-  if (sentence.empty()) return sentence;   // gettext's name of nothing is its header
+  if (sentence.empty()) return sentence;  // gettext's name of nothing is its header
   std::array<std::string_view, kMostValues> values{};
   std::size_t count = 0;
   const std::size_t end = std::min(sentence.find('\t'), sentence.size());
@@ -152,9 +167,12 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
   const char* key = kept(sentence.substr(0, end));
   const char* words = begins ? begun(tr(key)) : continued(tr(key));
   std::size_t holes = 0;
-  for (std::string_view rest = words; rest.find("{}") != std::string_view::npos; rest.remove_prefix(rest.find("{}") + 2)) ++holes;
+  for (std::string_view rest = words; rest.find("{}") != std::string_view::npos;
+       rest.remove_prefix(rest.find("{}") + 2))
+    ++holes;
   for (std::size_t i = 0; i < std::min(count, holes); ++i) values[i] = as_number(values[i]);
-  const std::string_view all = count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
+  const std::string_view all =
+      count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
   if (count <= holes) return all;
   // Where it was; the words stay outside of any isolate, so that they tell the direction.
   const std::string_view where = said_place(*this, values[holes]), first = tree.keep(all);
@@ -164,7 +182,8 @@ std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
 std::string_view StaffFrame::noted(const LogLine& what) {
   if (what.key.empty()) return filled("{}", what.sentence);
   if (what.key == kSettingChanged) {
-    if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty()) return change;
+    if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty())
+      return change;
   }
   return filled(begun(tr(kept(what.key))), {what.values[0], what.values[1]});
 }

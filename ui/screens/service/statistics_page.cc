@@ -10,14 +10,21 @@ namespace {
 
 const char* words_of(const Words& tr, Refusal refusal) {
   switch (refusal) {
-    case Refusal::NoFace: return tr("No face found");
-    case Refusal::TooFewMatches: return tr("Too little could be matched");
-    case Refusal::PoorGeometry: return tr("The surface was not good enough");
-    case Refusal::Memory: return tr("Not enough memory");
-    case Refusal::Camera: return tr("A camera was silent");
-    case Refusal::Slow: return tr("It took too long");
+    case Refusal::NoFace:
+      return tr("No face found");
+    case Refusal::TooFewMatches:
+      return tr("Too little could be matched");
+    case Refusal::PoorGeometry:
+      return tr("The surface was not good enough");
+    case Refusal::Memory:
+      return tr("Not enough memory");
+    case Refusal::Camera:
+      return tr("A camera was silent");
+    case Refusal::Slow:
+      return tr("It took too long");
     case Refusal::Other:
-    case Refusal::Count: break;
+    case Refusal::Count:
+      break;
   }
   return tr("Another reason");
 }
@@ -46,8 +53,10 @@ void statistics_page(StaffFrame& page) {
     page.row({id.data(), id.size() + which.size()}, words_of(tr, refusal), count(seen->refused[i]));
   }
   page.section(tr("From the pictures to the portrait"));
-  page.row("median", tr("Half of them are faster than"), seen->median_s > 0 ? page.number(seen->median_s, 1, "s") : std::string_view("–"));
-  page.row("slow", tr("Nine of ten are faster than"), seen->slow_s > 0 ? page.number(seen->slow_s, 1, "s") : std::string_view("–"));
+  page.row("median", tr("Half of them are faster than"),
+           seen->median_s > 0 ? page.number(seen->median_s, 1, "s") : std::string_view("–"));
+  page.row("slow", tr("Nine of ten are faster than"),
+           seen->slow_s > 0 ? page.number(seen->slow_s, 1, "s") : std::string_view("–"));
   page.tree.close();
 }
 

@@ -10,27 +10,39 @@ namespace {
 
 const char* words_of(const Words& tr, Check check) {
   switch (check) {
-    case Check::Memory: return tr("Memory");
-    case Check::Store: return tr("Store");
-    case Check::Calibration: return tr("Calibration");
-    case Check::Disk: return tr("Room on the disk");
-    case Check::Cameras: return tr("Cameras");
-    case Check::Count: break;
+    case Check::Memory:
+      return tr("Memory");
+    case Check::Store:
+      return tr("Store");
+    case Check::Calibration:
+      return tr("Calibration");
+    case Check::Disk:
+      return tr("Room on the disk");
+    case Check::Cameras:
+      return tr("Cameras");
+    case Check::Count:
+      break;
   }
   return "";
 }
 
 const char* words_of(const Words& tr, CheckState state) {
   switch (state) {
-    case CheckState::NotTested: return tr("Not tested");
-    case CheckState::Running: return tr("Being tested");
-    case CheckState::Good: return tr("In order");
-    case CheckState::Bad: break;
+    case CheckState::NotTested:
+      return tr("Not tested");
+    case CheckState::Running:
+      return tr("Being tested");
+    case CheckState::Good:
+      return tr("In order");
+    case CheckState::Bad:
+      break;
   }
   return tr("Not in order");
 }
 
-Mood mood_of(CheckState state) { return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain; }
+Mood mood_of(CheckState state) {
+  return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain;
+}
 
 std::string_view numbered(StaffFrame& page, const char* what, std::size_t number) {
   const std::string_view first = page.tree.keep(what);
@@ -45,12 +57,14 @@ void self_test_page(StaffFrame& page) {
   page.begin_list("self test");
   if (const SelfTestView* seen = page.staff.self_test) {
     for (std::size_t i = 0; i < kChecks; ++i) {
-      page.row(numbered(page, "check ", i), words_of(tr, static_cast<Check>(i)), words_of(tr, seen->states[i]), mood_of(seen->states[i]));
+      page.row(numbered(page, "check ", i), words_of(tr, static_cast<Check>(i)),
+               words_of(tr, seen->states[i]), mood_of(seen->states[i]));
       if (seen->states[i] == CheckState::Bad) page.line(page.said(seen->problems[i]), Mood::Bad);
     }
   }
   page.tree.close();
-  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main, page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kSelfTestBegin});
+  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
+                    page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kSelfTestBegin});
 }
 
 void trigger_page(StaffFrame& page) {
@@ -61,16 +75,23 @@ void trigger_page(StaffFrame& page) {
     const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };
     const bool all = seen->pairs == seen->pulses;
     page.row("pulses", tr("Pulses given"), count(static_cast<std::uint64_t>(seen->pulses)));
-    page.row("pairs", tr("Pairs seen"), count(static_cast<std::uint64_t>(seen->pairs)), seen->pulses == 0 ? Mood::Plain : all ? Mood::Good : Mood::Bad);
+    page.row("pairs", tr("Pairs seen"), count(static_cast<std::uint64_t>(seen->pairs)),
+             seen->pulses == 0 ? Mood::Plain
+             : all             ? Mood::Good
+                               : Mood::Bad);
     page.row("apart", tr("Apart at most"), page.number(seen->apart_ms, 3, "ms"));
     page.row("delay", tr("From the pulse to the picture"), page.number(seen->delay_ms, 1, "ms"));
     page.row("late", tr("Late"), count(seen->late));
     page.row("lost", tr("Lost"), count(seen->lost));
     page.row("damaged", tr("Damaged"), count(seen->damaged));
-    if (seen->ended) page.line(all ? tr("Every pulse was seen by both cameras.") : tr("Some pulses were not seen by both cameras."), all ? Mood::Good : Mood::Bad);
+    if (seen->ended)
+      page.line(all ? tr("Every pulse was seen by both cameras.")
+                    : tr("Some pulses were not seen by both cameras."),
+                all ? Mood::Good : Mood::Bad);
   }
   page.tree.close();
-  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main, page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kTriggerBegin});
+  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
+                    page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kTriggerBegin});
 }
 
 void log_page(StaffFrame& page) {

@@ -25,12 +25,14 @@ void tools(Page& page) {
   page.tree.close();
 }
 
-// All languages are to be seen, each in its own letters; where large letters leave no room, behind one button.
+// All languages are to be seen, each in its own letters; where large letters leave no room, behind one
+// button.
 void languages(Page& page) {
   const std::size_t count = page.view.languages.count();
   if (count < 2) return;
   if (page.portrait || page.text_share < 1.2F || count <= 4) return language_grid(page, 4);
-  page.button("language", page.tr("Language"), icon::kTranslate, ButtonLook::Quiet, {ActionKind::ShowLanguages, 0});
+  page.button("language", page.tr("Language"), icon::kTranslate, ButtonLook::Quiet,
+              {ActionKind::ShowLanguages, 0});
 }
 
 void words(Page& page) {
@@ -39,9 +41,16 @@ void words(Page& page) {
   column.box.along = Along::Centre;
   page.tree.open(column);
   const bool tight = !page.portrait && page.text_share > 1.3F;
-  if (!tight) page.tree.leaf(page.text(page.tr("3D portrait"), type::kSmall, Weight::Bold, page.palette.good));
-  page.heading("title", page.tr("Your face in three dimensions"), tight ? 38 : page.portrait || page.text_share < 1.2F ? type::kDisplay : 50);
-  page.body("what", page.tr("Two cameras look at you for a moment. You see your 3D portrait, and you decide whether it is kept."));
+  if (!tight)
+    page.tree.leaf(page.text(page.tr("3D portrait"), type::kSmall, Weight::Bold, page.palette.good));
+  page.heading("title", page.tr("Your face in three dimensions"),
+               tight                                     ? 38
+               : page.portrait || page.text_share < 1.2F ? type::kDisplay
+                                                         : 50);
+  page.body(
+      "what",
+      page.tr(
+          "Two cameras look at you for a moment. You see your 3D portrait, and you decide whether it is kept."));
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
   languages(page);
@@ -52,7 +61,8 @@ void words(Page& page) {
 }  // namespace
 
 void attract_screen(Page& page) {
-  Node root = page.portrait ? page.box(Flow::Column, space::kL, 56, 56) : page.box(Flow::Row, space::kXl, 72, 32);
+  Node root =
+      page.portrait ? page.box(Flow::Column, space::kL, 56, 56) : page.box(Flow::Row, space::kXl, 72, 32);
   root.id = "page";
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;

@@ -10,24 +10,27 @@ namespace relievo::ui {
 namespace {
 
 constexpr float kColumn = 860;
-constexpr float kCorner = 16;   // as the staff's way in has it (staff_entrance)
+constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 
-// What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads it in
-// their language, and as large as they need it.
+// What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads
+// it in their language, and as large as they need it.
 void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
   row.box.along = Along::End;
   page.tree.open(row);
   page.reading_tools();
-  if (page.view.service != nullptr && page.visit.step == Step::Trouble) page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
+  if (page.view.service != nullptr && page.visit.step == Step::Trouble)
+    page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
   page.tree.close();
 }
 
 // One column in the middle of the page, with a sign on top.
 void begin_message(Page& page, const char* letter, Colour colour, bool with_tools) {
-  // Where the tools stood on the pages before, they stay; on a page that the staff can leave, beside their lock.
+  // Where the tools stood on the pages before, they stay; on a page that the staff can leave, beside their
+  // lock.
   const bool at_lock = page.visit.step == Step::Trouble;
-  Node root = page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop);
+  Node root =
+      page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop);
   root.id = "page";
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;
@@ -52,7 +55,8 @@ void end_message(Page& page) {
   page.tree.close();
 }
 
-// The way on stands under the words; where those are so large that they may have to be scrolled, at the foot of the page.
+// The way on stands under the words; where those are so large that they may have to be scrolled, at the foot
+// of the page.
 bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
 
 void end_message(Page& page, const char* on, const char* letter) {
@@ -78,28 +82,44 @@ struct Words4 {
 Words4 words_of(const Page& page) {
   const auto& tr = page.tr;
   // What stands in everybody's way counts more than what stood in the last visitor's.
-  const bool waits = page.view.screen == Screen::Idle && (page.view.trouble == Trouble::None || bars_the_way(page.view.out_of_order));
+  const bool waits = page.view.screen == Screen::Idle &&
+                     (page.view.trouble == Trouble::None || bars_the_way(page.view.out_of_order));
   switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
-      return {icon::kNoCamera, tr("A camera does not answer"), tr("Please tell the staff. This device tries again by itself every half minute. Nothing about you was kept.")};
+      return {
+          icon::kNoCamera, tr("A camera does not answer"),
+          tr("Please tell the staff. This device tries again by itself every half minute. Nothing about you was kept.")};
     case Trouble::Calibration:
-      return {icon::kWrench, tr("The cameras need adjusting"), tr("A technician has to measure them again before portraits can be made. Nothing about you was kept.")};
+      return {
+          icon::kWrench, tr("The cameras need adjusting"),
+          tr("A technician has to measure them again before portraits can be made. Nothing about you was kept.")};
     case Trouble::Refused:
-      return {icon::kPerson, tr("It did not work this time"), tr("Three pictures were not good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
+      return {
+          icon::kPerson, tr("It did not work this time"),
+          tr("Three pictures were not good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
     case Trouble::Storage:
-      return {icon::kDisk, tr("Nothing can be stored at the moment"), tr("Please tell the staff. Nothing about you was kept.")};
+      return {icon::kDisk, tr("Nothing can be stored at the moment"),
+              tr("Please tell the staff. Nothing about you was kept.")};
     case Trouble::TookTooLong:
       return {icon::kWait, tr("That took too long"), tr("You can start again. Nothing about you was kept.")};
     case Trouble::Uncalibrated:
-      return {icon::kWrench, tr("This device is not set up yet"), tr("A technician has to calibrate its cameras first. As soon as that is done, it carries on by itself. Nothing about you was kept.")};
+      return {
+          icon::kWrench, tr("This device is not set up yet"),
+          tr("A technician has to calibrate its cameras first. As soon as that is done, it carries on by itself. Nothing about you was kept.")};
     case Trouble::Clock:
-      return {icon::kWait, tr("The clock of this device is wrong"), tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device carries on by itself. Nothing about you was kept.")};
+      return {
+          icon::kWait, tr("The clock of this device is wrong"),
+          tr("Your consent needs the right date. Please tell the staff: as soon as the clock is set, this device carries on by itself. Nothing about you was kept.")};
     case Trouble::Restarted:
-      return {icon::kAgain, tr("This device has just restarted"), tr("If you were in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored earlier are safe.")};
+      return {
+          icon::kAgain, tr("This device has just restarted"),
+          tr("If you were in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored earlier are safe.")};
     case Trouble::None:
-    case Trouble::Other: break;
+    case Trouble::Other:
+      break;
   }
-  return {icon::kAlert, tr("This device needs help"), tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
+  return {icon::kAlert, tr("This device needs help"),
+          tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
 }  // namespace
@@ -109,7 +129,8 @@ void thanks_screen(Page& page) {
   // Large words leave no room for a sign: the code must be seen whole.
   begin_message(page, at_foot(page) ? nullptr : icon::kGood, page.palette.good, true);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
-  page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."), TextAlign::Centre);
+  page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
+            TextAlign::Centre);
   Node row = page.box(Flow::Row);
   row.box.along = Along::Centre;
   page.tree.open(row);
@@ -119,8 +140,10 @@ void thanks_screen(Page& page) {
   card.box.border_px = page.px(3);
   card.box.radius = page.px(size::kCardRadius);
   page.tree.open(card);
-  page.tree.leaf(page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
-  Node code = page.text(page.filled("{}", page.view.receipt), 56, Weight::Bold, page.palette.ink, TextAlign::Centre);
+  page.tree.leaf(
+      page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
+  Node code =
+      page.text(page.filled("{}", page.view.receipt), 56, Weight::Bold, page.palette.ink, TextAlign::Centre);
   code.id = "receipt";
   code.style.size_px = page.px(56);
   page.tree.leaf(code);
@@ -134,7 +157,8 @@ void trouble_screen(Page& page) {
   begin_message(page, said.letter, page.palette.warn, true);
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
-  if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order)) end_message(page, page.tr("Back to the start"), icon::kAgain);
+  if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order))
+    end_message(page, page.tr("Back to the start"), icon::kAgain);
   else end_message(page);
 }
 

@@ -19,7 +19,8 @@ void badge(Page& page, const char* letter) {
   box.box.fill = page.palette.accent.with_alpha(0.12F);
   box.box.radius = page.px(kBadge / 4);
   page.tree.open(box);
-  Node sign = page.text(letter, kBadge / 2 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  Node sign =
+      page.text(letter, kBadge / 2 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
   sign.role = Role::Icon;
   sign.style.icon = true;
   page.tree.leaf(sign);
@@ -28,7 +29,7 @@ void badge(Page& page, const char* letter) {
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
   Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
-  row.box.across = side_by_side(page) ? Across::Start : Across::Centre;   // titles of neighbours on one line
+  row.box.across = side_by_side(page) ? Across::Start : Across::Centre;  // titles of neighbours on one line
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
   row.box.border_px = page.px(1.5F);
@@ -47,15 +48,24 @@ void point(Page& page, const char* letter, std::string_view title, std::string_v
 void points(Page& page) {
   const auto& tr = page.tr;
   const bool two = side_by_side(page);
-  const auto open_row = [&] { if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS))); };
-  const auto close_row = [&] { if (two) page.tree.close(); };
+  const auto open_row = [&] {
+    if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS)));
+  };
+  const auto close_row = [&] {
+    if (two) page.tree.close();
+  };
   open_row();
-  point(page, icon::kCamera, tr("We take one picture"), tr("Two cameras photograph your face at the same moment. Nothing is photographed until you say yes."));
-  point(page, icon::kShape, tr("You look at it first"), tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
+  point(
+      page, icon::kCamera, tr("We take one picture"),
+      tr("Two cameras photograph your face at the same moment. Nothing is photographed until you say yes."));
+  point(page, icon::kShape, tr("You look at it first"),
+        tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
   close_row();
   open_row();
-  point(page, icon::kDisk, tr("You decide what is kept"), tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
-  point(page, icon::kBin, tr("You can have it erased"), tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
+  point(page, icon::kDisk, tr("You decide what is kept"),
+        tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
+  point(page, icon::kBin, tr("You can have it erased"),
+        tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
   close_row();
 }
 
@@ -69,7 +79,8 @@ void own_points(Page& page, const ConsentText& own) {
 void consent_screen(Page& page) {
   const auto& tr = page.tr;
   page.begin(true);
-  const ConsentText* own = page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
+  const ConsentText* own =
+      page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
   page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "points";
@@ -77,7 +88,9 @@ void consent_screen(Page& page) {
   page.tree.open(list);
   if (own != nullptr) own_points(page, *own);
   else points(page);
-  if (own == nullptr) page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), type::kSmall, Weight::Regular, page.palette.ink_soft));
+  if (own == nullptr)
+    page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
+                             type::kSmall, Weight::Regular, page.palette.ink_soft));
   page.tree.close();
   page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
   const float grow = page.portrait ? 0.0F : 1.0F;

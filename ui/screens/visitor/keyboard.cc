@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kDigits[] = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "0"};
 
-void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign, Action action, float grow = 1, bool mirrored = false) {
+void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign,
+         Action action, float grow = 1, bool mirrored = false) {
   Node node = page.text(letter, type::kButton, Weight::Medium, page.palette.link, TextAlign::Centre);
   // Twelve letters abreast have no room to grow on an upright screen.
   const float growth = page.portrait ? 0.15F : 0.6F;
@@ -51,7 +52,9 @@ void last_row(Page& page, Action done) {
     key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
   }
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
-  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main, done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done, page.portrait ? 1.5F : 1.0F);
+  page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main,
+              done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done,
+              page.portrait ? 1.5F : 1.0F);
   page.tree.close();
 }
 
@@ -66,14 +69,18 @@ void keyboard(Page& page, Action done) {
   letters(page, kDigits);
   page.tree.close();
   const bool cased = has_capitals(page.visit.language);
-  const KeyRows rows = page.visit.accents && cased ? accent_rows(page.visit.capitals) : key_rows(page.visit.language, page.visit.capitals);
+  const KeyRows rows = page.visit.accents && cased ? accent_rows(page.visit.capitals)
+                                                   : key_rows(page.visit.language, page.visit.capitals);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     page.tree.open(row_box(page));
     const bool last = i == rows.size() - 1;
-    if (last && cased) key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
+    if (last && cased)
+      key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
     letters(page, rows[i]);
-    // Its arrow points to where letters go: the last one of a word that runs to the left is erased to the right.
-    if (last) key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
+    // Its arrow points to where letters go: the last one of a word that runs to the left is erased to the
+    // right.
+    if (last)
+      key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
     page.tree.close();
   }
   last_row(page, done);

@@ -46,15 +46,21 @@ constexpr const char* kHe3[] = {"ז", "ס", "ב", "ה", "נ", "מ", "צ", "ת", 
 
 KeyRows key_rows(Language language, bool capitals) {
   switch (language) {
-    case Language::German: return capitals ? KeyRows{kDe1Big, kDe2Big, kDe3Big} : KeyRows{kDe1, kDe2, kDe3};
-    case Language::French: return capitals ? KeyRows{kFr1Big, kFr2Big, kFr3Big} : KeyRows{kFr1, kFr2, kFr3};
-    case Language::Spanish: return capitals ? KeyRows{kEs1Big, kEs2Big, kEs3Big} : KeyRows{kEs1, kEs2, kEs3};
-    case Language::Arabic: return {kAr1, kAr2, kAr3};
-    case Language::Hebrew: return {kHe1, kHe2, kHe3};
+    case Language::German:
+      return capitals ? KeyRows{kDe1Big, kDe2Big, kDe3Big} : KeyRows{kDe1, kDe2, kDe3};
+    case Language::French:
+      return capitals ? KeyRows{kFr1Big, kFr2Big, kFr3Big} : KeyRows{kFr1, kFr2, kFr3};
+    case Language::Spanish:
+      return capitals ? KeyRows{kEs1Big, kEs2Big, kEs3Big} : KeyRows{kEs1, kEs2, kEs3};
+    case Language::Arabic:
+      return {kAr1, kAr2, kAr3};
+    case Language::Hebrew:
+      return {kHe1, kHe2, kHe3};
     case Language::English:
     case Language::Chinese:
     case Language::Japanese:
-    case Language::Count: break;
+    case Language::Count:
+      break;
   }
   return capitals ? KeyRows{kEn1Big, kEn2Big, kEn3Big} : KeyRows{kEn1, kEn2, kEn3};
 }

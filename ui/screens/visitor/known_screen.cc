@@ -9,7 +9,8 @@ namespace relievo::ui {
 namespace {
 
 // One of two ways on: what it is called, what it means.
-void way(Page& page, std::string_view id, const char* label, const char* letter, const char* words, Action action) {
+void way(Page& page, std::string_view id, const char* label, const char* letter, const char* words,
+         Action action) {
   page.tree.open(page.grown(page.box(Flow::Column, space::kS)));
   page.button(id, label, letter, ButtonLook::Main, action);
   page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre));
@@ -18,9 +19,12 @@ void way(Page& page, std::string_view id, const char* label, const char* letter,
 
 void two_ways(Page& page) {
   const auto& tr = page.tr;
-  page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, page.portrait ? space::kL : space::kM));
-  way(page, "renew", tr("Renew it"), icon::kAgain, tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
-  way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."), {ActionKind::AddAnother, 0});
+  page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row,
+                          page.portrait ? space::kL : space::kM));
+  way(page, "renew", tr("Renew it"), icon::kAgain,
+      tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
+  way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."),
+      {ActionKind::AddAnother, 0});
   page.tree.close();
 }
 
@@ -28,8 +32,10 @@ void name_ways(Page& page) {
   const auto& tr = page.tr;
   page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, space::kM));
   const float grow = page.portrait || page.text_share > 1.3F ? 0.0F : 1.0F;
-  page.button("somebody_else", tr("I am somebody else"), icon::kPerson, ButtonLook::Quiet, {ActionKind::SomebodyElse, 0}, grow);
-  page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0}, grow);
+  page.button("somebody_else", tr("I am somebody else"), icon::kPerson, ButtonLook::Quiet,
+              {ActionKind::SomebodyElse, 0}, grow);
+  page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0},
+              grow);
   page.tree.close();
 }
 
@@ -45,8 +51,11 @@ void known_screen(Page& page) {
   middle.box.scroll = true;
   page.tree.open(middle);
   page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
-  page.body("what", proven ? tr("You already have a portrait here. What would you like to do?")
-                           : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
+  page.body(
+      "what",
+      proven
+          ? tr("You already have a portrait here. What would you like to do?")
+          : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
   if (proven) two_ways(page);
   else name_ways(page);

@@ -9,7 +9,8 @@ void language_key(Page& page, Language language) {
   const LanguageInfo& info = info_of(language);
   const bool now = language == page.visit.language;
   // Names of languages are short and many: they grow less than what is read.
-  Node node = page.text(info.own_name, type::kBody, Weight::Medium, now ? page.palette.accent_ink : page.palette.link, TextAlign::Centre);
+  Node node = page.text(info.own_name, type::kBody, Weight::Medium,
+                        now ? page.palette.accent_ink : page.palette.link, TextAlign::Centre);
   node.style.size_px = page.px(22 * (1 + (page.text_share - 1) * 0.4F));
   node.style.language = info.code;
   node.id = info.code;

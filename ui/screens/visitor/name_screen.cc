@@ -5,7 +5,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kAsked = 38;   // the size of the question above the field
+constexpr float kAsked = 38;  // the size of the question above the field
 
 }  // namespace
 
@@ -34,8 +34,9 @@ void name_screen(Page& page) {
   field.box.radius = page.px(size::kRadius);
   page.tree.open(field);
   const std::string_view name = page.visit.name();
-  Node typed = page.text(name.empty() ? std::string_view(tr("Type here or show a QR code")) : name, type::kButton, Weight::Medium,
-                         name.empty() ? page.palette.ink_soft : page.palette.ink);
+  Node typed =
+      page.text(name.empty() ? std::string_view(tr("Type here or show a QR code")) : name, type::kButton,
+                Weight::Medium, name.empty() ? page.palette.ink_soft : page.palette.ink);
   typed.id = "typed";
   if (!name.empty()) page.tree.leaf(typed);
   Node caret = page.sized(page.box(Flow::Column), 3, 36);
@@ -44,8 +45,9 @@ void name_screen(Page& page) {
   if (name.empty()) page.tree.leaf(typed);
   page.tree.close();
   if (abreast) page.tree.close();
-  if (page.view.known == Known::NoSuchCode && !name.empty()) {   // below the field, which stays where it is
-    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall, Weight::Bold, page.palette.bad);
+  if (page.view.known == Known::NoSuchCode && !name.empty()) {  // below the field, which stays where it is
+    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
+                          Weight::Bold, page.palette.bad);
     note.id = "wrong_code";
     note.role = Role::Status;
     page.tree.leaf(note);

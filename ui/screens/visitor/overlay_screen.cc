@@ -12,16 +12,29 @@ namespace {
 const char* help_for(const Page& page) {
   const auto& tr = page.tr;
   switch (page.visit.step) {
-    case Step::Attract: return tr("This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time.");
-    case Step::Consent: return tr("Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way.");
-    case Step::Known: return tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown.");
-    case Step::Name: return tr("Type your name, or the number you were given. The arrow key erases a letter.");
-    case Step::Position: return tr("Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
-    case Step::Working: return tr("Please wait a few seconds. To stop, touch the cross.");
-    case Step::Review: return tr("Draw a finger across the portrait to turn it. Keep it, or take another one.");
-    case Step::Thanks: return tr("Write the code down, or photograph it. With it everything about you can be erased.");
+    case Step::Attract:
+      return tr(
+          "This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time.");
+    case Step::Consent:
+      return tr(
+          "Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way.");
+    case Step::Known:
+      return tr(
+          "Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown.");
+    case Step::Name:
+      return tr("Type your name, or the number you were given. The arrow key erases a letter.");
+    case Step::Position:
+      return tr(
+          "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
+    case Step::Working:
+      return tr("Please wait a few seconds. To stop, touch the cross.");
+    case Step::Review:
+      return tr("Draw a finger across the portrait to turn it. Keep it, or take another one.");
+    case Step::Thanks:
+      return tr("Write the code down, or photograph it. With it everything about you can be erased.");
     case Step::Trouble:
-    case Step::Starting: break;
+    case Step::Starting:
+      break;
   }
   return tr("Please tell the staff.");
 }
@@ -68,8 +81,12 @@ void help(Page& page) {
   words.box.scroll = words.box.yields = true;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
-  if (page.visit.step == Step::Name) page.body("overlay_code", page.tr("You can also hold a QR code with your name or number up to the cameras."));
-  page.body("overlay_staff", page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
+  if (page.visit.step == Step::Name)
+    page.body("overlay_code",
+              page.tr("You can also hold a QR code with your name or number up to the cameras."));
+  page.body(
+      "overlay_staff",
+      page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
   page.tree.close();
   page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
 }
@@ -81,8 +98,10 @@ void languages(Page& page) {
 
 void leave(Page& page) {
   page.heading("overlay_title", page.tr("Stop and leave?"));
-  page.body("overlay_text", page.tr("Everything you have entered and every picture are wiped at once. Nothing is kept."));
-  answers(page, page.tr("Yes, wipe everything"), {ActionKind::LeaveNow, 0}, page.tr("No, go on"), {ActionKind::Stay, 0});
+  page.body("overlay_text",
+            page.tr("Everything you have entered and every picture are wiped at once. Nothing is kept."));
+  answers(page, page.tr("Yes, wipe everything"), {ActionKind::LeaveNow, 0}, page.tr("No, go on"),
+          {ActionKind::Stay, 0});
 }
 
 void still_there(Page& page) {
@@ -90,7 +109,10 @@ void still_there(Page& page) {
   char number[8];
   std::snprintf(number, sizeof number, "%d", left);
   page.heading("overlay_title", page.tr("Are you still there?"));
-  page.body("overlay_text", page.filled(page.tr.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", static_cast<unsigned long>(left)), number));
+  page.body("overlay_text", page.filled(page.tr.plural("Everything is wiped in {} second.",
+                                                       "Everything is wiped in {} seconds.",
+                                                       static_cast<unsigned long>(left)),
+                                        number));
   answers(page, page.tr("Stop now"), {ActionKind::LeaveNow, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
 }
 
@@ -99,11 +121,20 @@ void still_there(Page& page) {
 void overlay_screen(Page& page) {
   begin_card(page);
   switch (page.visit.overlay) {
-    case Overlay::Help: help(page); break;
-    case Overlay::Languages: languages(page); break;
-    case Overlay::Leave: leave(page); break;
-    case Overlay::StillThere: still_there(page); break;
-    case Overlay::None: break;
+    case Overlay::Help:
+      help(page);
+      break;
+    case Overlay::Languages:
+      languages(page);
+      break;
+    case Overlay::Leave:
+      leave(page);
+      break;
+    case Overlay::StillThere:
+      still_there(page);
+      break;
+    case Overlay::None:
+      break;
   }
   end_card(page);
 }

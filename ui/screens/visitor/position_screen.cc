@@ -10,7 +10,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kEdge = 12;   // of the screen: what stands there must not reach into the oval
+constexpr float kEdge = 12;  // of the screen: what stands there must not reach into the oval
 
 struct Said {
   const char* words = nullptr;
@@ -22,8 +22,10 @@ struct Said {
 Said side_of(const Page& page) {
   const LiveView& live = page.view.live;
   if (std::abs(live.face_x) >= std::abs(live.face_y))
-    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext} : Said{page.tr("Move a little this way"), icon::kBack};
-  return live.face_y > 0 ? Said{page.tr("A little higher, please"), icon::kUp} : Said{page.tr("A little lower, please"), icon::kDown};
+    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext}
+                           : Said{page.tr("Move a little this way"), icon::kBack};
+  return live.face_y > 0 ? Said{page.tr("A little higher, please"), icon::kUp}
+                         : Said{page.tr("A little lower, please"), icon::kDown};
 }
 
 Said said(const Page& page) {
@@ -31,28 +33,49 @@ Said said(const Page& page) {
   const auto& tr = page.tr;
   if (page.view.live.number == 0) return {tr("The cameras are starting"), icon::kWait};
   switch (page.view.live.advice) {
-    case Advice::None: return {tr("Very good. Look straight ahead and hold still"), icon::kGood, true};
-    case Advice::NoFace: return {tr("Look into the oval"), icon::kPerson};
-    case Advice::TooClose: return {tr("Please step back a little"), icon::kDown};
-    case Advice::TooFar: return {tr("Please come a little closer"), icon::kUp};
-    case Advice::OffCentre: return side_of(page);
-    case Advice::TooDark: return {tr("It is too dark here for the cameras"), icon::kDark};
-    case Advice::TooBright: return {tr("It is too bright: turn away from the light"), icon::kSun};
+    case Advice::None:
+      return {tr("Very good. Look straight ahead and hold still"), icon::kGood, true};
+    case Advice::NoFace:
+      return {tr("Look into the oval"), icon::kPerson};
+    case Advice::TooClose:
+      return {tr("Please step back a little"), icon::kDown};
+    case Advice::TooFar:
+      return {tr("Please come a little closer"), icon::kUp};
+    case Advice::OffCentre:
+      return side_of(page);
+    case Advice::TooDark:
+      return {tr("It is too dark here for the cameras"), icon::kDark};
+    case Advice::TooBright:
+      return {tr("It is too bright: turn away from the light"), icon::kSun};
     case Advice::Moved:
-    case Advice::Blurred: return {tr("Please hold still"), icon::kStill};
-    case Advice::MoreThanOneFace: return {tr("One person at a time, please"), icon::kPerson};
-    case Advice::TurnedAside: return {tr("Please look straight ahead"), icon::kPerson};
-    case Advice::LooksUpOrDown: return {tr("Please hold your head level"), icon::kPerson};
-    case Advice::Tilted: return {tr("Please hold your head upright"), icon::kPerson};
-    case Advice::UnevenLight: return {tr("The light comes from one side: turn towards it"), icon::kSun};
-    case Advice::Highlights: return {tr("Your skin reflects a lamp: turn a little"), icon::kSun};
-    case Advice::FaceHidden: return {tr("Please uncover your whole face"), icon::kPerson};
-    case Advice::EyesHidden: return {tr("Please uncover your eyes"), icon::kPerson};
-    case Advice::EyesClosed: return {tr("Please open your eyes"), icon::kPerson};
-    case Advice::GlassesGlare: return {tr("Please take off your glasses"), icon::kPerson};
-    case Advice::MouthOpen: return {tr("Please close your mouth"), icon::kPerson};
-    case Advice::NotNeutral: return {tr("Please relax your face"), icon::kPerson};
-    case Advice::Background: return {tr("Please keep the space beside your head clear"), icon::kPerson};
+    case Advice::Blurred:
+      return {tr("Please hold still"), icon::kStill};
+    case Advice::MoreThanOneFace:
+      return {tr("One person at a time, please"), icon::kPerson};
+    case Advice::TurnedAside:
+      return {tr("Please look straight ahead"), icon::kPerson};
+    case Advice::LooksUpOrDown:
+      return {tr("Please hold your head level"), icon::kPerson};
+    case Advice::Tilted:
+      return {tr("Please hold your head upright"), icon::kPerson};
+    case Advice::UnevenLight:
+      return {tr("The light comes from one side: turn towards it"), icon::kSun};
+    case Advice::Highlights:
+      return {tr("Your skin reflects a lamp: turn a little"), icon::kSun};
+    case Advice::FaceHidden:
+      return {tr("Please uncover your whole face"), icon::kPerson};
+    case Advice::EyesHidden:
+      return {tr("Please uncover your eyes"), icon::kPerson};
+    case Advice::EyesClosed:
+      return {tr("Please open your eyes"), icon::kPerson};
+    case Advice::GlassesGlare:
+      return {tr("Please take off your glasses"), icon::kPerson};
+    case Advice::MouthOpen:
+      return {tr("Please close your mouth"), icon::kPerson};
+    case Advice::NotNeutral:
+      return {tr("Please relax your face"), icon::kPerson};
+    case Advice::Background:
+      return {tr("Please keep the space beside your head clear"), icon::kPerson};
   }
   return {tr("Look into the oval"), icon::kPerson};
 }
@@ -94,10 +117,14 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
   const ImageView& live = page.view.live.picture;
-  const float aspect = live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
-  const float shown = covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
-  const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F : page.height_dp * 0.74F;
-  const float h = std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F, page.height_dp - 2 * room_above(page)});
+  const float aspect =
+      live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  const float shown =
+      covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
+  const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F
+                                                      : page.height_dp * 0.74F;
+  const float h =
+      std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F, page.height_dp - 2 * room_above(page)});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "oval";
   ring.mark = Mark::Ring;
@@ -132,8 +159,12 @@ void advice(Page& page, const Said& what, std::optional<float> countdown) {
   Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
   page.tree.leaf(text);
   if (countdown) {
-    const char digit[] = {static_cast<char>('1' + std::clamp(static_cast<int>(*countdown / page.visit.countdown_s() * 3), 0, 2)), 0};
-    Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good, TextAlign::Centre);
+    const char digit[] = {
+        static_cast<char>('1' +
+                          std::clamp(static_cast<int>(*countdown / page.visit.countdown_s() * 3), 0, 2)),
+        0};
+    Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good,
+                            TextAlign::Centre);
     number.id = "countdown";
     number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.4F));
     page.tree.leaf(number);
@@ -157,9 +188,11 @@ void position_screen(Page& page) {
   advice(page, what, countdown);
   if (const char* again = last_time(page); again != nullptr && !what.good) {
     Node row = page.box(Flow::Row);
-    row.box.along = page.portrait ? Along::Centre : Along::Start;  // where there is room beside the oval, there
+    row.box.along =
+        page.portrait ? Along::Centre : Along::Start;  // where there is room beside the oval, there
     page.tree.open(row);
-    Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255}, page.portrait ? TextAlign::Centre : TextAlign::Start);
+    Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255},
+                          page.portrait ? TextAlign::Centre : TextAlign::Start);
     note.id = "again";
     note.box.pad_x = page.px(24);
     note.box.pad_y = page.px(8);
@@ -171,19 +204,24 @@ void position_screen(Page& page) {
   }
   page.space(1);
   const bool stacked = page.portrait;
-  if (stacked) page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main, {ActionKind::TakePicture, 0});
+  if (stacked)
+    page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
+                {ActionKind::TakePicture, 0});
   Node foot = page.box(Flow::Row, page.portrait ? space::kS : space::kXs);
   foot.box.across = Across::End;
   page.tree.open(foot);
   // Large words would reach into the oval.
-  if (page.portrait || page.text_share < 1.2F) page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  if (page.portrait || page.text_share < 1.2F)
+    page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
   else page.square_button("back", page.tr("Back"), page.backward(), {ActionKind::Back, 0});
   page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
   page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   page.space(1);
-  if (!stacked) page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main, {ActionKind::TakePicture, 0});
+  if (!stacked)
+    page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
+                {ActionKind::TakePicture, 0});
   page.tree.close();
   page.tree.close();
   page.tree.close();

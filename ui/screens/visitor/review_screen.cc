@@ -7,17 +7,19 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kToolsEdge = 16;   // dp, above and below the tools that lie on the face
-// Share of what is shown that was measured, of the feature with the least: of an eye, whose cornea mirrors the lamps, half at best.
+constexpr float kToolsEdge = 16;  // dp, above and below the tools that lie on the face
+// Share of what is shown that was measured, of the feature with the least: of an eye, whose cornea mirrors
+// the lamps, half at best.
 constexpr double kWholeFace = 0.45, kMostOfTheFace = 0.3;
-constexpr double kSharp = 0.25;                            // of the photographed texels
+constexpr double kSharp = 0.25;  // of the photographed texels
 
 // No figures: they mean nothing to a visitor.
 const char* quality(const Page& page, bool& good) {
   good = true;
   if (page.view.model == nullptr) return "";
   const pipeline::ModelQuality& q = page.view.model->quality;
-  if (q.coverage >= kWholeFace && q.texture_sharpness >= kSharp) return page.tr("Very good: your whole face was seen clearly.");
+  if (q.coverage >= kWholeFace && q.texture_sharpness >= kSharp)
+    return page.tr("Very good: your whole face was seen clearly.");
   if (q.coverage >= kMostOfTheFace) return page.tr("Good: most of your face was seen clearly.");
   good = false;
   return page.tr("Parts of your face were hidden or blurred. Another picture will be better.");
@@ -95,7 +97,9 @@ void question(Page& page) {
   page.tree.open(words);
   page.heading("title", tr("Is this you?"));
   if (page.view.trouble == Trouble::Storage) {
-    Node trouble = page.text(tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."), 22, Weight::Medium, page.palette.bad);
+    Node trouble = page.text(
+        tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."),
+        22, Weight::Medium, page.palette.bad);
     trouble.id = "trouble";
     trouble.role = Role::Status;
     page.tree.leaf(trouble);

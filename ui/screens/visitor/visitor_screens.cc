@@ -11,20 +11,32 @@ bool is_dark(Step step) {
   return step == Step::Attract || step == Step::Position || step == Step::Trouble || step == Step::Starting;
 }
 
-const Palette& palette_of(const Visit& visit) { return visit.high_contrast ? kHighContrast : is_dark(visit.step) ? kDark : kLight; }
+const Palette& palette_of(const Visit& visit) {
+  return visit.high_contrast ? kHighContrast : is_dark(visit.step) ? kDark : kLight;
+}
 
 void step_screen(Page& page) {
   switch (page.visit.step) {
-    case Step::Attract: return attract_screen(page);
-    case Step::Consent: return consent_screen(page);
-    case Step::Name: return name_screen(page);
-    case Step::Known: return known_screen(page);
-    case Step::Position: return position_screen(page);
-    case Step::Working: return working_screen(page);
-    case Step::Review: return review_screen(page);
-    case Step::Thanks: return thanks_screen(page);
-    case Step::Trouble: return trouble_screen(page);
-    case Step::Starting: return starting_screen(page);
+    case Step::Attract:
+      return attract_screen(page);
+    case Step::Consent:
+      return consent_screen(page);
+    case Step::Name:
+      return name_screen(page);
+    case Step::Known:
+      return known_screen(page);
+    case Step::Position:
+      return position_screen(page);
+    case Step::Working:
+      return working_screen(page);
+    case Step::Review:
+      return review_screen(page);
+    case Step::Thanks:
+      return thanks_screen(page);
+    case Step::Trouble:
+      return trouble_screen(page);
+    case Step::Starting:
+      return starting_screen(page);
   }
 }
 
@@ -35,7 +47,8 @@ const pipeline::FaceModel* face_of(const ViewState& view, const Visit& visit) {
 
 }  // namespace
 
-const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit, const Rect& screen) {
+const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit,
+                                    const Rect& screen) {
   const Palette& palette = palette_of(visit);
   tree.begin(info_of(visit.language).right_to_left);
   Page page(tree, view, visit, palette, screen);
@@ -55,12 +68,14 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   list.pictures[static_cast<std::size_t>(PictureSlot::Live)] = {view.live.picture, view.live.number};
   for (std::size_t i = 0; i < kStageViews; ++i)
-    list.pictures[static_cast<std::size_t>(PictureSlot::Matches) + i] = {view.stages[i].picture, view.stages[i].number};
+    list.pictures[static_cast<std::size_t>(PictureSlot::Matches) + i] = {view.stages[i].picture,
+                                                                         view.stages[i].number};
   list.face = face_of(view, visit);
   list.face_version = list.face == nullptr ? 0 : visit.step == Step::Attract ? ~0U : view.model_number;
   list.face_look = visit.look;
   list.face_look.backdrop = visit.step == Step::Review;
-  if (visit.step == Step::Attract) list.face_look = {.yaw_deg = -26, .pitch_deg = 9, .zoom = 1.12F, .light_deg = -40};
+  if (visit.step == Step::Attract)
+    list.face_look = {.yaw_deg = -26, .pitch_deg = 9, .zoom = 1.12F, .light_deg = -40};
 }
 
 }  // namespace relievo::ui

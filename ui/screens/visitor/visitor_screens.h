@@ -13,7 +13,8 @@ namespace relievo::ui {
 float unit_of(const Rect& screen);
 
 // The screen of this moment, with what lies over it. Returns its palette.
-const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit, const Rect& screen);
+const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit,
+                                    const Rect& screen);
 // The pictures and the model that it shows.
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit);
 

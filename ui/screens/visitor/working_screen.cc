@@ -9,12 +9,17 @@ namespace {
 
 int stage_under_way(Screen screen) {
   switch (screen) {
-    case Screen::Match: return 0;
-    case Screen::Reconstruct: return 1;
-    case Screen::Mesh: return 2;
-    case Screen::Texture: return 3;
+    case Screen::Match:
+      return 0;
+    case Screen::Reconstruct:
+      return 1;
+    case Screen::Mesh:
+      return 2;
+    case Screen::Texture:
+      return 3;
     case Screen::Review:
-    case Screen::Store: return 4;
+    case Screen::Store:
+      return 4;
     case Screen::SelfTest:
     case Screen::Idle:
     case Screen::Calibrate:
@@ -22,7 +27,8 @@ int stage_under_way(Screen screen) {
     case Screen::Capture:
     case Screen::Export:
     case Screen::Technician:
-    case Screen::Fault: break;
+    case Screen::Fault:
+      break;
   }
   return -1;
 }
@@ -66,7 +72,9 @@ void card(Page& page, int stage, const char* words) {
     picture.aspect = static_cast<float>(born.picture.width_px) / static_cast<float>(born.picture.height_px);
     picture.covers = true;
   }
-  if (stage < now) picture.box.along = Along::End, picture.box.across = Across::End, picture.box.pad_x = picture.box.pad_y = page.px(8);
+  if (stage < now)
+    picture.box.along = Along::End, picture.box.across = Across::End,
+    picture.box.pad_x = picture.box.pad_y = page.px(8);
   page.tree.open(picture);
   if (stage < now) tick(page);
   else if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
@@ -76,7 +84,8 @@ void card(Page& page, int stage, const char* words) {
   row.box.along = Along::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
-  page.tree.leaf(page.text(words, 22, Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft, TextAlign::Centre));
+  page.tree.leaf(page.text(words, 22, Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft,
+                           TextAlign::Centre));
   page.tree.close();
   page.tree.close();
 }
@@ -109,10 +118,12 @@ void working_screen(Page& page) {
   page.begin(false);
   const bool storing = page.view.screen == Screen::Store;
   page.heading("title", storing ? tr("Your portrait is being stored") : tr("Your 3D portrait is being made"));
-  page.body("what", storing ? tr("This takes a moment. Then you get your code.") : tr("It takes a few seconds. You can move again."));
-  const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"), tr("The colours of your skin")};
+  page.body("what", storing ? tr("This takes a moment. Then you get your code.")
+                            : tr("It takes a few seconds. You can move again."));
+  const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"),
+                               tr("The colours of your skin")};
   Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
-  all.box.even = true;   // a tick moves nothing
+  all.box.even = true;  // a tick moves nothing
   page.tree.open(all);
   for (int i = 0; i < 4; ++i) {
     if (page.portrait && i % 2 == 0) page.tree.open(page.grown(page.box(Flow::Row, space::kM)));

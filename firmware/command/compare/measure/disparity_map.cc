@@ -10,7 +10,8 @@ namespace {
 
 // A pixel between four nodes of the lattice; `tx`, `ty` of 0 to 1.
 float between(const std::array<float, 4>& node, float tx, float ty, float step_px) {
-  const auto [least, most] = std::minmax_element(node.begin(), node.end(), [](float a, float b) { return a < b; });
+  const auto [least, most] =
+      std::minmax_element(node.begin(), node.end(), [](float a, float b) { return a < b; });
   const bool all = std::none_of(node.begin(), node.end(), [](float d) { return std::isnan(d); });
   if (!all || *most - *least > step_px) return node[(tx < 0.5F ? 0U : 1U) + (ty < 0.5F ? 0U : 2U)];
   const float top = node[0] + tx * (node[1] - node[0]);
@@ -47,7 +48,8 @@ DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int heig
   }
   if (const int step = set.lattice_step_px; step > 1 && !set.matches.empty()) {
     const pipeline::Vec2f node = set.matches.front().left_px;
-    fill_lattice(map, step, static_cast<int>(std::lround(node.x)) % step, static_cast<int>(std::lround(node.y)) % step);
+    fill_lattice(map, step, static_cast<int>(std::lround(node.x)) % step,
+                 static_cast<int>(std::lround(node.y)) % step);
   }
   return map;
 }

@@ -19,7 +19,8 @@ inline constexpr float kNoDisparity = std::numeric_limits<float>::quiet_NaN();
 struct DisparityMap {
   DisparityMap() = default;
   DisparityMap(int width, int height)
-      : width_px(width), height_px(height),
+      : width_px(width),
+        height_px(height),
         values(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kNoDisparity) {}
 
   std::size_t index(int x, int y) const {

@@ -7,11 +7,14 @@
 namespace relievo::firmware::compare {
 namespace {
 
-double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole); }
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
 
 double percentile(std::vector<double>& values, double at) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto k = std::min(values.size() - 1, static_cast<std::size_t>(at * static_cast<double>(values.size())));
+  const auto k =
+      std::min(values.size() - 1, static_cast<std::size_t>(at * static_cast<double>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
@@ -74,7 +77,8 @@ DisparityScore score(const DisparityMap& map, const DisparityTruth& truth, doubl
   return s;
 }
 
-SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, const DisparityTruth& truth, double limit_px) {
+SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, const DisparityTruth& truth,
+                         double limit_px) {
   SharedScore s;
   std::vector<double> errors;
   std::vector<double> other_errors;
@@ -85,7 +89,9 @@ SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, con
     other_errors.push_back(std::abs(static_cast<double>(other.values[k]) - truly));
   }
   const auto bad = [limit_px](const std::vector<double>& all) {
-    return share(static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [limit_px](double e) { return e > limit_px; })), all.size());
+    return share(static_cast<std::size_t>(
+                     std::count_if(all.begin(), all.end(), [limit_px](double e) { return e > limit_px; })),
+                 all.size());
   };
   s.shared = errors.size();
   s.bad_one = bad(errors);

@@ -22,16 +22,16 @@ struct ErrorHistogram {
 };
 
 struct DisparityScore {
-  std::size_t judged = 0;         // pixels whose truth is known
-  std::size_t given = 0;          // of these, with a disparity
-  double density = 0;             // given / judged
-  double bad_half = 0, bad_1 = 0, bad_2 = 0, bad_4 = 0;  // of the judged; a hole is bad
-  double bad_limit = 0;           // the same with the limit asked for
-  double bad_given = 0;           // of the given, with the limit asked for
-  std::size_t seen = 0;           // judged pixels that both views see
-  double bad_seen = 0;            // of these, with the limit; a hole is bad
+  std::size_t judged = 0;                                     // pixels whose truth is known
+  std::size_t given = 0;                                      // of these, with a disparity
+  double density = 0;                                         // given / judged
+  double bad_half = 0, bad_1 = 0, bad_2 = 0, bad_4 = 0;       // of the judged; a hole is bad
+  double bad_limit = 0;                                       // the same with the limit asked for
+  double bad_given = 0;                                       // of the given, with the limit asked for
+  std::size_t seen = 0;                                       // judged pixels that both views see
+  double bad_seen = 0;                                        // of these, with the limit; a hole is bad
   double mean_px = 0, rms_px = 0, median_px = 0, p95_px = 0;  // of the absolute error of the given
-  double bias_px = 0;             // mean signed error of the given that are within the limit
+  double bias_px = 0;  // mean signed error of the given that are within the limit
   ErrorHistogram histogram;
 };
 
@@ -43,6 +43,7 @@ struct SharedScore {
   double bad_one = 0, bad_other = 0;
   double median_one_px = 0, median_other_px = 0;
 };
-SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, const DisparityTruth& truth, double limit_px);
+SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, const DisparityTruth& truth,
+                         double limit_px);
 
 }  // namespace relievo::firmware::compare

@@ -14,11 +14,13 @@ constexpr float kHidesPx = 1;  // a surface nearer by more than this, on the sam
 
 Result<DisparityMap> read_map(const std::filesystem::path& file, double scale) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".pfm") return read_pfm(file);
   RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(file));
   if (picture.format == PixelFormat::Rgb8)
-    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(file.string());
+    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(
+        file.string());
   DisparityMap map(picture.width_px, picture.height_px);
   const ImageView view = picture.view();
   for (int y = 0; y < map.height_px; ++y) {
@@ -43,7 +45,8 @@ std::vector<std::uint8_t> seen_by_both(const DisparityMap& map) {
     for (int x = 0; x < map.width_px; ++x) {
       if (!map.known(x, y)) continue;
       const long at = partner(x);
-      if (at >= 0 && at < map.width_px) nearest[static_cast<std::size_t>(at)] = std::max(nearest[static_cast<std::size_t>(at)], map.at(x, y));
+      if (at >= 0 && at < map.width_px)
+        nearest[static_cast<std::size_t>(at)] = std::max(nearest[static_cast<std::size_t>(at)], map.at(x, y));
     }
     for (int x = 0; x < map.width_px; ++x) {
       if (!map.known(x, y)) continue;
@@ -70,7 +73,8 @@ DisparityTruth truth_of_view(const measure::TruthView& view, const pipeline::Rec
   const pipeline::Rotation left_from_rectified = pipeline::transposed(pair.rectified_from_left);
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x) {
-      const pipeline::Vec3d ray{(x - pair.left_centre_px.x) / pair.focal_px, (y - pair.left_centre_px.y) / pair.focal_px, 1};
+      const pipeline::Vec3d ray{(x - pair.left_centre_px.x) / pair.focal_px,
+                                (y - pair.left_centre_px.y) / pair.focal_px, 1};
       const auto point = view.judged_point_along(pipeline::apply(left_from_rectified, ray));
       if (!point) continue;
       const double z = pipeline::apply(pair.rectified_from_left, *point).z;

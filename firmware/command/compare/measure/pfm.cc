@@ -25,7 +25,8 @@ std::string word(std::string_view& text) {
   std::size_t begin = 0;
   while (begin < text.size() && std::isspace(static_cast<unsigned char>(text[begin])) != 0) ++begin;
   std::size_t end = begin;
-  while (end < text.size() && end - begin < 32 && std::isspace(static_cast<unsigned char>(text[end])) == 0) ++end;
+  while (end < text.size() && end - begin < 32 && std::isspace(static_cast<unsigned char>(text[end])) == 0)
+    ++end;
   std::string found(text.substr(begin, end - begin));
   text.remove_prefix(std::min(text.size(), end + 1));
   return found;
@@ -36,7 +37,8 @@ float float_of(const char* bytes, bool little) {
   std::memcpy(b.data(), bytes, 4);
   if (!little) std::reverse(b.begin(), b.end());
   const std::uint32_t bits = static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
-                             static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+                             static_cast<std::uint32_t>(b[2]) << 16U |
+                             static_cast<std::uint32_t>(b[3]) << 24U;
   return std::bit_cast<float>(bits);
 }
 
@@ -50,7 +52,8 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
   const long width = std::strtol(word(rest).c_str(), nullptr, 10);
   const long height = std::strtol(word(rest).c_str(), nullptr, 10);
   const double scale = std::strtod(word(rest).c_str(), nullptr);
-  const bool sane = magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
+  const bool sane =
+      magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
   if (!sane || rest.size() != 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
     return Error{Errc::InvalidInput, "is no whole PFM of one channel"}.at(file.string());
   DisparityMap map(static_cast<int>(width), static_cast<int>(height));
@@ -63,7 +66,8 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
 }
 
 std::vector<std::byte> pfm_of(const DisparityMap& map) {
-  const std::string head = "Pf\n" + std::to_string(map.width_px) + " " + std::to_string(map.height_px) + "\n-1\n";
+  const std::string head =
+      "Pf\n" + std::to_string(map.width_px) + " " + std::to_string(map.height_px) + "\n-1\n";
   std::vector<std::byte> out(head.size() + 4 * map.values.size());
   std::memcpy(out.data(), head.data(), head.size());
   std::byte* to = out.data() + head.size();

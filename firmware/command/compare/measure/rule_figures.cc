@@ -35,8 +35,9 @@ Judgement judge(const pipeline::Match& match, const std::optional<DisparityTruth
 
 }  // namespace
 
-MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints, const pipeline::MatchSet& matches,
-                        const std::optional<DisparityTruth>& truth, double limit_px) {
+MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints,
+                        const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth,
+                        double limit_px) {
   MatchFigures f;
   f.keypoints = keypoints.points.size();
   f.matches = matches.matches.size();
@@ -74,7 +75,8 @@ std::vector<std::uint8_t> rejected_map(const pipeline::MatchSet& matches, int wi
     const int top = static_cast<int>(std::lround(match.left_px.y)) - before;
     for (int y = std::max(0, top); y < std::min(height_px, top + cell); ++y)
       for (int x = std::max(0, left); x < std::min(width_px, left + cell); ++x)
-        map[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)] = rule;
+        map[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)] =
+            rule;
   }
   return map;
 }

@@ -14,8 +14,9 @@
 
 namespace relievo::firmware::compare {
 
-MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints, const pipeline::MatchSet& matches,
-                        const std::optional<DisparityTruth>& truth, double limit_px);
+MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints,
+                        const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth,
+                        double limit_px);
 
 // A pixel each: 0, or 1 + the rule that took the match there. On a lattice every node stands for its cell,
 // a scattered match for 9 x 9 pixels.

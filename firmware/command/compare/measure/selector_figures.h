@@ -19,10 +19,12 @@ inline constexpr double kRepeatedPx = 1.5;
 
 // Places of the right view, by its own axes: the pair is handed over mirrored, so that it is the left one.
 // A face region goes with it, brought over by `map`. Errors: the selector's.
-Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& selector, const pipeline::RectifiedPair& pair,
-                                            const DisparityMap& map, pipeline::StageContext& context);
+Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& selector,
+                                            const pipeline::RectifiedPair& pair, const DisparityMap& map,
+                                            pipeline::StageContext& context);
 
-SelectorFigures selector_figures(const pipeline::RectifiedPair& pair, const pipeline::Keypoints& left, const pipeline::Keypoints& right,
-                                 const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth);
+SelectorFigures selector_figures(const pipeline::RectifiedPair& pair, const pipeline::Keypoints& left,
+                                 const pipeline::Keypoints& right, const pipeline::MatchSet& matches,
+                                 const std::optional<DisparityTruth>& truth);
 
 }  // namespace relievo::firmware::compare

@@ -28,7 +28,8 @@ void mirror_rows(std::pmr::vector<T>& values, int width, int channels) {
   const auto n = static_cast<std::size_t>(channels);
   for (std::size_t row = 0; row + w * n <= values.size(); row += w * n)
     for (std::size_t x = 0; x < w / 2; ++x)
-      for (std::size_t c = 0; c < n; ++c) std::swap(values[row + x * n + c], values[row + (w - 1 - x) * n + c]);
+      for (std::size_t c = 0; c < n; ++c)
+        std::swap(values[row + x * n + c], values[row + (w - 1 - x) * n + c]);
 }
 
 void mirror(pipeline::RectifiedView& view, int width) {
@@ -40,24 +41,32 @@ void mirror(pipeline::RectifiedView& view, int width) {
 // Disparity of the nearest surface of a mesh at every pixel of the left view; NaN where it shows none.
 class ModelView {
  public:
-  explicit ModelView(const pipeline::RectifiedPair& pair) : pair_(pair), map_(pair.width_px, pair.height_px) {}
+  explicit ModelView(const pipeline::RectifiedPair& pair)
+      : pair_(pair), map_(pair.width_px, pair.height_px) {}
 
   void draw(const pipeline::FaceMesh& mesh) {
     for (const auto& t : mesh.triangles) {
-      const Seen a = seen(mesh.vertices_mm[t[0]]), b = seen(mesh.vertices_mm[t[1]]), c = seen(mesh.vertices_mm[t[2]]);
+      const Seen a = seen(mesh.vertices_mm[t[0]]), b = seen(mesh.vertices_mm[t[1]]),
+                 c = seen(mesh.vertices_mm[t[2]]);
       if (a.front && b.front && c.front) fill(a, b, c);
     }
   }
   const DisparityMap& map() const { return map_; }
 
  private:
-  struct Seen { double x, y, d; bool front; };
+  struct Seen {
+    double x, y, d;
+    bool front;
+  };
 
   Seen seen(const pipeline::Vec3f& at) const {
-    const pipeline::Vec3d p = apply(pair_.rectified_from_left, {static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
+    const pipeline::Vec3d p =
+        apply(pair_.rectified_from_left,
+              {static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
     if (!(p.z > 0)) return {0, 0, 0, false};
     const double s = pair_.focal_px / p.z;
-    return {pair_.left_centre_px.x + s * p.x, pair_.left_centre_px.y + s * p.y, pair_.disparity_px(p.z), true};
+    return {pair_.left_centre_px.x + s * p.x, pair_.left_centre_px.y + s * p.y, pair_.disparity_px(p.z),
+            true};
   }
 
   // A plane's disparity is linear over the picture, so that it may be interpolated there.
@@ -86,7 +95,12 @@ class ModelView {
 // Planes whose sums over a window give the correlation.
 struct Products {
   Products(std::pmr::memory_resource* memory, int w, int h)
-      : count(memory, w, h), left(memory, w, h), right(memory, w, h), left_left(memory, w, h), right_right(memory, w, h), left_right(memory, w, h) {}
+      : count(memory, w, h),
+        left(memory, w, h),
+        right(memory, w, h),
+        left_left(memory, w, h),
+        right_right(memory, w, h),
+        left_right(memory, w, h) {}
   Plane<float> count, left, right, left_left, right_right, left_right;
 };
 
@@ -99,8 +113,10 @@ void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map,
       const int k = static_cast<int>(std::floor(at));
       if (k < 0 || k + 1 >= pair.width_px) continue;
       const std::size_t right = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(k);
-      if ((pair.right.valid[right] & pair.right.valid[right + 1] & pair.left.valid[map.index(x, y)]) == 0) continue;
-      const float r = pair.right.grey[right] + (at - static_cast<float>(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
+      if ((pair.right.valid[right] & pair.right.valid[right + 1] & pair.left.valid[map.index(x, y)]) == 0)
+        continue;
+      const float r = pair.right.grey[right] +
+                      (at - static_cast<float>(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
       const float l = pair.left.grey[map.index(x, y)];
       p.count.row(y)[x] = 1;
       p.left.row(y)[x] = l;
@@ -133,20 +149,24 @@ pipeline::RectifiedPair mirrored(const pipeline::RectifiedPair& pair, const Disp
   other.right_centre_px = {last - pair.left_centre_px.x, pair.left_centre_px.y};
   const int face_x = std::clamp(static_cast<int>(pair.face_centre_px.x), 0, pair.width_px - 1);
   const int face_y = std::clamp(static_cast<int>(pair.face_centre_px.y), 0, pair.height_px - 1);
-  const double between = map.known(face_x, face_y) ? static_cast<double>(map.at(face_x, face_y)) : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
+  const double between = map.known(face_x, face_y) ? static_cast<double>(map.at(face_x, face_y))
+                                                   : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
   other.face_centre_px = {last - (pair.face_centre_px.x - between), pair.face_centre_px.y};
   std::fill(other.region.begin(), other.region.end(), std::uint8_t{0});
   for (int y = 0; y < pair.height_px && !pair.region.empty(); ++y)
     for (int x = 0; x < pair.width_px; ++x) {
       if (!map.known(x, y)) continue;
       const int to = pair.width_px - 1 - static_cast<int>(std::lround(static_cast<float>(x) - map.at(x, y)));
-      for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near) other.region[map.index(near, y)] = 1;
+      for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
+        other.region[map.index(near, y)] = 1;
     }
   return other;
 }
 
-Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair, const pipeline::AlgorithmSet& set, const DisparityMap& map,
-                                            const std::optional<DisparityMap>& model, pipeline::StageContext& context) {
+Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
+                                            const pipeline::AlgorithmSet& set, const DisparityMap& map,
+                                            const std::optional<DisparityMap>& model,
+                                            pipeline::StageContext& context) {
   const pipeline::RectifiedPair other = mirrored(pair, map);
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set));
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set));
@@ -180,7 +200,8 @@ DisparityMap model_view(const pipeline::RectifiedPair& pair, const pipeline::Fac
   return view.map();
 }
 
-PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model, pipeline::StageContext& context) {
+PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model,
+                           pipeline::StageContext& context) {
   Products p(&context.scratch, pair.width_px, pair.height_px);
   take_products(pair, model, p);
   Plane<float> across(&context.scratch, pair.width_px, pair.height_px);

@@ -23,19 +23,23 @@ std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair) {
 
 const std::string& name_of(const Comparison& c, const Run& run) { return c.sets[run.set].name; }
 std::string cell(const std::string& html) { return "<td class=\"value\">" + html + "</td>"; }
-std::string best_cell(const std::string& html, bool best) { return best ? "<td class=\"value best\">" + html + "</td>" : cell(html); }
+std::string best_cell(const std::string& html, bool best) {
+  return best ? "<td class=\"value best\">" + html + "</td>" : cell(html);
+}
 std::string row_head(const std::string& name) { return "<th scope=\"row\">" + escaped(name) + "</th>"; }
 
 std::string table_head(const std::vector<std::string>& columns, std::size_t words) {
   std::string out = "<table class=\"sets\">\n<thead><tr>";
   for (std::size_t i = 0; i < columns.size(); ++i)
-    out += std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
+    out +=
+        std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
   return out + "</tr></thead>\n<tbody>\n";
 }
 
 std::string settings(const Comparison& c) {
-  std::string out = "<section>\n<h2>The sets</h2>\n<p class=\"lead\">What was chosen; every other setting is its default.</p>\n" +
-                    std::string("<table class=\"numbers set\">\n<tbody>\n");
+  std::string out =
+      "<section>\n<h2>The sets</h2>\n<p class=\"lead\">What was chosen; every other setting is its default.</p>\n" +
+      std::string("<table class=\"numbers set\">\n<tbody>\n");
   for (const NamedSet& set : c.sets) {
     std::string words;
     std::istringstream lines(set.set.to_text());
@@ -78,12 +82,15 @@ image { image-rendering: auto; }
 
 std::string facts_of(const PairFacts& pair) {
   if (pair.width_px == 0) return "nothing could be rectified";
-  return std::string(pair.truth ? "The truth is known" : "No truth is known") + ". " + std::to_string(pair.width_px) + " × " + std::to_string(pair.height_px) + " px, " +
-         (pair.rectified ? "rectified already" : "rectified") + ", disparities of " + figure(pair.least_px, 0) + " to " + figure(pair.most_px, 0) + " px";
+  return std::string(pair.truth ? "The truth is known" : "No truth is known") + ". " +
+         std::to_string(pair.width_px) + " × " + std::to_string(pair.height_px) + " px, " +
+         (pair.rectified ? "rectified already" : "rectified") + ", disparities of " +
+         figure(pair.least_px, 0) + " to " + figure(pair.most_px, 0) + " px";
 }
 
 Result<std::string> pair_section(const Comparison& c, std::size_t pair) {
-  std::string out = "<section>\n<h2>" + escaped(c.pairs[pair].name) + "</h2>\n<p class=\"lead\">" + facts_of(c.pairs[pair]) + "</p>\n";
+  std::string out = "<section>\n<h2>" + escaped(c.pairs[pair].name) + "</h2>\n<p class=\"lead\">" +
+                    facts_of(c.pairs[pair]) + "</p>\n";
   out += sections::figures(c, pair) + sections::surfaces(c, pair) + sections::shared_pixels(c, pair);
   RELIEVO_TRY_ASSIGN(const std::string maps, sections::maps(c, pair));
   out += maps + sections::histograms(c, pair) + sections::costs(c, pair) + sections::rules(c, pair);
@@ -94,33 +101,45 @@ Result<std::string> pair_section(const Comparison& c, std::size_t pair) {
 // Only what this page has; what it cannot say comes first.
 std::string reading(const Comparison& c) {
   const auto any = [&c](auto&& test) { return std::any_of(c.runs.begin(), c.runs.end(), test); };
-  const auto unknown = static_cast<std::size_t>(std::count_if(c.pairs.begin(), c.pairs.end(), [](const PairFacts& pair) { return !pair.truth; }));
+  const auto unknown = static_cast<std::size_t>(
+      std::count_if(c.pairs.begin(), c.pairs.end(), [](const PairFacts& pair) { return !pair.truth; }));
   std::string out;
   if (unknown > 0)
-    out += "<p><strong>No truth is known" + (unknown == c.pairs.size() ? std::string() : " of " + counted(static_cast<int>(unknown), "pair", "pairs")) +
-           ".</strong> Nothing here says how wrong a set is, only how well it agrees with its own two pictures. An error that both pictures share (a wrong "
-           "calibration, movement along the rows) shows in no figure.</p>\n";
+    out +=
+        "<p><strong>No truth is known" +
+        (unknown == c.pairs.size() ? std::string()
+                                   : " of " + counted(static_cast<int>(unknown), "pair", "pairs")) +
+        ".</strong> Nothing here says how wrong a set is, only how well it agrees with its own two pictures. An error that both pictures share (a wrong "
+        "calibration, movement along the rows) shows in no figure.</p>\n";
   if (any([](const Run& run) { return run.score.has_value(); }))
-    out += "<p>A pixel is bad where its disparity is off by more than " + pipeline::report::number(c.limit_px, 2) +
-           " px, or where there is none though the truth is known: a set cannot hide behind holes. Pixels that only the left view sees count "
-           "as well; “seen by both” leaves them out.</p>\n";
+    out +=
+        "<p>A pixel is bad where its disparity is off by more than " +
+        pipeline::report::number(c.limit_px, 2) +
+        " px, or where there is none though the truth is known: a set cannot hide behind holes. Pixels that only the left view sees count "
+        "as well; “seen by both” leaves them out.</p>\n";
   if (any([](const Run& run) { return run.left_right.has_value(); }))
-    out += "<p>Left-right: the pair is matched once more with the right view as the first; how far the two disparities of a place differ.</p>\n";
+    out +=
+        "<p>Left-right: the pair is matched once more with the right view as the first; how far the two disparities of a place differ.</p>\n";
   if (any([](const Run& run) { return run.photo.has_value(); }))
-    out += "<p>Photo: the right view is predicted from the left one through the model and correlated with what the camera saw, in windows; below it how many windows the "
-           "model fills: a small model has it easier.</p>\n";
-  if (any([](const Run& run) { return run.epipolar_px.has_value(); })) out += "<p>Rows: how far matches lie off their row, rms.</p>\n";
-  if (c.sets.size() > 1) out += "<p>The best figure of a column is green and bold, where the sets differ.</p>\n";
+    out +=
+        "<p>Photo: the right view is predicted from the left one through the model and correlated with what the camera saw, in windows; below it how many windows the "
+        "model fills: a small model has it easier.</p>\n";
+  if (any([](const Run& run) { return run.epipolar_px.has_value(); }))
+    out += "<p>Rows: how far matches lie off their row, rms.</p>\n";
+  if (c.sets.size() > 1)
+    out += "<p>The best figure of a column is green and bold, where the sets differ.</p>\n";
   return "<section class=\"reading\">\n<h2>How to read this</h2>\n" + out +
          "<p>Times are of one run, on the threads this machine has: compare them within this page only.</p>\n</section>\n";
 }
 
 }  // namespace
 
-Result<std::string> comparison_html(const Comparison& c, const std::string& product, const std::string& made_at) {
-  std::string body = pipeline::report::heading(product, "Comparison of algorithms",
-                                               {escaped(made_at), counted(static_cast<int>(c.sets.size()), "set", "sets"),
-                                                counted(static_cast<int>(c.pairs.size()), "pair", "pairs")});
+Result<std::string> comparison_html(const Comparison& c, const std::string& product,
+                                    const std::string& made_at) {
+  std::string body =
+      pipeline::report::heading(product, "Comparison of algorithms",
+                                {escaped(made_at), counted(static_cast<int>(c.sets.size()), "set", "sets"),
+                                 counted(static_cast<int>(c.pairs.size()), "pair", "pairs")});
   body += reading(c);
   for (std::size_t pair = 0; pair < c.pairs.size(); ++pair) {
     RELIEVO_TRY_ASSIGN(const std::string section, pair_section(c, pair));

@@ -12,6 +12,7 @@
 
 namespace relievo::firmware::compare {
 
-Result<std::string> comparison_html(const Comparison& comparison, const std::string& product, const std::string& made_at);
+Result<std::string> comparison_html(const Comparison& comparison, const std::string& product,
+                                    const std::string& made_at);
 
 }  // namespace relievo::firmware::compare

@@ -31,7 +31,8 @@ double share(const DisparityScore& s, std::size_t bin) {
 double tallest(const std::vector<const Run*>& runs) {
   double top = 0;
   for (const Run* run : runs)
-    for (std::size_t i = 1; run->score && i + 1 < ErrorHistogram::kBins; ++i) top = std::max(top, share(*run->score, i));
+    for (std::size_t i = 1; run->score && i + 1 < ErrorHistogram::kBins; ++i)
+      top = std::max(top, share(*run->score, i));
   return std::max(top, 1e-6) * 1.04;
 }
 
@@ -46,17 +47,21 @@ std::string of_run(const Comparison& c, const Run& run, double top) {
     const double high = y(share(s, i));
     const bool bad = std::abs(middle) > c.limit_px;
     if (share(s, i) > 0)
-      d.filled({{left + 0.3, high}, {x(middle + kBinPx / 2) - left - 0.6, kPlot.bottom() - high}}, bad ? hex(middle < 0 ? kTooFarColour : kTooNearColour) : "#8ba3b8");
+      d.filled({{left + 0.3, high}, {x(middle + kBinPx / 2) - left - 0.6, kPlot.bottom() - high}},
+               bad ? hex(middle < 0 ? kTooFarColour : kTooNearColour) : "#8ba3b8");
   }
   d.line("axis", {kPlot.corner.x, kPlot.bottom()}, {kPlot.right(), kPlot.bottom()});
   for (int tick = -4; tick <= 4; tick += 2) {
     d.line("axis", {x(tick), kPlot.bottom()}, {x(tick), kPlot.bottom() + 5});
-    d.text(tick == -4 ? "tick" : tick == 4 ? "tick end" : "tick middle", {x(tick), kPlot.bottom() + 20}, figure(tick, 0) + (tick == 0 ? " px" : ""));
+    d.text(tick == -4  ? "tick"
+           : tick == 4 ? "tick end"
+                       : "tick middle",
+           {x(tick), kPlot.bottom() + 20}, figure(tick, 0) + (tick == 0 ? " px" : ""));
   }
   const double beyond = share(s, 0) + share(s, ErrorHistogram::kBins - 1);
   return figure_of(d.svg(), escaped(name_of(c, run)),
-                   figure(100 * (1 - s.density), 1) + " % have no disparity, " + figure(100 * beyond, 1) + " % lie beyond ±4 px; bias of the good ones " +
-                       figure(s.bias_px, 3) + " px.");
+                   figure(100 * (1 - s.density), 1) + " % have no disparity, " + figure(100 * beyond, 1) +
+                       " % lie beyond ±4 px; bias of the good ones " + figure(s.bias_px, 3) + " px.");
 }
 
 }  // namespace
@@ -69,7 +74,8 @@ std::string histograms(const Comparison& c, std::size_t pair) {
     if (run->score) out += of_run(c, *run, top);
   if (out.empty()) return out;
   return "<h3 class=\"topic\">Errors</h3>\n<p class=\"lead\">Share of the pixels with known truth, a tenth of a pixel a bar; all at one scale. "
-         "Left of nought too far, right too near; dark is bad.</p>\n<div class=\"pair\">\n" + out + "</div>\n";
+         "Left of nought too far, right too near; dark is bad.</p>\n<div class=\"pair\">\n" +
+         out + "</div>\n";
 }
 
 }  // namespace relievo::firmware::compare::sections

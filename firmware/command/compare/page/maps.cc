@@ -11,13 +11,15 @@ namespace relievo::firmware::compare {
 namespace {
 
 // From far to near: lightness rises all the way, so that the map reads in grey as well.
-constexpr std::array<Rgb, 6> kDepth{Rgb{24, 26, 84}, Rgb{28, 78, 150}, Rgb{26, 134, 160}, Rgb{78, 178, 132}, Rgb{186, 208, 88}, Rgb{252, 232, 120}};
-constexpr std::array<Rgb, 8> kRules{Rgb{31, 99, 173},  Rgb{214, 96, 6},  Rgb{134, 60, 156}, Rgb{0, 140, 120},
-                                    Rgb{196, 30, 58},  Rgb{120, 110, 0}, Rgb{20, 20, 20},   Rgb{90, 160, 220}};
+constexpr std::array<Rgb, 6> kDepth{Rgb{24, 26, 84},   Rgb{28, 78, 150},  Rgb{26, 134, 160},
+                                    Rgb{78, 178, 132}, Rgb{186, 208, 88}, Rgb{252, 232, 120}};
+constexpr std::array<Rgb, 8> kRules{Rgb{31, 99, 173}, Rgb{214, 96, 6},  Rgb{134, 60, 156}, Rgb{0, 140, 120},
+                                    Rgb{196, 30, 58}, Rgb{120, 110, 0}, Rgb{20, 20, 20},   Rgb{90, 160, 220}};
 
 Rgb mixed(Rgb a, Rgb b, double t) {
   Rgb out{};
-  for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(std::lround(a[i] + t * (b[i] - a[i])));
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = static_cast<std::uint8_t>(std::lround(a[i] + t * (b[i] - a[i])));
   return out;
 }
 
@@ -25,13 +27,15 @@ Rgb mixed(Rgb a, Rgb b, double t) {
 template <typename Colour>
 Result<Png> small(const Window& window, int most_px, Colour&& colour) {
   const int w = std::min(window.width_px, most_px);
-  const int h = std::max(1, static_cast<int>(std::lround(static_cast<double>(window.height_px) * w / std::max(1, window.width_px))));
+  const int h = std::max(1, static_cast<int>(std::lround(static_cast<double>(window.height_px) * w /
+                                                         std::max(1, window.width_px))));
   std::vector<std::byte> rgb;
   rgb.reserve(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      const Rgb c = colour(window.left + std::min(window.width_px - 1, (2 * x + 1) * window.width_px / (2 * w)),
-                           window.top + std::min(window.height_px - 1, (2 * y + 1) * window.height_px / (2 * h)));
+      const Rgb c =
+          colour(window.left + std::min(window.width_px - 1, (2 * x + 1) * window.width_px / (2 * w)),
+                 window.top + std::min(window.height_px - 1, (2 * y + 1) * window.height_px / (2 * h)));
       for (const std::uint8_t value : c) rgb.push_back(static_cast<std::byte>(value));
     }
   return hal::encode_png({rgb.data(), w, h, 3 * w, PixelFormat::Rgb8});
@@ -108,11 +112,13 @@ Window window_of(const PairFacts& pair, const std::vector<const Run*>& runs) {
     for (const Run* run : runs)
       if (!run->map.values.empty()) include(run->map, box);
   const Window whole{0, 0, pair.width_px, pair.height_px};
-  if (box.width_px == 0 || 2L * box.width_px * box.height_px > 1L * whole.width_px * whole.height_px) return whole;
+  if (box.width_px == 0 || 2L * box.width_px * box.height_px > 1L * whole.width_px * whole.height_px)
+    return whole;
   const int margin = std::max(box.width_px, box.height_px) / 8;
   const int left = std::max(0, box.left - margin);
   const int top = std::max(0, box.top - margin);
-  return {left, top, std::min(whole.width_px, box.left + box.width_px + margin) - left, std::min(whole.height_px, box.top + box.height_px + margin) - top};
+  return {left, top, std::min(whole.width_px, box.left + box.width_px + margin) - left,
+          std::min(whole.height_px, box.top + box.height_px + margin) - top};
 }
 
 Result<Png> grey_picture(const PairFacts& pair, const Window& window, int width_px) {
@@ -122,14 +128,17 @@ Result<Png> grey_picture(const PairFacts& pair, const Window& window, int width_
   });
 }
 
-Result<Png> disparity_picture(const DisparityMap& map, const Reach& reach, const Window& window, int width_px) {
+Result<Png> disparity_picture(const DisparityMap& map, const Reach& reach, const Window& window,
+                              int width_px) {
   return small(window, width_px, [&](int x, int y) {
     if (!map.known(x, y)) return kHoleColour;
-    return depth_colour((static_cast<double>(map.at(x, y)) - reach.least_px) / (reach.most_px - reach.least_px));
+    return depth_colour((static_cast<double>(map.at(x, y)) - reach.least_px) /
+                        (reach.most_px - reach.least_px));
   });
 }
 
-Result<Png> error_picture(const DisparityMap& map, const DisparityTruth& truth, double limit_px, const Window& window, int width_px) {
+Result<Png> error_picture(const DisparityMap& map, const DisparityTruth& truth, double limit_px,
+                          const Window& window, int width_px) {
   return small(window, width_px, [&](int x, int y) {
     if (!truth.map.known(x, y)) return kUnknownColour;
     if (!map.known(x, y)) return kMissedColour;
@@ -144,7 +153,8 @@ Result<Png> rejected_picture(const PairFacts& pair, const Run& run, const Window
   });
 }
 
-Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selector, const Window& window, int width_px) {
+Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selector, const Window& window,
+                           int width_px) {
   // A dot of at least one pixel of the picture, and of three of the view.
   const int reach = std::max(1, window.width_px / std::max(1, std::min(width_px, window.width_px)) / 2 + 1);
   std::vector<std::uint8_t> held(pair.grey.size(), 0);
@@ -152,7 +162,9 @@ Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selecto
     for (int y = static_cast<int>(place.y) - reach; y <= static_cast<int>(place.y) + reach; ++y)
       for (int x = static_cast<int>(place.x) - reach; x <= static_cast<int>(place.x) + reach; ++x)
         if (x >= 0 && y >= 0 && x < pair.width_px && y < pair.height_px) held[index(pair, x, y)] = 1;
-  return small(window, width_px, [&](int x, int y) { return held[index(pair, x, y)] != 0 ? kRules[1] : pale(pair.grey[index(pair, x, y)]); });
+  return small(window, width_px, [&](int x, int y) {
+    return held[index(pair, x, y)] != 0 ? kRules[1] : pale(pair.grey[index(pair, x, y)]);
+  });
 }
 
 }  // namespace relievo::firmware::compare

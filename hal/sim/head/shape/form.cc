@@ -6,7 +6,9 @@ namespace relievo::hal::sim {
 
 Curve::Curve(std::initializer_list<Knot> knots) : knots_(knots), slopes_(knots.size()) {
   const std::size_t n = knots_.size();
-  const auto chord = [&](std::size_t i) { return (knots_[i + 1].y - knots_[i].y) / (knots_[i + 1].x - knots_[i].x); };
+  const auto chord = [&](std::size_t i) {
+    return (knots_[i + 1].y - knots_[i].y) / (knots_[i + 1].x - knots_[i].x);
+  };
   slopes_.front() = chord(0);
   slopes_.back() = chord(n - 2);
   for (std::size_t i = 1; i + 1 < n; ++i) {
@@ -22,8 +24,8 @@ double Curve::operator()(double x) const {
   while (x > knots_[i + 1].x) ++i;
   const double h = knots_[i + 1].x - knots_[i].x, t = (x - knots_[i].x) / h;
   const double t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * knots_[i].y + (t3 - 2 * t2 + t) * h * slopes_[i] + (3 * t2 - 2 * t3) * knots_[i + 1].y +
-         (t3 - t2) * h * slopes_[i + 1];
+  return (2 * t3 - 3 * t2 + 1) * knots_[i].y + (t3 - 2 * t2 + t) * h * slopes_[i] +
+         (3 * t2 - 2 * t3) * knots_[i + 1].y + (t3 - t2) * h * slopes_[i + 1];
 }
 
 BeadString::BeadString(std::initializer_list<Bead> beads, int pieces_between) {
@@ -33,10 +35,13 @@ BeadString::BeadString(std::initializer_list<Bead> beads, int pieces_between) {
     const Bead &p0 = b[i == 0 ? 0 : i - 1], &p1 = b[i], &p2 = b[i + 1], &p3 = b[std::min(i + 2, n - 1)];
     for (int k = 0; k < pieces_between; ++k) {
       const double t = static_cast<double>(k) / pieces_between, t2 = t * t, t3 = t2 * t;
-      const auto through = [&](auto v0, auto v1, auto v2, auto v3) {   // Catmull-Rom
-        return (v1 * 2.0 + (v2 - v0) * t + (v0 * 2.0 - v1 * 5.0 + v2 * 4.0 - v3) * t2 + (v1 * 3.0 - v0 - v2 * 3.0 + v3) * t3) * 0.5;
+      const auto through = [&](auto v0, auto v1, auto v2, auto v3) {  // Catmull-Rom
+        return (v1 * 2.0 + (v2 - v0) * t + (v0 * 2.0 - v1 * 5.0 + v2 * 4.0 - v3) * t2 +
+                (v1 * 3.0 - v0 - v2 * 3.0 + v3) * t3) *
+               0.5;
       };
-      beads_.push_back({through(p0.at, p1.at, p2.at, p3.at), through(p0.radius, p1.radius, p2.radius, p3.radius)});
+      beads_.push_back(
+          {through(p0.at, p1.at, p2.at, p3.at), through(p0.radius, p1.radius, p2.radius, p3.radius)});
     }
   }
   beads_.push_back(b.back());
@@ -44,7 +49,8 @@ BeadString::BeadString(std::initializer_list<Bead> beads, int pieces_between) {
 
 double BeadString::distance(Vec3 p) const {
   double best = 1e9;
-  for (std::size_t i = 0; i + 1 < beads_.size(); ++i) best = std::min(best, tapered(p, beads_[i], beads_[i + 1]));
+  for (std::size_t i = 0; i + 1 < beads_.size(); ++i)
+    best = std::min(best, tapered(p, beads_[i], beads_[i + 1]));
   return best;
 }
 

@@ -14,7 +14,8 @@ EyeForm::EyeForm(const HeadTraits& traits, const SkullForm& skull) : t_(traits) 
 // The highest point lies towards the nose, the lowest towards the ear.
 double EyeForm::raised_lid(double s) const {
   const double c = std::clamp(s, -1.0, 1.0), q = c + 0.16 * (1 - c * c);
-  return (1.2 + 1.1 * t_.eye_tilt) * c - 0.5 + (4.4 + 0.6 * t_.eye_open - 0.5 * t_.age) * (1 - std::pow(std::abs(q), 2.1));
+  return (1.2 + 1.1 * t_.eye_tilt) * c - 0.5 +
+         (4.4 + 0.6 * t_.eye_open - 0.5 * t_.age) * (1 - std::pow(std::abs(q), 2.1));
 }
 // Nearly all of the way is the upper lid's.
 double EyeForm::upper_lid(double s) const {
@@ -46,7 +47,8 @@ double EyeForm::add_to(double field, Vec3 p) const {
   const double fold = q.y - raised_lid(s) - (3.2 + 0.9 * t_.lid_fold) * (0.45 + 0.55 * middle) - 0.8;
   const double reach = smoothstep(1.35, 0.75, std::abs(s + 0.05));
   // A lid that comes down draws it flat.
-  d += reach * mix(0.35, 1, clamp01(t_.expression.lids_open)) * (1.05 * gauss(fold / 1.3) - (0.9 + 0.5 * t_.age) * gauss((fold - 3.9) / 3.2));
+  d += reach * mix(0.35, 1, clamp01(t_.expression.lids_open)) *
+       (1.05 * gauss(fold / 1.3) - (0.9 + 0.5 * t_.age) * gauss((fold - 3.9) / 3.2));
   const double bag = q.y - lower_lid(s) + 5.0;
   d += reach * (0.18 + 0.25 * t_.age) * gauss(bag / 1.8);
   // The opening.

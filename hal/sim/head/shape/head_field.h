@@ -18,7 +18,7 @@ class SkullForm {
  public:
   explicit SkullForm(const HeadTraits& traits);
   double distance(Vec3 p) const;
-  double front_z(double x, double y) const;   // of the plain face, without strokes
+  double front_z(double x, double y) const;  // of the plain face, without strokes
  private:
   double loft(Vec3 p) const;
   double neck(Vec3 p) const;
@@ -57,19 +57,19 @@ class MouthForm {
  public:
   MouthForm(const HeadTraits& traits, const SkullForm& skull);
   double add_to(double field, Vec3 p) const;
-  double vermilion(Vec3 p) const;             // 1 on the lips, 0 on the skin
-  double line_y(double x) const;              // where the lips meet
-  double upper_edge(double x) const;          // of the vermilion
+  double vermilion(Vec3 p) const;     // 1 on the lips, 0 on the skin
+  double line_y(double x) const;      // where the lips meet
+  double upper_edge(double x) const;  // of the vermilion
   double lower_edge(double x) const;
   double half_width() const { return half_width_; }
-  // An open mouth is a closed one whose lower lip, and the jaw with it, were moved down: where in the closed mouth a point was. Points
-  // between the lips were on the line where they meet.
+  // An open mouth is a closed one whose lower lip, and the jaw with it, were moved down: where in the closed
+  // mouth a point was. Points between the lips were on the line where they meet.
   Vec3 closed(Vec3 p) const;
-  double gape(Vec3 p) const;                  // negative between parted lips; asked where the point is, not where it was
+  double gape(Vec3 p) const;  // negative between parted lips; asked where the point is, not where it was
   double front() const { return front_; }
 
  private:
-  double dropped(double x, double z) const;   // the lower lip, mm
+  double dropped(double x, double z) const;  // the lower lip, mm
   HeadTraits t_;
   double half_width_, sto_, upper_mm_, lower_mm_;
   BeadString upper_, lower_, line_;
@@ -81,15 +81,17 @@ class EyeForm {
  public:
   EyeForm(const HeadTraits& traits, const SkullForm& skull);
   double add_to(double field, Vec3 p) const;
-  Vec3 centre() const { return centre_; }     // of the person's left eyeball
+  Vec3 centre() const { return centre_; }  // of the person's left eyeball
   double radius() const { return 12.0; }
-  double along(double ax) const { return (ax - middle_x_) / half_fissure_; }   // -1 inner corner, 1 outer corner
+  double along(double ax) const {
+    return (ax - middle_x_) / half_fissure_;
+  }  // -1 inner corner, 1 outer corner
   double upper_lid(double s) const;
   double lower_lid(double s) const;
-  Vec3 lid_point(double s, bool upper) const; // on the lid's edge
+  Vec3 lid_point(double s, bool upper) const;  // on the lid's edge
 
  private:
-  double raised_lid(double s) const;          // the upper lid's edge when the eye is open
+  double raised_lid(double s) const;  // the upper lid's edge when the eye is open
   HeadTraits t_;
   Vec3 centre_;
   double middle_x_, half_fissure_;
@@ -111,9 +113,9 @@ class EarForm {
 struct HeadField {
   explicit HeadField(const HeadTraits& traits);
   double distance(Vec3 p) const;
-  Vec3 gradient(Vec3 p) const;                 // normalised; outward
-  Vec3 swayed(Vec3 p) const;                   // faces lean: where in the upright one a point was
-  Vec3 warped(Vec3 p) const;                   // where the symmetric sculpture of a closed mouth is asked
+  Vec3 gradient(Vec3 p) const;  // normalised; outward
+  Vec3 swayed(Vec3 p) const;    // faces lean: where in the upright one a point was
+  Vec3 warped(Vec3 p) const;    // where the symmetric sculpture of a closed mouth is asked
 
   HeadTraits traits;
   SkullForm skull;

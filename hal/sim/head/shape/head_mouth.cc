@@ -19,18 +19,27 @@ MouthForm::MouthForm(const HeadTraits& traits, const SkullForm& skull) : t_(trai
     return Bead{{x, y, z}, r};
   };
   const double g = 0.25 * t_.lip_fullness;
-  upper_ = BeadString({arch(-6, sto_ + 0.47 * u, 1.5 + g, 3.6), arch(0, sto_ + 0.36 * u, 2.0 + g, 3.5), arch(6, sto_ + 0.47 * u, 1.5 + g, 3.6),
-                       arch(0.55 * w, sto_ + 0.31 * u, 1.0 + g, 3.0), arch(0.8 * w, line_y(0.8 * w) + 0.12 * u, 0.5, 2.0), arch(w - 0.5, line_y(w), -0.9, 1.0)}, 3);
-  lower_ = BeadString({arch(-8, sto_ - 0.46 * l, 1.5 + g, 4.3), arch(0, sto_ - 0.46 * l, 1.4 + g, 4.4), arch(8, sto_ - 0.46 * l, 1.5 + g, 4.3),
-                       arch(0.55 * w, sto_ - 0.38 * l, 0.8 + g, 3.6), arch(0.8 * w, line_y(0.8 * w) - 0.20 * l, 0.1, 2.4), arch(w - 0.5, line_y(w), -1.1, 1.0)}, 3);
-  line_ = BeadString({arch(-6, line_y(6), 1.5, 0.7), arch(0, line_y(0), 1.7, 0.7), arch(6, line_y(6), 1.5, 0.7), arch(0.5 * w, line_y(0.5 * w), 0.9, 0.7),
-                      arch(0.8 * w, line_y(0.8 * w), 0.2, 0.6), arch(w + 0.3, line_y(w + 0.3), -0.2, 0.4)}, 3);
+  upper_ =
+      BeadString({arch(-6, sto_ + 0.47 * u, 1.5 + g, 3.6), arch(0, sto_ + 0.36 * u, 2.0 + g, 3.5),
+                  arch(6, sto_ + 0.47 * u, 1.5 + g, 3.6), arch(0.55 * w, sto_ + 0.31 * u, 1.0 + g, 3.0),
+                  arch(0.8 * w, line_y(0.8 * w) + 0.12 * u, 0.5, 2.0), arch(w - 0.5, line_y(w), -0.9, 1.0)},
+                 3);
+  lower_ =
+      BeadString({arch(-8, sto_ - 0.46 * l, 1.5 + g, 4.3), arch(0, sto_ - 0.46 * l, 1.4 + g, 4.4),
+                  arch(8, sto_ - 0.46 * l, 1.5 + g, 4.3), arch(0.55 * w, sto_ - 0.38 * l, 0.8 + g, 3.6),
+                  arch(0.8 * w, line_y(0.8 * w) - 0.20 * l, 0.1, 2.4), arch(w - 0.5, line_y(w), -1.1, 1.0)},
+                 3);
+  line_ = BeadString({arch(-6, line_y(6), 1.5, 0.7), arch(0, line_y(0), 1.7, 0.7),
+                      arch(6, line_y(6), 1.5, 0.7), arch(0.5 * w, line_y(0.5 * w), 0.9, 0.7),
+                      arch(0.8 * w, line_y(0.8 * w), 0.2, 0.6), arch(w + 0.3, line_y(w + 0.3), -0.2, 0.4)},
+                     3);
 }
 
 double MouthForm::line_y(double x) const {
   const double s = std::abs(x) / half_width_;
   // A small dip in the middle, and corners that go their person's way.
-  return sto_ - 0.7 * gauss(s / 0.2) + 0.35 * gauss((s - 0.33) / 0.2) + (-0.6 + 1.1 * t_.mouth_curve + 5.5 * t_.expression.smile) * s * s;
+  return sto_ - 0.7 * gauss(s / 0.2) + 0.35 * gauss((s - 0.33) / 0.2) +
+         (-0.6 + 1.1 * t_.mouth_curve + 5.5 * t_.expression.smile) * s * s;
 }
 
 double MouthForm::upper_edge(double x) const {
@@ -46,7 +55,8 @@ double MouthForm::lower_edge(double x) const {
 double MouthForm::vermilion(Vec3 p) const {
   if (std::abs(p.x) > half_width_ + 1 || p.z < front_ - 30) return 0;
   const double up = upper_edge(p.x) - p.y, low = p.y - lower_edge(p.x);
-  return smoothstep(-0.8, 1.2, up) * smoothstep(-1.3, 2.0, low) * smoothstep(half_width_ + 0.5, half_width_ - 5.0, std::abs(p.x));
+  return smoothstep(-0.8, 1.2, up) * smoothstep(-1.3, 2.0, low) *
+         smoothstep(half_width_ + 0.5, half_width_ - 5.0, std::abs(p.x));
 }
 
 double MouthForm::dropped(double x, double z) const {
@@ -69,7 +79,8 @@ Vec3 MouthForm::closed(Vec3 p) const {
 double MouthForm::gape(Vec3 p) const {
   const double line = line_y(std::min(std::abs(p.x), half_width_)), lip = dropped(p.x, p.z);
   if (lip < 0.3) return 10;
-  return std::max({0.9 * (p.y - line), 0.9 * (line - lip - p.y), std::abs(p.x) - half_width_, front_ - 30 - p.z});
+  return std::max(
+      {0.9 * (p.y - line), 0.9 * (line - lip - p.y), std::abs(p.x) - half_width_, front_ - 30 - p.z});
 }
 
 double MouthForm::add_to(double field, Vec3 p) const {

@@ -8,7 +8,7 @@ NoseForm::NoseForm(const HeadTraits& traits, const SkullForm& skull) : t_(traits
   const HeadTraits& t = t_;
   sn_y_ = subnasale_y(t);
   sn_z_ = skull.front_z(0, sn_y_) + 2.2;
-  const double rise = 9.2 + 2.0 * t.tip_up;                 // of the tip over the base
+  const double rise = 9.2 + 2.0 * t.tip_up;  // of the tip over the base
   tip_ = {0, sn_y_ + rise, sn_z_ + std::sqrt(t.nose_protrusion * t.nose_protrusion - rise * rise)};
   const double r_tip = 8.4 + 0.8 * t.tip_size;
   const double root_z = skull.front_z(0, 5) - 1.5 + 1.5 * t.bridge;
@@ -37,8 +37,10 @@ double NoseForm::add_to(double field, Vec3 p) const {
   const double wing = ellipsoid(lean * (q - ala_), {4.7, 6.6, 9.2});
   const double rim = std::abs(wing - 1.6);
   d = join(d, wing, 4.5);
-  d += 0.55 * gauss(rim / 2.0) * smoothstep(ala_.y - 3.5, ala_.y + 3.5, q.y) * smoothstep(-4, 0, q.x - ala_.x + 6) * smoothstep(tip_.z - 4, tip_.z - 12, q.z);
-  d += 0.8 * gauss(rim / 2.0) * smoothstep(ala_.z + 1, ala_.z - 5, q.z) * smoothstep(sn_y_ + 14, sn_y_ + 8, q.y);
+  d += 0.55 * gauss(rim / 2.0) * smoothstep(ala_.y - 3.5, ala_.y + 3.5, q.y) *
+       smoothstep(-4, 0, q.x - ala_.x + 6) * smoothstep(tip_.z - 4, tip_.z - 12, q.z);
+  d += 0.8 * gauss(rim / 2.0) * smoothstep(ala_.z + 1, ala_.z - 5, q.z) *
+       smoothstep(sn_y_ + 14, sn_y_ + 8, q.y);
   // Nostrils: narrow towards the tip, opening downwards and outwards.
   const Vec3 hole{0.205 * t_.nose_width, sn_y_ + 2.2, sn_z_ + 7.2};
   const Mat3 turn = rotation(0.62, 0.36, 0.20);

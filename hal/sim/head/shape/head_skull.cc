@@ -10,14 +10,39 @@ SkullForm::SkullForm(const HeadTraits& traits) : t_(traits) {
   const double eu = t.head_breadth / 2, zy = t.face_breadth / 2, go = t.jaw_breadth / 2;
   const double sn = subnasale_y(t), sto = stomion_y(t), gn = gnathion_y(t);
   const double cb = 2.2 * t.chin_breadth;
-  breadth_ = {{gn - 6, 15 + cb}, {gn + 2, 27 + cb}, {gn + 13, 39 + cb}, {gn + 28, 0.45 * go + 27 + cb / 2}, {sto + 6, go + 6.5 + t.fullness * 1.2},
-              {sn, 0.55 * zy + 0.45 * go + 2.5}, {-22, zy - 1.0}, {-4, zy - 1.2}, {22, 0.45 * zy + 0.55 * eu - 2.5}, {48, eu - 2}, {70, eu - 7}, {95, eu - 24}};
+  breadth_ = {{gn - 6, 15 + cb},
+              {gn + 2, 27 + cb},
+              {gn + 13, 39 + cb},
+              {gn + 28, 0.45 * go + 27 + cb / 2},
+              {sto + 6, go + 6.5 + t.fullness * 1.2},
+              {sn, 0.55 * zy + 0.45 * go + 2.5},
+              {-22, zy - 1.0},
+              {-4, zy - 1.2},
+              {22, 0.45 * zy + 0.55 * eu - 2.5},
+              {48, eu - 2},
+              {70, eu - 7},
+              {95, eu - 24}};
   const double chin = 2.5 * t.chin;
-  front_ = {{gn - 6, 87 + chin}, {gn + 3, 99 + chin}, {gn + 14, 104.5 + chin}, {gn + 28, 102 + 0.4 * chin}, {sto, 105.5}, {sn - 6, 105.5},
-            {sn, 104}, {-28, 100.5}, {-14, 98.5}, {0, 98}, {9, 101}, {21, 106.5 + 0.8 * t.brow_ridge}, {36, 107 + 0.5 * t.forehead}, {55, 103.5 + 1.2 * t.forehead},
-            {75, 95 + 1.2 * t.forehead}, {95, 78 + t.forehead}};
-  widest_z_ = {{gn - 6, 74}, {gn + 14, 58}, {gn + 32, 34}, {sto + 6, 22}, {sn, 16}, {-10, 9}, {40, 4}, {95, 4}};
-  roundness_ = {{gn - 6, 2.05}, {gn + 14, 2.15}, {sto, 2.15}, {sn, 2.2}, {-10, 2.3}, {20, 2.65}, {55, 2.5}, {95, 2.2}};
+  front_ = {{gn - 6, 87 + chin},
+            {gn + 3, 99 + chin},
+            {gn + 14, 104.5 + chin},
+            {gn + 28, 102 + 0.4 * chin},
+            {sto, 105.5},
+            {sn - 6, 105.5},
+            {sn, 104},
+            {-28, 100.5},
+            {-14, 98.5},
+            {0, 98},
+            {9, 101},
+            {21, 106.5 + 0.8 * t.brow_ridge},
+            {36, 107 + 0.5 * t.forehead},
+            {55, 103.5 + 1.2 * t.forehead},
+            {75, 95 + 1.2 * t.forehead},
+            {95, 78 + t.forehead}};
+  widest_z_ = {{gn - 6, 74}, {gn + 14, 58}, {gn + 32, 34}, {sto + 6, 22},
+               {sn, 16},     {-10, 9},      {40, 4},       {95, 4}};
+  roundness_ = {{gn - 6, 2.05}, {gn + 14, 2.15}, {sto, 2.15}, {sn, 2.2},
+                {-10, 2.3},     {20, 2.65},      {55, 2.5},   {95, 2.2}};
 }
 
 double SkullForm::front_z(double x, double y) const {
@@ -65,7 +90,7 @@ double SkullForm::distance(Vec3 p) const {
   const Vec3 cranium{0, 40, 106 - half_length};
   double d = ellipsoid(p - cranium, {t_.head_breadth / 2 - 0.5, 80, half_length - 1});
   if (p.y < 112) d = join(d, loft(p), 16);
-  if (p.y < -20) d = join(d, neck(p), mix(30, 46, smoothstep(35, 0, p.z)));   // softest below the ear
+  if (p.y < -20) d = join(d, neck(p), mix(30, 46, smoothstep(35, 0, p.z)));  // softest below the ear
   return d;
 }
 

@@ -10,16 +10,17 @@ double FaceStrokes::brow_and_orbit(double ax, Vec3 p) const {
   const double eye_x = t_.intercanthal / 2 + t_.eye_fissure / 2;
   double h = 0;
   h -= (6.2 + 0.8 * t_.eye_depth) * bell(ax - (eye_x - 2), 16, p.y - 0.5, 10.5);
-  h -= 5.2 * bell(ax - 15, 7.5, p.y - 3.5, 9.5);                        // beside the root of the nose
+  h -= 5.2 * bell(ax - 15, 7.5, p.y - 3.5, 9.5);  // beside the root of the nose
   h += (1.8 + 0.9 * t_.brow_ridge) * bell(ax - 22, 17, p.y - (16.5 + 0.12 * ax), 7);
-  h += (0.8 + 0.3 * t_.brow_ridge) * bell(ax - 44, 9, p.y - 15, 9);   // outer end of the brow
+  h += (0.8 + 0.3 * t_.brow_ridge) * bell(ax - 44, 9, p.y - 15, 9);  // outer end of the brow
   h += 0.8 * bell(p.x, 11, p.y - 21, 9);
-  h += 1.5 * bell(ax - 28, 18, p.y - 55, 17);                        // frontal eminences
-  h -= 2.2 * bell({ax - 70, p.y - 18, p.z - 58}, {20, 24, 24});      // temples
-  const double crease = 0.9 * t_.age * t_.age;                                  // lines of the forehead
+  h += 1.5 * bell(ax - 28, 18, p.y - 55, 17);                    // frontal eminences
+  h -= 2.2 * bell({ax - 70, p.y - 18, p.z - 58}, {20, 24, 24});  // temples
+  const double crease = 0.9 * t_.age * t_.age;                   // lines of the forehead
   for (const double y : {35.0, 44.0, 53.5})
-    h -= 0.45 * crease * bell(ax, 34, p.y - y - 2.5 * std::sin(p.x * 0.05 + y) - 1.4 * std::cos(p.x * 0.11), 1.3);
-  h -= 0.5 * crease * bell(ax - 5.5, 1.2, p.y - 17, 7);              // between the brows
+    h -= 0.45 * crease *
+         bell(ax, 34, p.y - y - 2.5 * std::sin(p.x * 0.05 + y) - 1.4 * std::cos(p.x * 0.11), 1.3);
+  h -= 0.5 * crease * bell(ax - 5.5, 1.2, p.y - 17, 7);  // between the brows
   return h;
 }
 
@@ -28,16 +29,18 @@ double FaceStrokes::cheek(double ax, Vec3 p) const {
   double h = 0;
   h += (2.6 + 1.2 * t_.cheekbone) * bell({ax - 50, p.y + 24, p.z - 72}, {17, 11, 24});
   h += (1.8 + 0.8 * t_.fullness) * bell(ax - 33, 15, p.y + 30, 14);
-  h += (0.3 + 2.4 * t_.fullness - 1.0 * t_.cheekbone) * bell({ax - 50, p.y - sto - 6, p.z - 68}, {18, 18, 24});
+  h +=
+      (0.3 + 2.4 * t_.fullness - 1.0 * t_.cheekbone) * bell({ax - 50, p.y - sto - 6, p.z - 68}, {18, 18, 24});
   h += 1.0 * bell({ax - 54, p.y - sto + 3, p.z - 26}, {14, 18, 20});  // masseter
   // The nasolabial fold: from beside the wing to beyond the corner of the mouth.
   const Vec3 top{t_.nose_width / 2 + 1.5, sn + 11, 0}, low{t_.mouth_width / 2 + 6, sto + 2, 0};
   const Vec3 along = low - top, from{ax - top.x, p.y - top.y, 0};
   const double s = dot(from, along) / dot(along, along);
-  const double side = (from.x * -along.y + from.y * along.x) / length(along);   // + towards the cheek
+  const double side = (from.x * -along.y + from.y * along.x) / length(along);  // + towards the cheek
   const double bowed = side + 3.2 * (0.25 - (s - 0.5) * (s - 0.5)) * -4 * 0.25;
   const double reach = smoothstep(-0.22, 0.12, s) * (1 - smoothstep(0.65, 1.15, s));
-  h += reach * (-(0.35 + 0.75 * t_.age) * gauss(bowed / 3.4) + (0.5 + 0.8 * t_.age) * gauss((bowed - 8) / 7.5));
+  h += reach *
+       (-(0.35 + 0.75 * t_.age) * gauss(bowed / 3.4) + (0.5 + 0.8 * t_.age) * gauss((bowed - 8) / 7.5));
   // Tear trough and the soft edge of the lower lid.
   const double eye_x = t_.intercanthal / 2 + t_.eye_fissure / 2;
   const double trough_y = -12.5 + 0.010 * (ax - eye_x) * (ax - eye_x);
@@ -50,8 +53,8 @@ double FaceStrokes::lower_face(double ax, Vec3 p) const {
   const double sn = subnasale_y(t_), sto = stomion_y(t_), gn = gnathion_y(t_);
   const double half = t_.mouth_width / 2;
   double h = 0;
-  h += 3.4 * bell(ax, 23, p.y - sto - 1, 17);                         // the teeth behind
-  h -= 2.8 * bell(ax, 21, p.y - (sto - 0.36 * t_.lower_face), 5.5);   // mentolabial furrow
+  h += 3.4 * bell(ax, 23, p.y - sto - 1, 17);                        // the teeth behind
+  h -= 2.8 * bell(ax, 21, p.y - (sto - 0.36 * t_.lower_face), 5.5);  // mentolabial furrow
   h += (2.6 + 1.2 * t_.chin) * bell(ax, 17 + 2 * t_.chin_breadth, p.y - gn - 13, 10);
   h -= 0.18 * (0.3 + t_.masculine) * bell(ax, 2.2, p.y - gn - 9, 7);  // cleft
   h -= 1.7 * bell(ax - half - 1.5, 4.5, p.y - sto, 4.5);              // corners of the mouth
@@ -65,7 +68,8 @@ double FaceStrokes::lower_face(double ax, Vec3 p) const {
 double FaceStrokes::height(Vec3 p) const {
   if (p.z < 5 || p.y < -150) return 0;
   const double ax = std::abs(p.x);
-  const double h = (p.y > -30 ? brow_and_orbit(ax, p) : 0) + (p.y < 15 ? cheek(ax, p) + lower_face(ax, p) : 0);
+  const double h =
+      (p.y > -30 ? brow_and_orbit(ax, p) : 0) + (p.y < 15 ? cheek(ax, p) + lower_face(ax, p) : 0);
   return h * smoothstep(5, 35, p.z);
 }
 

@@ -7,34 +7,46 @@
 namespace relievo::hal::sim {
 namespace {
 
-constexpr int kBlock = 8;               // cells a side that are filled or skipped together
+constexpr int kBlock = 8;  // cells a side that are filled or skipped together
 constexpr float kFarOutside = 1e3F, kFarInside = -1e3F;
 
 struct Grid {
   Box box;
   double step;
-  int nx, ny, nz;                       // samples
+  int nx, ny, nz;  // samples
   std::vector<float> value;
-  std::vector<std::uint8_t> live;       // per block
+  std::vector<std::uint8_t> live;  // per block
 
   Grid(const Box& b, double s) : box(b), step(s) {
-    const auto count = [&](double extent) { return (static_cast<int>(std::ceil(extent / s)) / kBlock + 1) * kBlock + 1; };
+    const auto count = [&](double extent) {
+      return (static_cast<int>(std::ceil(extent / s)) / kBlock + 1) * kBlock + 1;
+    };
     nx = count(b.high.x - b.low.x), ny = count(b.high.y - b.low.y), nz = count(b.high.z - b.low.z);
-    value.assign(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz), kFarOutside);
-    live.assign(static_cast<std::size_t>(nx / kBlock) * static_cast<std::size_t>(ny / kBlock) * static_cast<std::size_t>(nz / kBlock), 0);
+    value.assign(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz),
+                 kFarOutside);
+    live.assign(static_cast<std::size_t>(nx / kBlock) * static_cast<std::size_t>(ny / kBlock) *
+                    static_cast<std::size_t>(nz / kBlock),
+                0);
   }
   std::size_t at(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(nx) +
+           static_cast<std::size_t>(x);
   }
   std::size_t block(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny / kBlock) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(nx / kBlock) + static_cast<std::size_t>(x);
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny / kBlock) +
+            static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(nx / kBlock) +
+           static_cast<std::size_t>(x);
   }
   Vec3 place(int x, int y, int z) const { return box.low + Vec3{x * step, y * step, z * step}; }
 };
 
 // One slab of blocks. Values on shared faces are computed twice rather than shared between threads.
 void fill_slab(Grid& g, const Field& field, int bz) {
-  const double half = kBlock * g.step / 2, reach = half * 1.75 * 1.35 + 2;   // half diagonal, and slack for a field that is no true distance
+  const double half = kBlock * g.step / 2,
+               reach =
+                   half * 1.75 * 1.35 + 2;  // half diagonal, and slack for a field that is no true distance
   for (int by = 0; by < g.ny / kBlock; ++by)
     for (int bx = 0; bx < g.nx / kBlock; ++bx) {
       const double centre = field(g.place(bx * kBlock, by * kBlock, bz * kBlock) + Vec3{half, half, half});
@@ -43,7 +55,8 @@ void fill_slab(Grid& g, const Field& field, int bz) {
       for (int z = bz * kBlock; z < (bz + 1) * kBlock; ++z)
         for (int y = by * kBlock; y < (by + 1) * kBlock; ++y)
           for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x)
-            g.value[g.at(x, y, z)] = live ? static_cast<float>(field(g.place(x, y, z))) : (centre > 0 ? kFarOutside : kFarInside);
+            g.value[g.at(x, y, z)] =
+                live ? static_cast<float>(field(g.place(x, y, z))) : (centre > 0 ? kFarOutside : kFarInside);
     }
 }
 
@@ -63,7 +76,10 @@ bool cell_point(const Grid& g, int x, int y, int z, Vec3& out) {
       const int b = a | axis;
       if (b == a || (v[a] < 0) == (v[b] < 0)) continue;
       const double t = v[a] / (v[a] - v[b]);
-      const auto corner = [](int c) { return Vec3{static_cast<double>(c & 1), static_cast<double>((c >> 1) & 1), static_cast<double>(c >> 2)}; };
+      const auto corner = [](int c) {
+        return Vec3{static_cast<double>(c & 1), static_cast<double>((c >> 1) & 1),
+                    static_cast<double>(c >> 2)};
+      };
       sum += mix(corner(a), corner(b), std::clamp(t, 0.02, 0.98));
       ++crossings;
     }
@@ -77,7 +93,9 @@ void add_points(const Grid& g, Mesh& mesh, std::vector<std::int32_t>& index) {
       for (int x = 0; x + 1 < g.nx; ++x) {
         Vec3 p;
         // Slabs are filled one by one, so the last sample plane belongs to no block.
-        if (x + 2 >= g.nx || y + 2 >= g.ny || z + 2 >= g.nz || g.live[g.block(x / kBlock, y / kBlock, z / kBlock)] == 0) continue;
+        if (x + 2 >= g.nx || y + 2 >= g.ny || z + 2 >= g.nz ||
+            g.live[g.block(x / kBlock, y / kBlock, z / kBlock)] == 0)
+          continue;
         if (!cell_point(g, x, y, z, p)) continue;
         index[g.at(x, y, z)] = static_cast<std::int32_t>(mesh.points.size());
         mesh.points.push_back(to_floats(p));
@@ -96,7 +114,8 @@ void add_quads(const Grid& g, Mesh& mesh, const std::vector<std::int32_t>& index
           const bool in = g.value[here] < 0;
           if (in == (g.value[here + stride[axis]] < 0)) continue;
           const std::size_t u = stride[(axis + 1) % 3], v = stride[(axis + 2) % 3];
-          const std::int32_t a = index[here], b = index[here - u], c = index[here - u - v], d = index[here - v];
+          const std::int32_t a = index[here], b = index[here - u], c = index[here - u - v],
+                             d = index[here - v];
           if (b < 0 || c < 0 || d < 0) continue;
           const auto corner = [](std::int32_t i) { return static_cast<std::uint32_t>(i); };
           if (in) {
@@ -120,7 +139,8 @@ void settle(Mesh& mesh, std::size_t first, const Field& field, double longest_mm
       for (int turn = 0; turn < 2; ++turn) {
         constexpr double e = 0.05;
         const double f = field(p);
-        const Vec3 slope{(field(p + Vec3{e, 0, 0}) - f) / e, (field(p + Vec3{0, e, 0}) - f) / e, (field(p + Vec3{0, 0, e}) - f) / e};
+        const Vec3 slope{(field(p + Vec3{e, 0, 0}) - f) / e, (field(p + Vec3{0, e, 0}) - f) / e,
+                         (field(p + Vec3{0, 0, e}) - f) / e};
         const Vec3 step = slope * (-f / std::max(dot(slope, slope), 0.05));
         const double l = length(step);
         p += step * std::min(1.0, longest_mm / std::max(l, 1e-9));
@@ -172,8 +192,9 @@ void refine(Mesh& mesh, const Field& field, const std::function<bool(Vec3)>& wan
     const int cuts = static_cast<int>(m[0] >= 0) + static_cast<int>(m[1] >= 0) + static_cast<int>(m[2] >= 0);
     const auto id = [&](std::size_t k) { return static_cast<std::uint32_t>(m[k]); };
     if (cuts == 3) {
-      out.insert(out.end(), {{t[0], id(0), id(2)}, {t[1], id(1), id(0)}, {t[2], id(2), id(1)}, {id(0), id(1), id(2)}});
-    } else if (cuts == 1) {        // all three corners inside cut all three edges, so two cuts cannot happen
+      out.insert(out.end(),
+                 {{t[0], id(0), id(2)}, {t[1], id(1), id(0)}, {t[2], id(2), id(1)}, {id(0), id(1), id(2)}});
+    } else if (cuts == 1) {  // all three corners inside cut all three edges, so two cuts cannot happen
       const std::size_t k = m[0] >= 0 ? 0 : m[1] >= 0 ? 1 : 2;
       out.insert(out.end(), {{t[k], id(k), t[(k + 2) % 3]}, {id(k), t[(k + 1) % 3], t[(k + 2) % 3]}});
     } else {

@@ -16,7 +16,7 @@ namespace relievo::hal::sim {
 struct Box {
   Vec3 low, high;
 };
-using Field = std::function<double(Vec3)>;      // negative inside, mm near the surface
+using Field = std::function<double(Vec3)>;  // negative inside, mm near the surface
 
 // Throws std::bad_alloc only.
 Mesh mesh_of_field(const Field& field, const Box& box, double step_mm, ThreadPool& pool);
@@ -24,7 +24,7 @@ Mesh mesh_of_field(const Field& field, const Box& box, double step_mm, ThreadPoo
 // Splits the edges whose two ends both satisfy `wanted` and puts the new points on the surface.
 void refine(Mesh& mesh, const Field& field, const std::function<bool(Vec3)>& wanted, ThreadPool& pool);
 
-std::vector<Vec3> smooth_normals(const Mesh& mesh);   // weighted by area
+std::vector<Vec3> smooth_normals(const Mesh& mesh);  // weighted by area
 
 inline Vec3 point_of(const Mesh& mesh, std::size_t i) {
   const auto& p = mesh.points[i];

@@ -15,8 +15,8 @@ bundle::Problem rig_problem(const StereoCalibration& calibration, const BoardPat
 // Where the board stands, from the left camera alone; good enough to start from.
 bundle::Pose guessed_pose(const bundle::Problem& rig, const BoardCorners& left);
 
-// The calibration's used views (the first of the input's) as a solved problem: it knows its information and covariance. False
-// where they do not determine it.
+// The calibration's used views (the first of the input's) as a solved problem: it knows its information and
+// covariance. False where they do not determine it.
 bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated,
                     bundle::Problem& solved);
 

@@ -12,7 +12,9 @@ namespace {
 
 constexpr int kBands = 16;
 
-struct Gradient { float x, y; };
+struct Gradient {
+  float x, y;
+};
 
 Gradient sobel(const float* above, const float* here, const float* below, int x) {
   const float left = above[x - 1] + 2 * here[x - 1] + below[x - 1];
@@ -29,7 +31,8 @@ void products(const std::pmr::vector<float>& grey, Plane<float>& to, ThreadPool&
     for (int y = begin + 1; y < end + 1; ++y) {
       const float* here = grey.data() + static_cast<std::ptrdiff_t>(y) * to.width;
       float* out = to.row(y);
-      for (int x = 1; x + 1 < to.width; ++x) out[x] = product(sobel(here - to.width, here, here + to.width, x));
+      for (int x = 1; x + 1 < to.width; ++x)
+        out[x] = product(sobel(here - to.width, here, here + to.width, x));
     }
   });
 }
@@ -46,8 +49,9 @@ float harris_measure(float xx, float xy, float yy, float sensitivity) {
   return xx * yy - xy * xy - sensitivity * trace * trace;
 }
 
-bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable, const CornerWindow& window,
-                     CornerMeasure measure, float parameter, StageContext& context, Plane<float>& response) {
+bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
+                     const CornerWindow& window, CornerMeasure measure, float parameter,
+                     StageContext& context, Plane<float>& response) {
   std::fill(response.values.begin(), response.values.end(), 0.0F);
   if (response.width < 3 || response.height < 3) return true;
   Arena::Mark mark(context.scratch);
@@ -70,7 +74,8 @@ bool corner_response(const std::pmr::vector<float>& grey, const Selectable& sele
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < response.width; ++x)
         if (selectable(x, y, margin))
-          response.row(y)[x] = std::max(0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
+          response.row(y)[x] = std::max(
+              0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
   });
   return !context.stop();
 }

@@ -24,11 +24,12 @@ struct CornerWindow {
 
 // The tensor's entries at a pixel become the response.
 using CornerMeasure = float (*)(float xx, float xy, float yy, float parameter);
-float smaller_eigenvalue(float xx, float xy, float yy, float);         // Shi and Tomasi 1994
+float smaller_eigenvalue(float xx, float xy, float yy, float);          // Shi and Tomasi 1994
 float harris_measure(float xx, float xy, float yy, float sensitivity);  // Harris and Stephens 1988
 
 // Fills `response`: 0 where nothing may be selected and where the measure is negative. False: cancelled.
-bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable, const CornerWindow& window,
-                     CornerMeasure measure, float parameter, StageContext& context, Plane<float>& response);
+bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
+                     const CornerWindow& window, CornerMeasure measure, float parameter,
+                     StageContext& context, Plane<float>& response);
 
 }  // namespace relievo::pipeline

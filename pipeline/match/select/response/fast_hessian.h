@@ -14,7 +14,8 @@ namespace relievo::pipeline {
 
 class FastHessian {
  public:
-  FastHessian(const std::pmr::vector<float>& grey, int width_px, int height_px, std::pmr::memory_resource* memory);
+  FastHessian(const std::pmr::vector<float>& grey, int width_px, int height_px,
+              std::pmr::memory_resource* memory);
 
   // Determinant of the Hessian at whole pixels, by filters `size_px` wide (9, 15, 21, ...: odd multiples
   // of 3), normalised by their area: it does not depend on the size of what it is laid upon. The

@@ -7,7 +7,8 @@
 
 namespace relievo::pipeline {
 
-SalientTracks::SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales, std::pmr::memory_resource* memory)
+SalientTracks::SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales,
+                             std::pmr::memory_resource* memory)
     : means_(memory) {
   means_.reserve(static_cast<std::size_t>(scales) + 1);
   means_.emplace_back(memory, width_px, height_px);
@@ -33,7 +34,8 @@ float SalientTracks::magnitude(int scale, int orientation, int column, int row) 
   const float difference = orientation == 0   ? right - left
                            : orientation == 1 ? lower[0] + lower[1] - upper[0] - upper[1]
                                               : upper[0] + lower[1] - upper[1] - lower[0];
-  return std::ldexp(std::abs(difference), scale - 2);  // means of 4^(scale-1) pixels; 1/2 a level keeps energy
+  return std::ldexp(std::abs(difference),
+                    scale - 2);  // means of 4^(scale-1) pixels; 1/2 a level keeps energy
 }
 
 Candidate SalientTracks::follow(int scale, int orientation, int column, int row) const {
@@ -44,7 +46,8 @@ Candidate SalientTracks::follow(int scale, int orientation, int column, int row)
     const int first_row = 2 * row;
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i)
-        if (const float m = magnitude(scale - 1, orientation, first_column + i, first_row + j); m > greatest) {
+        if (const float m = magnitude(scale - 1, orientation, first_column + i, first_row + j);
+            m > greatest) {
           greatest = m;
           column = first_column + i;
           row = first_row + j;
@@ -64,8 +67,10 @@ Candidate SalientTracks::end_of(int scale, int column, int row) const {
   Candidate best{side * column, side * row, -1};
   for (int y = side * row; y < side * (row + 1); ++y)
     for (int x = side * column; x < side * (column + 1); ++x) {
-      const float dx = picture.row(y)[std::min(x + 1, picture.width - 1)] - picture.row(y)[std::max(x - 1, 0)];
-      const float dy = picture.row(std::min(y + 1, picture.height - 1))[x] - picture.row(std::max(y - 1, 0))[x];
+      const float dx =
+          picture.row(y)[std::min(x + 1, picture.width - 1)] - picture.row(y)[std::max(x - 1, 0)];
+      const float dy =
+          picture.row(std::min(y + 1, picture.height - 1))[x] - picture.row(std::max(y - 1, 0))[x];
       if (const float gradient = dx * dx + dy * dy; gradient > best.strength) best = {x, y, gradient};
     }
   return best;

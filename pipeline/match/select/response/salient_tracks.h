@@ -17,7 +17,8 @@ class SalientTracks {
  public:
   static constexpr int kOrientations = 3;  // changes along x, along y, along both
 
-  SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales, std::pmr::memory_resource* memory);
+  SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales,
+                std::pmr::memory_resource* memory);
 
   int scales() const { return static_cast<int>(means_.size()) - 1; }
   // How many coefficients a scale (1 is the finest) has.

@@ -19,8 +19,9 @@ firmware::CommandLine parse(std::vector<const char*> words) {
 }
 
 TEST(CalibrateLiveWords, AreUnderstood) {
-  const auto line = parse({"--live", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--goal-mm", "0.05",
-                           "--seed", "7", "--baseline-mm", "137", "--store", "s"});
+  const auto line =
+      parse({"--live", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml",
+             "--goal-mm", "0.05", "--seed", "7", "--baseline-mm", "137", "--store", "s"});
   const auto* args = std::get_if<CalibrateLiveArgs>(&line.command);
   ASSERT_NE(args, nullptr);
   EXPECT_EQ(args->cameras, "sim");
@@ -36,12 +37,16 @@ TEST(CalibrateLiveWords, AreUnderstood) {
 
 TEST(CalibrateLiveWords, ThatContradictEachOtherAreRefused) {
   const std::vector<std::vector<const char*>> wrong = {
-      {"--live", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},                              // no cameras
-      {"--live", "DIR", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},     // and a folder
-      {"DIR", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},               // cameras for a folder
+      {"--live", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},  // no cameras
+      {"--live", "DIR", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o",
+       "rig.yml"},  // and a folder
+      {"DIR", "--board", "sim", "--corners", "10x7", "--square-mm", "20", "-o",
+       "rig.yml"},  // cameras for a folder
       {"DIR", "--goal-mm", "0.1", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
-      {"--live", "--board", "sim", "--goal-mm", "0", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
-      {"--live", "--board", "sim", "--report", "R", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"--live", "--board", "sim", "--goal-mm", "0", "--corners", "10x7", "--square-mm", "20", "-o",
+       "rig.yml"},
+      {"--live", "--board", "sim", "--report", "R", "--corners", "10x7", "--square-mm", "20", "-o",
+       "rig.yml"},
   };
   for (const auto& words : wrong) EXPECT_EQ(parse(words).exit_code, 2) << words[0] << ' ' << words[1];
 }

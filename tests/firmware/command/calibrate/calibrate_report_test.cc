@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/picture_file.h"
-#include "tests/support/html_reader.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
+#include "tests/support/html_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::tests {
@@ -33,11 +33,13 @@ class CalibrateReport : public ::testing::Test {
  protected:
   CalibrateReport() : boards_(small_rig(), 0.02, 4) {
     boards_.add(8);
-    const char* const names[] = {"0", "1", "_1", "<script>alert('x')<|script>", "caf\xE9", "a b#?%", "6", "7"};
+    const char* const names[] = {"0",       "1",      "_1", "<script>alert('x')<|script>",
+                                 "caf\xE9", "a b#?%", "6",  "7"};
     for (std::size_t i = 0; i < 8; ++i) {
       pipeline::BoardView& view = boards_.input().views[i];
       view.name = i == 2 ? "1" : names[i];
-      pairs_.push_back({view.name, here / ("left" + std::string(names[i]) + ".png"), here / ("right" + std::string(names[i]) + ".png")});
+      pairs_.push_back({view.name, here / ("left" + std::string(names[i]) + ".png"),
+                        here / ("right" + std::string(names[i]) + ".png")});
       write(pairs_.back().left, 128);
       write(pairs_.back().right, i == 6 ? 120 : 128);
     }
@@ -46,11 +48,13 @@ class CalibrateReport : public ::testing::Test {
     if (done) output_ = *std::move(done);
   }
   static void write(const fs::path& file, int side) {
-    const std::vector<std::byte> grey(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), std::byte{90});
+    const std::vector<std::byte> grey(static_cast<std::size_t>(side) * static_cast<std::size_t>(side),
+                                      std::byte{90});
     ASSERT_TRUE(hal::write_picture(file, {grey.data(), side, side, side, PixelFormat::Grey8}));
   }
   Result<void> report(const fs::path& folder) {
-    return firmware::write_calibration_report(folder, pairs_, boards_.input(), output_, "2026-03-14 09:26 UTC", out_);
+    return firmware::write_calibration_report(folder, pairs_, boards_.input(), output_,
+                                              "2026-03-14 09:26 UTC", out_);
   }
 
   test::TemporaryFolder here;
@@ -85,7 +89,8 @@ TEST_F(CalibrateReport, EveryLinkLeadsToAPicture) {
   EXPECT_EQ(links, 14) << "two a pair, none of the pair whose pictures differ in size";
   EXPECT_EQ(images, 16) << "but its thumbnails are there";
   EXPECT_TRUE(fs::exists(here / "new/report/report.json"));
-  EXPECT_TRUE(fs::exists(here / "new/report/corners_1_2.png")) << "two views may have one name, two files may not";
+  EXPECT_TRUE(fs::exists(here / "new/report/corners_1_2.png"))
+      << "two views may have one name, two files may not";
 }
 
 TEST_F(CalibrateReport, LeavesNothingHalfWritten) {

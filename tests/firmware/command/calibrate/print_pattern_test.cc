@@ -37,13 +37,15 @@ TEST(PrintPattern, TheSmallestPaperThatHoldsBoardAndMargin) {
     const char* paper;
     bool upright;
   };
-  for (const Row& row : {Row{{10, 7, 20}, "A4", false}, Row{{7, 10, 20}, "A4", true}, Row{{10, 7, 21}, "A3", false},
-                         Row{{9, 9, 15}, "A4", false}, Row{{20, 15, 20}, "A2", false}, Row{{20, 15, 30}, "A1", false},
-                         Row{{10, 14, 60}, "A0", true}, Row{{5, 4, 3, BoardKind::Charuco}, "A4", false}}) {
+  for (const Row& row :
+       {Row{{10, 7, 20}, "A4", false}, Row{{7, 10, 20}, "A4", true}, Row{{10, 7, 21}, "A3", false},
+        Row{{9, 9, 15}, "A4", false}, Row{{20, 15, 20}, "A2", false}, Row{{20, 15, 30}, "A1", false},
+        Row{{10, 14, 60}, "A0", true}, Row{{5, 4, 3, BoardKind::Charuco}, "A4", false}}) {
     const auto page = firmware::lay_out_pattern(row.pattern);
     ASSERT_TRUE(page) << row.pattern.columns << "x" << row.pattern.rows;
     EXPECT_EQ(std::string(page->paper), row.paper) << row.pattern.columns << "x" << row.pattern.rows;
-    EXPECT_EQ(page->height_mm > page->width_mm, row.upright) << row.pattern.columns << "x" << row.pattern.rows;
+    EXPECT_EQ(page->height_mm > page->width_mm, row.upright)
+        << row.pattern.columns << "x" << row.pattern.rows;
     const double square = row.pattern.square_mm;
     EXPECT_GE(page->board_x_mm, square);
     EXPECT_GE(page->board_y_mm, square);
@@ -65,7 +67,8 @@ TEST(PrintPattern, WhatNoPaperHoldsIsRefused) {
   EXPECT_EQ(error_of(firmware::lay_out_pattern({40, 15, 40})), Errc::InvalidInput);
   EXPECT_EQ(error_of(firmware::lay_out_pattern({10, 7, 1000})), Errc::InvalidInput);
   EXPECT_EQ(error_of(firmware::lay_out_pattern({2, 7, 20})), Errc::InvalidInput);
-  EXPECT_EQ(error_of(firmware::lay_out_pattern({60, 60, 5, BoardKind::Charuco})), Errc::InvalidInput) << "too many markers";
+  EXPECT_EQ(error_of(firmware::lay_out_pattern({60, 60, 5, BoardKind::Charuco})), Errc::InvalidInput)
+      << "too many markers";
 }
 
 TEST(PrintPattern, TheEndingChoosesTheFormat) {
@@ -79,8 +82,9 @@ TEST(PrintPattern, ThePageSaysWhatItIs) {
   const auto page = firmware::lay_out_pattern({10, 7, 20, BoardKind::Charuco, 15, 5});
   ASSERT_TRUE(page);
   const std::string words = page->text.front() + "\n" + page->text.back();
-  for (const char* word : {"ChArUco", "15 mm", "DICT_5X5_1000", "10x7 inner corners", "20 mm", "Print at 100 %", "100 mm",
-                           "220 x 160 mm", "--pattern charuco --corners 10x7 --square-mm 20 --marker-mm 15 --marker-bits 5"})
+  for (const char* word :
+       {"ChArUco", "15 mm", "DICT_5X5_1000", "10x7 inner corners", "20 mm", "Print at 100 %", "100 mm",
+        "220 x 160 mm", "--pattern charuco --corners 10x7 --square-mm 20 --marker-mm 15 --marker-bits 5"})
     EXPECT_NE(words.find(word), std::string::npos) << word;
 }
 
@@ -91,8 +95,8 @@ class RenderedPage : public ::testing::TestWithParam<BoardPattern> {
     const auto pdf = firmware::draw_page(page, GetParam(), PageFormat::Pdf);
     EXPECT_TRUE(pdf);
     if (!pdf || !hal::write_whole_file(folder_ / "page.pdf", *pdf)) return false;
-    const Said said = run_program({"/usr/bin/pdftoppm", "-r", std::to_string(kDotsAnInch), "-gray", "-png", "-singlefile",
-                                   "page.pdf", "page"},
+    const Said said = run_program({"/usr/bin/pdftoppm", "-r", std::to_string(kDotsAnInch), "-gray", "-png",
+                                   "-singlefile", "page.pdf", "page"},
                                   folder_.path());
     auto picture = hal::read_picture(folder_ / "page.png");
     EXPECT_TRUE(picture) << said.err;
@@ -136,7 +140,8 @@ TEST_P(RenderedPage, HasARulerOfTrueLengthAndAWhiteMargin) {
   // The tall ticks at both ends and every centimetre, and white between their tops.
   for (int mm = 0; mm <= 100; mm += 10) {
     int darkest = 255;
-    for (double d = -0.2; d <= 0.2; d += 0.05) darkest = std::min(darkest, grey(page->ruler_x_mm + mm + d, page->ruler_y_mm - 2.1));
+    for (double d = -0.2; d <= 0.2; d += 0.05)
+      darkest = std::min(darkest, grey(page->ruler_x_mm + mm + d, page->ruler_y_mm - 2.1));
     EXPECT_LT(darkest, 200) << mm;
     EXPECT_EQ(grey(page->ruler_x_mm + mm - 1, page->ruler_y_mm - 2.1), 255) << mm;
   }
@@ -149,7 +154,8 @@ TEST_P(RenderedPage, HasARulerOfTrueLengthAndAWhiteMargin) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, RenderedPage,
-                         ::testing::Values(BoardPattern{10, 7, 20}, BoardPattern{10, 7, 20, BoardKind::Charuco},
+                         ::testing::Values(BoardPattern{10, 7, 20},
+                                           BoardPattern{10, 7, 20, BoardKind::Charuco},
                                            BoardPattern{9, 12, 12.5, BoardKind::Charuco, 9, 6}));
 
 TEST(PrintPattern, TheSvgHasTheSameMillimetres) {
@@ -170,10 +176,12 @@ TEST(PrintPattern, TheSvgHasTheSameMillimetres) {
   std::string word;
   std::vector<double> numbers;
   while (words >> word)
-    if (word.find_first_not_of("0123456789.-") == std::string::npos) numbers.push_back(std::stod(word) * 25.4 / 72);
+    if (word.find_first_not_of("0123456789.-") == std::string::npos)
+      numbers.push_back(std::stod(word) * 25.4 / 72);
   ASSERT_GT(numbers.size(), 8U * 44);
   double left = 1e9, right = 0;
-  for (std::size_t i = 0; i < numbers.size(); i += 2) left = std::min(left, numbers[i]), right = std::max(right, numbers[i]);
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    left = std::min(left, numbers[i]), right = std::max(right, numbers[i]);
   EXPECT_NEAR(right - left, 220, 0.01);
 }
 

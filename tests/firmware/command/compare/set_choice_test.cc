@@ -45,9 +45,12 @@ TEST(SetChoice, TheDissertationsSimilarityAsksForMoreThanItsMatcher) {
     ASSERT_TRUE(sets);
     int judged = 0;
     for (const NamedSet& set : *sets) {
-      if (set.set.get("matcher") != "zmncc" || set.set.get("constraints").find("similarity") == std::string::npos) continue;
+      if (set.set.get("matcher") != "zmncc" ||
+          set.set.get("constraints").find("similarity") == std::string::npos)
+        continue;
       ++judged;
-      EXPECT_LT(std::stod(set.set.get("similarity.max_cost")), 1 - std::stod(set.set.get("zmncc.min_score"))) << set.name;
+      EXPECT_LT(std::stod(set.set.get("similarity.max_cost")), 1 - std::stod(set.set.get("zmncc.min_score")))
+          << set.name;
     }
     EXPECT_GE(judged, 3) << suite;
   }
@@ -68,7 +71,9 @@ TEST(SetChoice, NobodyIsRefusedAsAPictureUnlessAskedFor) {
 
 TEST(SetChoice, AFilesSetsKeepItsOrder) {
   const test::TemporaryFolder here;
-  test::write_text(here / "sets.toml", "[zebra]\nmatcher = \"refined\"\nrefined.bending = 0.5\n\n[\"ant 1\"]\n[\"ant 1\".dense]\nstep_px = 4\n");
+  test::write_text(
+      here / "sets.toml",
+      "[zebra]\nmatcher = \"refined\"\nrefined.bending = 0.5\n\n[\"ant 1\"]\n[\"ant 1\".dense]\nstep_px = 4\n");
   CompareArgs args;
   args.set_files = {here / "sets.toml"};
   const auto sets = choose_sets(args);

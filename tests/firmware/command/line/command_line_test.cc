@@ -13,8 +13,9 @@ CommandLine parse(std::vector<const char*> words) {
 }
 
 TEST(CommandLine, Reconstruct) {
-  const auto line = parse({"reconstruct", "l.png", "--set", "matcher=zmncc", "r.png", "--set", "zmncc.window_px=15",
-                           "--calibration", "rig.yml", "-o", "out", "--frame", "camera", "--region", "all"});
+  const auto line =
+      parse({"reconstruct", "l.png", "--set", "matcher=zmncc", "r.png", "--set", "zmncc.window_px=15",
+             "--calibration", "rig.yml", "-o", "out", "--frame", "camera", "--region", "all"});
   const auto& args = std::get<ReconstructArgs>(line.command);
   EXPECT_EQ(args.left, "l.png");
   EXPECT_EQ(args.right, "r.png");
@@ -25,7 +26,8 @@ TEST(CommandLine, Reconstruct) {
 }
 
 TEST(CommandLine, ALighterModelBesideIt) {
-  const auto reconstruct = parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000"});
+  const auto reconstruct =
+      parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000"});
   EXPECT_EQ(std::get<ReconstructArgs>(reconstruct.command).lod, 40'000);
   const auto exported = parse({"subjects", "export", "Ada", "-o", "out", "--lod", "20000"});
   EXPECT_EQ(std::get<SubjectsArgs>(exported.command).lod, 20'000);
@@ -42,7 +44,8 @@ TEST(CommandLine, Calibrate) {
 
 TEST(CommandLine, CalibrateWithAKnownBaseline) {
   for (const auto& [word, mm] : {std::pair{"137.2", 137.2}, {"0", 0.0}}) {
-    const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", word});
+    const auto line = parse({"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml",
+                             "--baseline-mm", word});
     EXPECT_EQ(std::get<CalibrateArgs>(line.command).baseline_mm, mm);
   }
 }
@@ -55,7 +58,8 @@ TEST(CommandLine, VerbsOfCalibration) {
   };
   EXPECT_EQ(args({"list"}).verb, Verb::List);
   EXPECT_EQ(args({"activate", "3", "--store", "s"}).revision, 3);
-  const auto import = args({"import", "intrinsics.yml", "extrinsics.yml", "--image-size", "640x480", "--unit-mm", "25.4", "--note", "bench 2"});
+  const auto import = args({"import", "intrinsics.yml", "extrinsics.yml", "--image-size", "640x480",
+                            "--unit-mm", "25.4", "--note", "bench 2"});
   EXPECT_EQ(import.verb, Verb::Import);
   EXPECT_EQ(import.file, "intrinsics.yml");
   EXPECT_EQ(import.other, "extrinsics.yml");
@@ -66,17 +70,22 @@ TEST(CommandLine, VerbsOfCalibration) {
   const auto out = args({"export", "-o", "folder", "--as", "ros", "--calibration", "rig.yml"});
   EXPECT_TRUE(out.ros);
   EXPECT_EQ(out.source, "rig.yml");
-  for (const std::vector<const char*>& wrong : std::vector<std::vector<const char*>>{
-           {"calibration", "activate"}, {"calibration", "activate", "0"}, {"calibration", "import"},
-           {"calibration", "import", "a.yml", "--image-size", "640"}, {"calibration", "import", "a.yml", "--image-size", "4x4"},
-           {"calibration", "import", "a.yml", "--unit-mm", "nan"}, {"calibration", "import", "a.yml", "--unit-mm", "0"},
-           {"calibration", "export", "-o", "x", "--as", "xml"}, {"calibration", "export", "-o", "x", "2", "--calibration", "y"}})
+  for (const std::vector<const char*>& wrong :
+       std::vector<std::vector<const char*>>{{"calibration", "activate"},
+                                             {"calibration", "activate", "0"},
+                                             {"calibration", "import"},
+                                             {"calibration", "import", "a.yml", "--image-size", "640"},
+                                             {"calibration", "import", "a.yml", "--image-size", "4x4"},
+                                             {"calibration", "import", "a.yml", "--unit-mm", "nan"},
+                                             {"calibration", "import", "a.yml", "--unit-mm", "0"},
+                                             {"calibration", "export", "-o", "x", "--as", "xml"},
+                                             {"calibration", "export", "-o", "x", "2", "--calibration", "y"}})
     EXPECT_EQ(parse(wrong).exit_code, 2) << wrong.back();
 }
 
 TEST(CommandLine, CalibrateWithCharuco) {
-  const auto line = parse({"calibrate", "dir", "--pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "--marker-mm",
-                           "15", "--marker-bits", "5", "-o", "rig.yml"});
+  const auto line = parse({"calibrate", "dir", "--pattern", "charuco", "--corners", "10x7", "--square-mm",
+                           "20", "--marker-mm", "15", "--marker-bits", "5", "-o", "rig.yml"});
   const auto& args = std::get<CalibrateArgs>(line.command);
   EXPECT_TRUE(args.board.charuco);
   EXPECT_EQ(args.board.marker_mm, 15);
@@ -84,7 +93,8 @@ TEST(CommandLine, CalibrateWithCharuco) {
 }
 
 TEST(CommandLine, PrintPattern) {
-  const auto line = parse({"calibrate", "--print-pattern", "charuco", "--corners", "7x5", "--square-mm", "30", "-o", "board.pdf"});
+  const auto line = parse({"calibrate", "--print-pattern", "charuco", "--corners", "7x5", "--square-mm", "30",
+                           "-o", "board.pdf"});
   const auto& args = std::get<PrintPatternArgs>(line.command);
   EXPECT_TRUE(args.board.charuco);
   EXPECT_EQ(args.board.corners_across, 7);
@@ -98,8 +108,8 @@ TEST(CommandLine, SimulatedBoard) {
   EXPECT_EQ(plain.printed.corners_across, 10);
   EXPECT_EQ(plain.printed.square_mm, 20);
   EXPECT_FALSE(plain.printed.charuco);
-  const auto line = parse({"simulate", "board", "-o", "out", "--pattern", "charuco", "--corners", "8x6", "--lamp", "0.5",
-                           "--cover", "0.3", "--blur-px", "1.5"});
+  const auto line = parse({"simulate", "board", "-o", "out", "--pattern", "charuco", "--corners", "8x6",
+                           "--lamp", "0.5", "--cover", "0.3", "--blur-px", "1.5"});
   const auto& args = std::get<SimulateArgs>(line.command);
   EXPECT_TRUE(args.printed.charuco);
   EXPECT_EQ(args.printed.corners_down, 6);
@@ -110,7 +120,8 @@ TEST(CommandLine, SimulatedBoard) {
 
 TEST(CommandLine, SimulatedPhotograph) {
   EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out"}).command).held.picture.empty());
-  const auto line = parse({"simulate", "photograph", "ada.png", "-o", "out", "--radius-mm", "-80", "--axis", "30", "--screen", "--yaw", "5"});
+  const auto line = parse({"simulate", "photograph", "ada.png", "-o", "out", "--radius-mm", "-80", "--axis",
+                           "30", "--screen", "--yaw", "5"});
   const auto& args = std::get<SimulateArgs>(line.command);
   EXPECT_EQ(args.held.picture, "ada.png");
   EXPECT_EQ(args.held.radius_mm, -80);
@@ -122,8 +133,10 @@ TEST(CommandLine, SimulatedPhotograph) {
 
 TEST(CommandLine, SimulatesUprightCameras) {
   EXPECT_FALSE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out"}).command).portrait);
-  EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out", "--portrait"}).command).portrait);
-  EXPECT_TRUE(std::get<SimulateArgs>(parse({"simulate", "board", "-o", "out", "--portrait"}).command).portrait);
+  EXPECT_TRUE(
+      std::get<SimulateArgs>(parse({"simulate", "face", "-o", "out", "--portrait"}).command).portrait);
+  EXPECT_TRUE(
+      std::get<SimulateArgs>(parse({"simulate", "board", "-o", "out", "--portrait"}).command).portrait);
 }
 
 TEST(CommandLine, VerbsOfSubjects) {
@@ -142,7 +155,8 @@ TEST(CommandLine, VerbsOfTheStaff) {
   EXPECT_EQ(std::get<StaffArgs>(forget.command).store, "s");
   EXPECT_FALSE(std::get<StaffArgs>(parse({"staff", "forget-pin", "operator"}).command).technician);
   EXPECT_EQ(std::get<StaffArgs>(parse({"staff", "plain-touch"}).command).verb, StaffArgs::Verb::PlainTouch);
-  const std::vector<std::vector<const char*>> wrong{{"staff"}, {"staff", "forget-pin"}, {"staff", "forget-pin", "visitor"}};
+  const std::vector<std::vector<const char*>> wrong{
+      {"staff"}, {"staff", "forget-pin"}, {"staff", "forget-pin", "visitor"}};
   for (const auto& words : wrong) EXPECT_EQ(parse(words).exit_code, 2);
 }
 
@@ -171,7 +185,8 @@ TEST(CommandLine, HelpNamesTheProgramTheBoardsAndTheDefaults) {
   says({}, "linux:FILE");
   says({"enrol"}, "linux:FILE");
   says({"calibrate"}, "linux:FILE");
-  for (const char* named : {"=10x7", "=20\n", "=chessboard", "=0.55", "=14"}) says({"simulate", "board"}, named);
+  for (const char* named : {"=10x7", "=20\n", "=chessboard", "=0.55", "=14"})
+    says({"simulate", "board"}, named);
   says({"compare"}, "=0:256");
   says({"reconstruct"}, "=face");
 }
@@ -179,9 +194,12 @@ TEST(CommandLine, HelpNamesTheProgramTheBoardsAndTheDefaults) {
 TEST(CommandLine, AWrongRangeIsNamedWithTheRightOneAndItsHelp) {
   for (const char* range : {"50:10", "9", "0:9999", "a:b"}) {
     testing::internal::CaptureStderr();
-    EXPECT_EQ(parse({"compare", "l.png", "r.png", "--rectified", "--disparities", range, "-o", "out"}).exit_code, 2);
+    EXPECT_EQ(
+        parse({"compare", "l.png", "r.png", "--rectified", "--disparities", range, "-o", "out"}).exit_code,
+        2);
     const std::string said = testing::internal::GetCapturedStderr();
-    for (const std::string& part : {std::string("--disparities"), std::string(range), std::string("such as 0:256"), std::string("relievo compare --help")})
+    for (const std::string& part : {std::string("--disparities"), std::string(range),
+                                    std::string("such as 0:256"), std::string("relievo compare --help")})
       EXPECT_NE(said.find(part), std::string::npos) << said;
   }
 }
@@ -190,7 +208,8 @@ TEST(CommandLine, WithoutACommandItIsTheKiosk) {
   const auto plain = parse({});
   ASSERT_TRUE(std::holds_alternative<KioskArgs>(plain.command));
   EXPECT_EQ(std::get<KioskArgs>(plain.command).width_px, 0) << "the whole screen";
-  const auto named = parse({"--board", "folder:pairs", "--calibration", "rig.yml", "--windowed", "1280x800", "--store", "st"});
+  const auto named = parse(
+      {"--board", "folder:pairs", "--calibration", "rig.yml", "--windowed", "1280x800", "--store", "st"});
   ASSERT_TRUE(std::holds_alternative<KioskArgs>(named.command));
   const auto& args = std::get<KioskArgs>(named.command);
   EXPECT_EQ(args.board, "folder:pairs");
@@ -216,7 +235,8 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"calibrate", "dir", "--corners", "10", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--pattern", "circles", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
-      {"calibrate", "dir", "--print-pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "-o", "board.pdf"},
+      {"calibrate", "dir", "--print-pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "-o",
+       "board.pdf"},
       {"simulate", "board", "-o", "out", "--lamp", "nan"},
       {"simulate", "photograph", "-o", "out"},
       {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},

@@ -12,7 +12,8 @@ namespace {
 using Words = std::vector<std::string>;
 
 TEST(SettingsFile, GivesTheWordsOfTheCommandLine) {
-  const auto words = parse_settings("[matcher]\nname = \"zmncc\"\n[zmncc]\nwindow_px = 15\nlimit = 0.25\ncolour = true\n", "a.toml");
+  const auto words = parse_settings(
+      "[matcher]\nname = \"zmncc\"\n[zmncc]\nwindow_px = 15\nlimit = 0.25\ncolour = true\n", "a.toml");
   ASSERT_TRUE(words);
   EXPECT_EQ(*words, (Words{"matcher=zmncc", "zmncc.colour=true", "zmncc.limit=0.25", "zmncc.window_px=15"}));
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What `reconstruct` says of light and motion: the picture and how much of the face, and nothing where nothing is wrong.
+// What `reconstruct` says of light and motion: the picture and how much of the face, and nothing where
+// nothing is wrong.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -30,10 +30,12 @@ hal::Picture printed(const std::string& text) {
   hal::Picture sheet;
   sheet.width_px = sheet.height_px = (code.cols + 2 * kMargin) * kModule;
   sheet.format = PixelFormat::Grey8;
-  sheet.bytes.assign(static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px), std::byte{255});
+  sheet.bytes.assign(static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px),
+                     std::byte{255});
   for (int y = 0; y < code.rows * kModule; ++y)
     for (int x = 0; x < code.cols * kModule; ++x)
-      sheet.bytes[static_cast<std::size_t>(y + kMargin * kModule) * static_cast<std::size_t>(sheet.width_px) + static_cast<std::size_t>(x + kMargin * kModule)] =
+      sheet.bytes[static_cast<std::size_t>(y + kMargin * kModule) * static_cast<std::size_t>(sheet.width_px) +
+                  static_cast<std::size_t>(x + kMargin * kModule)] =
           std::byte{code.at<std::uint8_t>(y / kModule, x / kModule)};
   return sheet;
 }
@@ -54,7 +56,8 @@ TEST(CodeReader, ReadsWhatIsPrintedHoweverItIsHeld) {
     const auto options = held(width_mm, pose);
     const auto scene = hal::sim::make_sheet_scene(printed(text), options.sheet);
     EXPECT_TRUE(scene.has_value());
-    const auto pair = hal::sim::render_pair(**scene, hal::sim::make_rig(options.rig), options.sensor, 7, pool);
+    const auto pair =
+        hal::sim::render_pair(**scene, hal::sim::make_rig(options.rig), options.sensor, 7, pool);
     EXPECT_EQ(reader->read(pair.left.view()), text);
     EXPECT_EQ(reader->read(pair.right.view()), text);
   };
@@ -76,7 +79,8 @@ class CodeSightTest : public KioskHands {
  protected:
   CodeSightTest() { EXPECT_TRUE(ui::prepare_languages().has_value()); }
   void show(const hal::Picture& sheet) {
-    ASSERT_TRUE(hal::sim::photograph_sheet(sheet, held(180, {0, 0, 8, 560, 0, 0}), folder.path() / "held").has_value());
+    ASSERT_TRUE(hal::sim::photograph_sheet(sheet, held(180, {0, 0, 8, 560, 0, 0}), folder.path() / "held")
+                    .has_value());
     services.open_board = [this](std::string_view) { return hal::make_folder_board(folder.path() / "held"); };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     args.store = folder.path() / "store";

@@ -43,7 +43,8 @@ struct Record {
 
 class RecordedLines final : public OutputLines {
  public:
-  RecordedLines(Record& record, const ManualClock& clock) : record_(record), clock_(clock), begin_(clock.now()) {}
+  RecordedLines(Record& record, const ManualClock& clock)
+      : record_(record), clock_(clock), begin_(clock.now()) {}
   Result<void> set(Wire wire, bool active) override {
     if (record_.fail_at == 0) {
       record_.fail_at = -1;
@@ -67,7 +68,9 @@ struct Rig {
   PassingTime time{clock};
   Record record;
   GpioTriggerLine line;
-  explicit Rig(const GpioTiming& timing) : line((clock.advance(std::chrono::seconds(5)), std::make_unique<RecordedLines>(record, clock)), timing, clock, time) {
+  explicit Rig(const GpioTiming& timing)
+      : line((clock.advance(std::chrono::seconds(5)), std::make_unique<RecordedLines>(record, clock)), timing,
+             clock, time) {
     clock.advance(std::chrono::seconds(2));
   }
 };
@@ -76,7 +79,8 @@ constexpr long kStart = 2'000'000;
 TEST(GpioTriggerLine, PulsesForTheWidthAfterTheDelay) {
   Rig rig({microseconds(250), {}, {}, false});
   ASSERT_TRUE(rig.line.pulse(microseconds(100)));
-  EXPECT_EQ(rig.record.changes, (std::vector<Change>{{kStart + 250, Wire::Trigger, true}, {kStart + 350, Wire::Trigger, false}}));
+  EXPECT_EQ(rig.record.changes,
+            (std::vector<Change>{{kStart + 250, Wire::Trigger, true}, {kStart + 350, Wire::Trigger, false}}));
 }
 
 TEST(GpioTriggerLine, TheLampLeadsTheCamerasAndOutlastsThem) {
@@ -98,7 +102,8 @@ TEST(GpioTriggerLine, TheLampsLimitHoldsHereToo) {
   for (const bool one_wire : {false, true}) {
     Rig rig({{}, microseconds(200), microseconds(5000), one_wire});
     int taken = 0;
-    for (int i = 0; i < 20; ++i) taken += rig.line.pulse(microseconds(100), one_wire ? Light::Off : Light::Flash) ? 1 : 0;
+    for (int i = 0; i < 20; ++i)
+      taken += rig.line.pulse(microseconds(100), one_wire ? Light::Off : Light::Flash) ? 1 : 0;
     EXPECT_EQ(taken, 3);
   }
 }

@@ -27,15 +27,17 @@ TEST(Expression, ClosedLidsCoverTheBallAndOpenOnesDoNot) {
   EXPECT_LT(front_at(open, c.x, 0), c.z + open.eye.radius() - 3);  // into the opening
   EXPECT_GT(front_at(shut, c.x, 0), c.z + shut.eye.radius());
   EXPECT_NEAR(shut.eye.upper_lid(0), shut.eye.lower_lid(0), 1e-9);
-  EXPECT_NEAR(2 * (half.eye.upper_lid(0) - half.eye.lower_lid(0)), open.eye.upper_lid(0) - open.eye.lower_lid(0), 1e-9);
+  EXPECT_NEAR(2 * (half.eye.upper_lid(0) - half.eye.lower_lid(0)),
+              open.eye.upper_lid(0) - open.eye.lower_lid(0), 1e-9);
 }
 
 TEST(Expression, AJawDropsByWhatIsSaidAndLeavesTheUpperLip) {
   const HeadField shut = with({}), open = with({1, 12, 0, 0});
   const double sto = stomion_y(shut.traits);
-  EXPECT_LT(front_at(open, 0, sto - 6), front_at(shut, 0, sto - 6) - 12);             // a hole
+  EXPECT_LT(front_at(open, 0, sto - 6), front_at(shut, 0, sto - 6) - 12);  // a hole
   EXPECT_NEAR(front_at(open, 0, sto + 12), front_at(shut, 0, sto + 12), 0.3);
-  EXPECT_NEAR(front_at(open, 0, gnathion_y(shut.traits) - 2), front_at(shut, 0, gnathion_y(shut.traits) + 10), 0.5);  // the chin, 12 mm lower
+  EXPECT_NEAR(front_at(open, 0, gnathion_y(shut.traits) - 2), front_at(shut, 0, gnathion_y(shut.traits) + 10),
+              0.5);  // the chin, 12 mm lower
   const double corner = shut.mouth.half_width() + 4;
   EXPECT_NEAR(front_at(open, corner, sto + 3), front_at(shut, corner, sto + 3), 0.3);
 }
@@ -55,7 +57,8 @@ class Wall final : public Scene {
   Mesh solid_mesh() const override { return {}; }
 };
 
-// A mirror on the way from the eye to the camera shows the lamp behind it: brighter than what it stands before.
+// A mirror on the way from the eye to the camera shows the lamp behind it: brighter than what it stands
+// before.
 TEST(Glasses, MirrorTheLampsAndDimTheRestALittle) {
   HeadPose pose;
   pose.right_mm = 70, pose.yaw_deg = 8;

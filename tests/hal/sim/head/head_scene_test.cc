@@ -38,13 +38,17 @@ double skin_along(const HeadField& field, Vec3 from, Vec3 direction) {
   }
   return t;
 }
-double front_z(const HeadField& field, double x, double y) { return 200 - skin_along(field, {x, y, 200}, {0, 0, -1}); }
+double front_z(const HeadField& field, double x, double y) {
+  return 200 - skin_along(field, {x, y, 200}, {0, 0, -1});
+}
 
 // Farkas (1994), men and women together, +-2.5 deviations.
 TEST(HeadTraits, MeasuresLieInPublishedRanges) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const HeadTraits t = traits_of(seed);
-    const auto within = [&](double value, double low, double high, const char* name) { EXPECT_TRUE(value >= low && value <= high) << name << " " << value << " of " << seed; };
+    const auto within = [&](double value, double low, double high, const char* name) {
+      EXPECT_TRUE(value >= low && value <= high) << name << " " << value << " of " << seed;
+    };
     within(t.head_breadth, 131, 166, "eu-eu");
     within(t.face_breadth, 116, 150, "zy-zy");
     within(t.nose_height, 43, 61, "n-sn");
@@ -62,14 +66,16 @@ TEST(HeadField, TheSurfaceHasTheMeasuresItWasAskedFor) {
   for (const std::uint32_t seed : {1U, 4U, 9U}) {
     const HeadField field(traits_of(seed));
     const HeadTraits& t = field.traits;
-    const double breadth = 300 - skin_along(field, {150, -18, 15}, {-1, 0, 0}) - skin_along(field, {-150, -18, 15}, {1, 0, 0});
+    const double breadth =
+        300 - skin_along(field, {150, -18, 15}, {-1, 0, 0}) - skin_along(field, {-150, -18, 15}, {1, 0, 0});
     EXPECT_NEAR(breadth, t.face_breadth, 7) << "zy-zy";
     double tip_z = 0;
     for (double y = subnasale_y(t); y < 0; y += 0.5) tip_z = std::max(tip_z, front_z(field, 0, y));
     const double base_z = front_z(field, 0, subnasale_y(t) - 2.5);
     EXPECT_NEAR(tip_z - base_z, std::sqrt(t.nose_protrusion * t.nose_protrusion - 85), 6) << "sn-prn";
     EXPECT_GT(tip_z, front_z(field, 30, -30) + 15) << "the nose stands out";
-    EXPECT_LT(front_z(field, 0, kNasionY), front_z(field, 0, 20) + 1) << "the root of the nose lies behind the brow";
+    EXPECT_LT(front_z(field, 0, kNasionY), front_z(field, 0, 20) + 1)
+        << "the root of the nose lies behind the brow";
     EXPECT_GT(field.distance({0, gnathion_y(t) - 8, 100}), 0) << "nothing below the chin";
   }
 }
@@ -77,8 +83,8 @@ TEST(HeadField, TheSurfaceHasTheMeasuresItWasAskedFor) {
 TEST(HeadPose, AxesTurnAsTheySay) {
   HeadPose pose;
   const Vec3 out = pose.world_from_head() * Vec3{0, 0, 1};
-  EXPECT_NEAR(out.z, -1, 1e-12);                       // faces the camera
-  EXPECT_NEAR((pose.world_from_head() * Vec3{1, 0, 0}).x, 1, 1e-12);   // its left is the picture's right
+  EXPECT_NEAR(out.z, -1, 1e-12);                                      // faces the camera
+  EXPECT_NEAR((pose.world_from_head() * Vec3{1, 0, 0}).x, 1, 1e-12);  // its left is the picture's right
   pose.yaw_deg = 30;
   EXPECT_NEAR((pose.world_from_head() * Vec3{0, 0, 1}).x, 0.5, 1e-9);
   pose = {};
@@ -88,11 +94,13 @@ TEST(HeadPose, AxesTurnAsTheySay) {
 
 TEST(HeadScene, SameSeedSamePictureOtherSeedOtherHead) {
   ThreadPool pool(2);
-  const PicturePair a = pair_of(small(3), pool), again = pair_of(small(3), pool), other = pair_of(small(4), pool);
+  const PicturePair a = pair_of(small(3), pool), again = pair_of(small(3), pool),
+                    other = pair_of(small(4), pool);
   EXPECT_EQ(a.left.bytes, again.left.bytes);
   EXPECT_EQ(a.right.bytes, again.right.bytes);
   double difference = 0;
-  for (std::size_t i = 0; i < a.left.bytes.size(); ++i) difference += std::abs(std::to_integer<int>(a.left.bytes[i]) - std::to_integer<int>(other.left.bytes[i]));
+  for (std::size_t i = 0; i < a.left.bytes.size(); ++i)
+    difference += std::abs(std::to_integer<int>(a.left.bytes[i]) - std::to_integer<int>(other.left.bytes[i]));
   EXPECT_GT(difference / static_cast<double>(a.left.bytes.size()), 5);
 }
 
@@ -131,7 +139,9 @@ TEST(Truth, CarriesTheLeftPictureOntoTheRight) {
       const Pixel q = rig.right.project(ray * (static_cast<double>(truth.depth_mm[truth.at(x, y)]) / ray.z));
       const int u = static_cast<int>(std::lround(q.x)), v = static_cast<int>(std::lround(q.y));
       if (u + 3 >= truth.width_px) continue;
-      const auto green = [](const Picture& p, int px, int py) { return static_cast<double>(p.view().row(py)[3 * px + 1]); };
+      const auto green = [](const Picture& p, int px, int py) {
+        return static_cast<double>(p.view().row(py)[3 * px + 1]);
+      };
       right_place += std::abs(green(pair.left, x, y) - green(pair.right, u, v));
       three_px_off += std::abs(green(pair.left, x, y) - green(pair.right, u + 3, v));
       ++count;
@@ -146,7 +156,8 @@ TEST(Truth, FilesHaveTheirSizes) {
   SimulationOptions o = small(1);
   o.truth = true;
   ASSERT_TRUE(render_to_folder(o, folder.path()));
-  for (const char* name : {"left.png", "right.png", "rig.yml", "truth.bin", "head.ply"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  for (const char* name : {"left.png", "right.png", "rig.yml", "truth.bin", "head.ply"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   EXPECT_EQ(std::filesystem::file_size(folder / "truth.bin"), std::strlen("480 300 z\n") + 480U * 300U * 5U);
 }
 

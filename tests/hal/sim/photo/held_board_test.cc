@@ -31,14 +31,18 @@ BoardPose at(double right_mm, double about_y = 0.3) {
 }
 
 int level(const hal::Picture& picture, Pixel p) {
-  return std::to_integer<int>(picture.bytes[static_cast<std::size_t>(std::lround(p.y)) * static_cast<std::size_t>(picture.width_px) +
-                                            static_cast<std::size_t>(std::lround(p.x))]);
+  return std::to_integer<int>(
+      picture.bytes[static_cast<std::size_t>(std::lround(p.y)) * static_cast<std::size_t>(picture.width_px) +
+                    static_cast<std::size_t>(std::lround(p.x))]);
 }
 
 TEST(HeldBoard, IsHeldAsSaid) {
   const BoardPattern pattern;
-  const double right = (pattern.corners_x - 1) * pattern.square_mm, down = (pattern.corners_y - 1) * pattern.square_mm;
-  const auto depth = [&](const HeldPlace& place, double x, double y) { return place.pose(pattern).to_world({x, y, 0}).z; };
+  const double right = (pattern.corners_x - 1) * pattern.square_mm,
+               down = (pattern.corners_y - 1) * pattern.square_mm;
+  const auto depth = [&](const HeldPlace& place, double x, double y) {
+    return place.pose(pattern).to_world({x, y, 0}).z;
+  };
   const Vec3 middle = HeldPlace{30, -20, 600, 10, 20, 30}.pose(pattern).to_world({right / 2, down / 2, 0});
   EXPECT_NEAR(length(middle - Vec3{30, -20, 600}), 0, 1e-9);
   const HeldPlace yaw{0, 0, 600, 10, 0, 0}, pitch{0, 0, 600, 0, 10, 0}, roll{0, 0, 600, 0, 0, 10};
@@ -121,7 +125,8 @@ TEST(HeldBoard, BesideThePicturesItIsNotSeen) {
   away.origin_mm.x += 2000;
   const auto pair = board.photograph(away, away, 1);
   const auto first = pair.left.bytes.front();
-  EXPECT_TRUE(std::all_of(pair.left.bytes.begin(), pair.left.bytes.end(), [&](std::byte v) { return v == first; }));
+  EXPECT_TRUE(
+      std::all_of(pair.left.bytes.begin(), pair.left.bytes.end(), [&](std::byte v) { return v == first; }));
 }
 
 }  // namespace

@@ -13,7 +13,8 @@
 namespace relievo::hal::sim {
 namespace {
 
-const SheetBend kBends[] = {{}, {80, 0, 0, 0}, {-60, 35, 0, 0}, {120, 90, 300, 0}, {-90, 200, -400, 0}, {70, 20, 0, 130}};
+const SheetBend kBends[] = {
+    {}, {80, 0, 0, 0}, {-60, 35, 0, 0}, {120, 90, 300, 0}, {-90, 200, -400, 0}, {70, 20, 0, 130}};
 
 // Left half red, right half green, a blue bottom.
 Picture flag() {
@@ -21,7 +22,8 @@ Picture flag() {
   p.width_px = 60, p.height_px = 80, p.format = PixelFormat::Rgb8;
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 60; ++x)
-      for (const int v : {y < 60 && x < 30 ? 255 : 0, y < 60 && x >= 30 ? 255 : 0, y >= 60 ? 255 : 0}) p.bytes.push_back(static_cast<std::byte>(v));
+      for (const int v : {y < 60 && x < 30 ? 255 : 0, y < 60 && x >= 30 ? 255 : 0, y >= 60 ? 255 : 0})
+        p.bytes.push_back(static_cast<std::byte>(v));
   return p;
 }
 
@@ -31,16 +33,19 @@ TEST(SheetShape, BendingStretchesNothing) {
   for (const SheetBend& bend : kBends)
     for (double u = -100; u <= 100; u += 12.5)
       for (double v = -140; v <= 140; v += 17.5)
-        for (const auto& [du, dv] : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.6, 0.8}, std::pair{-0.8, 0.6}}) {
-          const Vec3 a = bent(bend, u - kStep * du, v - kStep * dv), b = bent(bend, u + kStep * du, v + kStep * dv);
-          EXPECT_NEAR(length(b - a) / (2 * kStep), 1, 1e-4) << bend.radius_mm << " " << bend.apex_mm << " " << bend.wave_mm << " at " << u << ", " << v;
+        for (const auto& [du, dv] :
+             {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.6, 0.8}, std::pair{-0.8, 0.6}}) {
+          const Vec3 a = bent(bend, u - kStep * du, v - kStep * dv),
+                     b = bent(bend, u + kStep * du, v + kStep * dv);
+          EXPECT_NEAR(length(b - a) / (2 * kStep), 1, 1e-4)
+              << bend.radius_mm << " " << bend.apex_mm << " " << bend.wave_mm << " at " << u << ", " << v;
         }
 }
 
 TEST(SheetShape, BulgesTowardsWhoLooksWhereTheRadiusIsPositive) {
-  EXPECT_GT(bent({80, 0, 0, 0}, 50, 0).z, 10);    // its side goes back
+  EXPECT_GT(bent({80, 0, 0, 0}, 50, 0).z, 10);  // its side goes back
   EXPECT_LT(bent({-80, 0, 0, 0}, 50, 0).z, -10);
-  EXPECT_NEAR(bent({80, 0, 0, 0}, 0, 100).z, 0, 1e-12);   // along the lines that stay straight
+  EXPECT_NEAR(bent({80, 0, 0, 0}, 0, 100).z, 0, 1e-12);  // along the lines that stay straight
   EXPECT_NEAR(bent({80, 90, 0, 0}, 100, 0).z, 0, 1e-12);
   EXPECT_GT(bent({80, 0, 300, 0}, 50, 0).z, 10);
 }
@@ -53,8 +58,12 @@ TEST(SheetShape, TheMeshLeavesTheSurfaceByLessThanAHundredthOfAMillimetre) {
       Vec3 middle;
       double u = 0, v = 0;
       for (const std::uint32_t i : t) {
-        middle += Vec3{static_cast<double>(sheet.mesh.points[i][0]), static_cast<double>(sheet.mesh.points[i][1]), static_cast<double>(sheet.mesh.points[i][2])} * (1 / 3.0);
-        u += static_cast<double>(sheet.paper_mm[i][0]) / 3, v += static_cast<double>(sheet.paper_mm[i][1]) / 3;
+        middle +=
+            Vec3{static_cast<double>(sheet.mesh.points[i][0]), static_cast<double>(sheet.mesh.points[i][1]),
+                 static_cast<double>(sheet.mesh.points[i][2])} *
+            (1 / 3.0);
+        u += static_cast<double>(sheet.paper_mm[i][0]) / 3,
+            v += static_cast<double>(sheet.paper_mm[i][1]) / 3;
       }
       EXPECT_LT(length(bent(bend, u, v) - middle), 0.01);
     }
@@ -93,12 +102,14 @@ TEST(SheetScene, PaperIsLitAndGlassMirrorsTheLamps) {
   // Turned so that the left panel stands in the mirror: half way between the camera and the panel.
   o.look = {true, 0.5, 0.04, 0.02};
   o.lamps = {};
-  const Vec3 to_panel = normalised(Vec3{-330, -190, 40} - Vec3{0, 0, 560}), normal = normalised(to_panel + Vec3{0, 0, -1});
+  const Vec3 to_panel = normalised(Vec3{-330, -190, 40} - Vec3{0, 0, 560}),
+             normal = normalised(to_panel + Vec3{0, 0, -1});
   const auto scene_turned = [&](double yaw, double pitch) {
     o.pose.yaw_deg = yaw, o.pose.pitch_deg = pitch;
     return (*make_sheet_scene(white, o))->look({0, 0, 0}, {0, 0, 1}).light.y;
   };
-  const double yaw = std::asin(normal.x) * 57.29577951308232, pitch = std::atan2(normal.y, -normal.z) * 57.29577951308232;
+  const double yaw = std::asin(normal.x) * 57.29577951308232,
+               pitch = std::atan2(normal.y, -normal.z) * 57.29577951308232;
   EXPECT_GT(scene_turned(yaw, pitch), scene_turned(-20, 15) + 0.3);
 }
 

@@ -18,10 +18,11 @@ namespace {
 constexpr int kSquarePx = 60;
 
 cv::Mat opencvs_board(const pipeline::BoardPattern& b) {
-  const int names[] = {cv::aruco::DICT_4X4_1000, cv::aruco::DICT_5X5_1000, cv::aruco::DICT_6X6_1000, cv::aruco::DICT_7X7_1000};
-  const auto board = cv::aruco::CharucoBoard::create(b.columns + 1, b.rows + 1, static_cast<float>(b.square_mm),
-                                                     static_cast<float>(b.marker_side_mm()),
-                                                     cv::aruco::getPredefinedDictionary(names[b.marker_bits - 4]));
+  const int names[] = {cv::aruco::DICT_4X4_1000, cv::aruco::DICT_5X5_1000, cv::aruco::DICT_6X6_1000,
+                       cv::aruco::DICT_7X7_1000};
+  const auto board = cv::aruco::CharucoBoard::create(
+      b.columns + 1, b.rows + 1, static_cast<float>(b.square_mm), static_cast<float>(b.marker_side_mm()),
+      cv::aruco::getPredefinedDictionary(names[b.marker_bits - 4]));
   cv::Mat picture;
   board->draw({(b.columns + 3) * kSquarePx, (b.rows + 3) * kSquarePx}, picture, kSquarePx, 1);
   return picture;
@@ -32,8 +33,8 @@ class OpenCvsBoards : public ::testing::TestWithParam<pipeline::BoardPattern> {}
 TEST_P(OpenCvsBoards, AreReadAndDrawnAlike) {
   const pipeline::BoardPattern& b = GetParam();
   const cv::Mat picture = opencvs_board(b);
-  const auto found = pipeline::find_board({reinterpret_cast<const std::byte*>(picture.data), picture.cols, picture.rows,
-                                           static_cast<int>(picture.step), PixelFormat::Grey8},
+  const auto found = pipeline::find_board({reinterpret_cast<const std::byte*>(picture.data), picture.cols,
+                                           picture.rows, static_cast<int>(picture.step), PixelFormat::Grey8},
                                           b);
   ASSERT_TRUE(found);
   // Edges lie between two pixels there.
@@ -65,8 +66,8 @@ pipeline::BoardPattern charuco(int columns, int rows, int bits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, OpenCvsBoards,
-                         ::testing::Values(charuco(10, 7, 4), charuco(7, 10, 4), charuco(5, 5, 5), charuco(8, 6, 6),
-                                           charuco(4, 3, 7)));
+                         ::testing::Values(charuco(10, 7, 4), charuco(7, 10, 4), charuco(5, 5, 5),
+                                           charuco(8, 6, 6), charuco(4, 3, 7)));
 
 }  // namespace
 }  // namespace relievo::tests

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A simulated board before one simulated camera (640x400, where nothing else is asked for): where the lens puts its corners is known.
+// A simulated board before one simulated camera (640x400, where nothing else is asked for): where the lens
+// puts its corners is known.
 #pragma once
 
 #include <cmath>
@@ -38,7 +39,8 @@ struct PhotographedBoard {
     BoardPose at;
     at.world_from_board =
         rotation(tilt * std::sin(compass), tilt * std::cos(compass), 0) * rotation(0, 0, radians(roll_deg));
-    const Vec3 middle{(print.corners_x - 1) * print.square_mm / 2, (print.corners_y - 1) * print.square_mm / 2, 0};
+    const Vec3 middle{(print.corners_x - 1) * print.square_mm / 2,
+                      (print.corners_y - 1) * print.square_mm / 2, 0};
     const Vec3 aim = camera.ray((camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0);
     at.origin_mm = aim * distance_mm + Vec3{right_mm, down_mm, 0} - at.world_from_board * middle;
     return at;

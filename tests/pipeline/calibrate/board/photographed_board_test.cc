@@ -17,8 +17,8 @@ struct Light {
   const char* name;
   double blur_px, noise;
   hal::sim::BoardLook look;
-  double limit_px;    // rms
-  int hidden;         // corners that may stay unseen
+  double limit_px;  // rms
+  int hidden;       // corners that may stay unseen
 };
 
 std::ostream& operator<<(std::ostream& out, const Light& light) { return out << light.name; }
@@ -65,11 +65,13 @@ Errc error_of(const hal::Picture& picture, const pipeline::BoardPattern& pattern
 TEST_P(Photographed, Chessboard) { judge(board(BoardKind::Chessboard)); }
 TEST_P(Photographed, Charuco) { judge(board(BoardKind::Charuco)); }
 
-INSTANTIATE_TEST_SUITE_P(Light, Photographed, ::testing::ValuesIn(kLights), [](const auto& light) { return light.param.name; });
+INSTANTIATE_TEST_SUITE_P(Light, Photographed, ::testing::ValuesIn(kLights),
+                         [](const auto& light) { return light.param.name; });
 
 TEST(PhotographedBoard, TiltedAndOfAnySize) {
   for (const auto kind : {BoardKind::Chessboard, BoardKind::Charuco})
-    for (const auto& [across, down, square] : {std::tuple{5, 4, 40.0}, {20, 15, 8.0}, {3, 3, 40.0}, {9, 12, 13.0}}) {
+    for (const auto& [across, down, square] :
+         {std::tuple{5, 4, 40.0}, {20, 15, 8.0}, {3, 3, 40.0}, {9, 12, 13.0}}) {
       PhotographedBoard board;
       board.width_px = 960;
       board.print = {across, down, square, square, kind};
@@ -80,7 +82,8 @@ TEST(PhotographedBoard, TiltedAndOfAnySize) {
       ASSERT_TRUE(found) << across << "x" << down << (kind == BoardKind::Charuco ? " ChArUco" : "");
       auto corners = *found;
       // A chessboard whose colours leave half a turn open may be found either way.
-      if (corners.front().x > corners.back().x && kind == BoardKind::Chessboard) std::reverse(corners.begin(), corners.end());
+      if (corners.front().x > corners.back().x && kind == BoardKind::Chessboard)
+        std::reverse(corners.begin(), corners.end());
       // A few crossings of the smallest squares, with markers beside them, are not trusted this far tilted.
       EXPECT_GE(errors_of(corners, board).seen, 95 * across * down / 100) << across << "x" << down;
       EXPECT_LT(errors_of(corners, board).rms_px, 0.1) << across << "x" << down;

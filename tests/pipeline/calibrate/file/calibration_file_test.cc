@@ -79,7 +79,11 @@ TEST(CalibrationFile, NamesTheCamerasItWasMadeWith) {
   EXPECT_EQ(before.find("_camera"), std::string::npos);
   EXPECT_EQ(pipeline::parse_calibration(before)->cameras, pipeline::RigCameras());
   for (const char* by : {"left_camera: 4012\n", "left_camera: \"a\\tb\"\n", "left_camera: \"\xc3\xa9\"\n"})
-    EXPECT_EQ(pipeline::parse_calibration(replaced(before, "pair_rms_px", std::string(by) + "pair_rms_px")).error().where(), "left_camera") << by;
+    EXPECT_EQ(pipeline::parse_calibration(replaced(before, "pair_rms_px", std::string(by) + "pair_rms_px"))
+                  .error()
+                  .where(),
+              "left_camera")
+        << by;
   rig.cameras.right.assign(pipeline::kMaxCameraWords + 1, 'x');
   EXPECT_FALSE(pipeline::check_calibration(rig));
 }
@@ -128,7 +132,8 @@ class HostileCalibration : public ::testing::TestWithParam<Hostile> {};
 
 TEST_P(HostileCalibration, IsRefusedWithItsField) {
   const Hostile& h = GetParam();
-  const auto read = pipeline::parse_calibration(replaced(pipeline::calibration_text(sample_rig()), h.what, h.by));
+  const auto read =
+      pipeline::parse_calibration(replaced(pipeline::calibration_text(sample_rig()), h.what, h.by));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, Errc::InvalidInput);
   EXPECT_NE(std::string(read.error().where()).find(h.where), std::string::npos) << read.error().where();

@@ -25,7 +25,8 @@ pipeline::CameraInfoTexts infos() {
 }
 
 // Wherever one of the two is cut: refused, or the same numbers.
-void cut_everywhere(const std::string& one, const std::string& other, const pipeline::CalibrationHints& hints) {
+void cut_everywhere(const std::string& one, const std::string& other,
+                    const pipeline::CalibrationHints& hints) {
   const auto whole = pipeline::parse_calibration_pair(one, other, hints);
   ASSERT_TRUE(whole) << whole.error().where() << ": " << whole.error().what.view();
   int taken = 0;
@@ -102,7 +103,8 @@ class HostileCameraInfo : public ::testing::TestWithParam<Hostile> {};
 
 TEST_P(HostileCameraInfo, IsRefusedInALine) {
   const auto texts = infos();
-  const auto read = pipeline::parse_calibration_pair(texts.left, replaced(texts.right, GetParam().what, GetParam().by));
+  const auto read =
+      pipeline::parse_calibration_pair(texts.left, replaced(texts.right, GetParam().what, GetParam().by));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, GetParam().code);
   EXPECT_FALSE(read.error().where().empty());
@@ -111,18 +113,24 @@ TEST_P(HostileCameraInfo, IsRefusedInALine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fields, HostileCameraInfo,
-    ::testing::Values(Hostile{"image_width: 1920", "image_width: -1"}, Hostile{"image_width: 1920", "image_width: 640"},
+    ::testing::Values(Hostile{"image_width: 1920", "image_width: -1"},
+                      Hostile{"image_width: 1920", "image_width: 640"},
                       Hostile{"image_width: 1920", "image_width: 1920\nimage_width: 1920"},
-                      Hostile{"image_width: 1920", "image_width: \"1920\""}, Hostile{"image_width: 1920", "image_width: 0x780"},
-                      Hostile{"plumb_bob", "equidistant", Errc::Unsupported}, Hostile{"distortion_model", "distortion_muddle"},
-                      Hostile{"2942.25", ".nan"}, Hostile{"2942.25", "nan"}, Hostile{"2942.25", ".inf"}, Hostile{"2942.25", "-inf"},
-                      Hostile{"2942.25", "1e999"}, Hostile{"2942.25", "&a 2942.25"}, Hostile{"2942.25", "*a"}, Hostile{"2942.25", "[2942.25]"},
-                      Hostile{"2942.25", "'2942.25'"}, Hostile{"2942.25, ", ""}, Hostile{"2942.25,", "2942.25, 1,"},
-                      Hostile{"rows: 1\n", "rows: 1\n  rows: 1\n"}, Hostile{"cols: 5", "cols: 500000000"}, Hostile{"cols: 5", "cols: 7"},
-                      Hostile{"cols: 5", "cols: -5"}, Hostile{"rectification_matrix", "camera_matrix"},
+                      Hostile{"image_width: 1920", "image_width: \"1920\""},
+                      Hostile{"image_width: 1920", "image_width: 0x780"},
+                      Hostile{"plumb_bob", "equidistant", Errc::Unsupported},
+                      Hostile{"distortion_model", "distortion_muddle"}, Hostile{"2942.25", ".nan"},
+                      Hostile{"2942.25", "nan"}, Hostile{"2942.25", ".inf"}, Hostile{"2942.25", "-inf"},
+                      Hostile{"2942.25", "1e999"}, Hostile{"2942.25", "&a 2942.25"}, Hostile{"2942.25", "*a"},
+                      Hostile{"2942.25", "[2942.25]"}, Hostile{"2942.25", "'2942.25'"},
+                      Hostile{"2942.25, ", ""}, Hostile{"2942.25,", "2942.25, 1,"},
+                      Hostile{"rows: 1\n", "rows: 1\n  rows: 1\n"}, Hostile{"cols: 5", "cols: 500000000"},
+                      Hostile{"cols: 5", "cols: 7"}, Hostile{"cols: 5", "cols: -5"},
+                      Hostile{"rectification_matrix", "camera_matrix"},
                       Hostile{"rectification_matrix:", "rectification_matrix: 5\nelse:"},
                       Hostile{"projection_matrix:\n  rows: 3", "projection_matrix:\n  rows: 4"},
-                      Hostile{", 0, 0, 1, 0]", ", 0, 0, 2, 0]"}, Hostile{"]\n", "\n"}, Hostile{"  data", "\tdata"}, Hostile{"image_height", "\xff\xfe"}));
+                      Hostile{", 0, 0, 1, 0]", ", 0, 0, 2, 0]"}, Hostile{"]\n", "\n"},
+                      Hostile{"  data", "\tdata"}, Hostile{"image_height", "\xff\xfe"}));
 
 TEST(CameraInfo, TwoLeftsAreNoPair) {
   const auto texts = infos();
@@ -162,7 +170,8 @@ TEST(StereoSample, TheSizeMustBeSaidAndFit) {
 
 TEST(StereoSample, UnitsAndOtherNames) {
   const SampleFiles files = opencv_sample_files();
-  const auto metres = pipeline::parse_calibration_pair(files.intrinsics, replaced(files.extrinsics, "-1.3609999999999999e+02", "-0.1361"), kSize);
+  const auto metres = pipeline::parse_calibration_pair(
+      files.intrinsics, replaced(files.extrinsics, "-1.3609999999999999e+02", "-0.1361"), kSize);
   EXPECT_FALSE(metres);
   const auto scaled = pipeline::parse_calibration_pair(files.intrinsics, files.extrinsics, {1920, 1200, 2});
   ASSERT_TRUE(scaled);
@@ -170,8 +179,10 @@ TEST(StereoSample, UnitsAndOtherNames) {
   std::string other = replaced(replaced(files.intrinsics, "M1", "cameraMatrix1"), "D1", "distCoeffs1");
   EXPECT_TRUE(pipeline::parse_calibration_pair(other, files.extrinsics, kSize));
   other += files.intrinsics.substr(files.intrinsics.find("M1"));
-  EXPECT_FALSE(pipeline::parse_calibration_pair(other, files.extrinsics, kSize)) << "one matrix under two names";
-  const std::string lying = replaced(files.extrinsics, "T: !!opencv-matrix\n   rows: 3\n   cols: 1", "T: !!opencv-matrix\n   rows: 1\n   cols: 3");
+  EXPECT_FALSE(pipeline::parse_calibration_pair(other, files.extrinsics, kSize))
+      << "one matrix under two names";
+  const std::string lying = replaced(files.extrinsics, "T: !!opencv-matrix\n   rows: 3\n   cols: 1",
+                                     "T: !!opencv-matrix\n   rows: 1\n   cols: 3");
   EXPECT_TRUE(pipeline::parse_calibration_pair(files.intrinsics, lying, kSize));
 }
 
@@ -198,7 +209,8 @@ TEST_F(PairFiles, TheOtherHalfIsFoundByItsName) {
   put("extrinsics.yml", files.extrinsics);
   EXPECT_TRUE(pipeline::read_calibration(here / "intrinsics.yml", kSize));
   EXPECT_TRUE(pipeline::read_calibration(here / "extrinsics.yml", kSize));
-  EXPECT_EQ(pipeline::read_calibration(here / "intrinsics.yml", kSize, here / "none.yml").error().code, Errc::NotFound);
+  EXPECT_EQ(pipeline::read_calibration(here / "intrinsics.yml", kSize, here / "none.yml").error().code,
+            Errc::NotFound);
   put("extrinsics.yml", files.extrinsics.substr(0, 300));
   const auto cut = pipeline::read_calibration(here / "intrinsics.yml", kSize);
   ASSERT_FALSE(cut);

@@ -24,7 +24,9 @@ using pipeline::StereoCalibration;
 cv::Mat matrix_of(const pipeline::CameraIntrinsics& c) {
   return (cv::Mat_<double>(3, 3) << c.focal_px.x, 0, c.centre_px.x, 0, c.focal_px.y, c.centre_px.y, 0, 0, 1);
 }
-cv::Mat distortion_of(const pipeline::CameraIntrinsics& c) { return cv::Mat(1, 5, CV_64F, const_cast<double*>(c.distortion)).clone(); }
+cv::Mat distortion_of(const pipeline::CameraIntrinsics& c) {
+  return cv::Mat(1, 5, CV_64F, const_cast<double*>(c.distortion)).clone();
+}
 cv::Mat rotation_of(const StereoCalibration& c) {
   return cv::Mat(3, 3, CV_64F, const_cast<double*>(c.right_from_left.rotation.m)).clone();
 }
@@ -56,12 +58,14 @@ TEST(Interchange, WeReadOpenCvs) {
   cv::Mat(distortion_of(c.right).t()).copyTo(d8.rowRange(0, 5));
   {
     cv::FileStorage in((here / "intrinsics.yml").string(), cv::FileStorage::WRITE);
-    in << "M1" << matrix_of(c.left) << "D1" << distortion_of(c.left) << "M2" << matrix_of(c.right) << "D2" << d8;
+    in << "M1" << matrix_of(c.left) << "D1" << distortion_of(c.left) << "M2" << matrix_of(c.right) << "D2"
+       << d8;
     cv::Mat r1, r2, p1, p2, q;
-    cv::stereoRectify(matrix_of(c.left), distortion_of(c.left), matrix_of(c.right), d8, {1920, 1200}, rotation_of(c), translation_of(c),
-                      r1, r2, p1, p2, q);
+    cv::stereoRectify(matrix_of(c.left), distortion_of(c.left), matrix_of(c.right), d8, {1920, 1200},
+                      rotation_of(c), translation_of(c), r1, r2, p1, p2, q);
     cv::FileStorage ex((here / "extrinsics.yml").string(), cv::FileStorage::WRITE);
-    ex << "R" << rotation_of(c) << "T" << translation_of(c) << "R1" << r1 << "R2" << r2 << "P1" << p1 << "P2" << p2 << "Q" << q;
+    ex << "R" << rotation_of(c) << "T" << translation_of(c) << "R1" << r1 << "R2" << r2 << "P1" << p1 << "P2"
+       << p2 << "Q" << q;
   }
   const auto read = pipeline::read_calibration(here / "intrinsics.yml", {1920, 1200, 0});
   ASSERT_TRUE(read) << read.error().where() << ": " << read.error().what.view();
@@ -72,21 +76,25 @@ TEST(Interchange, WeReadOpenCvs) {
 TEST(Interchange, TheRelationIsFoundInBouguetsRectification) {
   const StereoCalibration c = sample_rig();
   cv::Mat r1, r2, p1, p2, q;
-  cv::stereoRectify(matrix_of(c.left), distortion_of(c.left), matrix_of(c.right), distortion_of(c.right), {1920, 1200}, rotation_of(c),
-                    translation_of(c) / 1000, r1, r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY, 0);
+  cv::stereoRectify(matrix_of(c.left), distortion_of(c.left), matrix_of(c.right), distortion_of(c.right),
+                    {1920, 1200}, rotation_of(c), translation_of(c) / 1000, r1, r2, p1, p2, q,
+                    cv::CALIB_ZERO_DISPARITY, 0);
   const auto list = [](const cv::Mat& m) {
     std::string text;
     for (int i = 0; i < m.rows * m.cols; ++i) {
       char number[40];
-      std::snprintf(number, sizeof number, "%s%.17g", i == 0 ? "" : ", ", m.at<double>(i / m.cols, i % m.cols));
+      std::snprintf(number, sizeof number, "%s%.17g", i == 0 ? "" : ", ",
+                    m.at<double>(i / m.cols, i % m.cols));
       text += number;
     }
-    return "  rows: " + std::to_string(m.rows) + "\n  cols: " + std::to_string(m.cols) + "\n  data: [" + text + "]\n";
+    return "  rows: " + std::to_string(m.rows) + "\n  cols: " + std::to_string(m.cols) + "\n  data: [" +
+           text + "]\n";
   };
   const auto info = [&](const pipeline::CameraIntrinsics& camera, const cv::Mat& r, const cv::Mat& p) {
-    return "image_width: 1920\nimage_height: 1200\ncamera_name: x\ncamera_matrix:\n" + list(matrix_of(camera)) +
-           "distortion_model: plumb_bob\ndistortion_coefficients:\n" + list(distortion_of(camera)) + "rectification_matrix:\n" + list(r) +
-           "projection_matrix:\n" + list(p);
+    return "image_width: 1920\nimage_height: 1200\ncamera_name: x\ncamera_matrix:\n" +
+           list(matrix_of(camera)) + "distortion_model: plumb_bob\ndistortion_coefficients:\n" +
+           list(distortion_of(camera)) + "rectification_matrix:\n" + list(r) + "projection_matrix:\n" +
+           list(p);
   };
   const auto read = pipeline::parse_calibration_pair(info(c.left, r1, p1), info(c.right, r2, p2));
   ASSERT_TRUE(read) << read.error().where() << ": " << read.error().what.view();
@@ -105,7 +113,8 @@ Rectified rectified(const std::string& text) {
     node["data"] >> values;
     return cv::Mat(values, true).reshape(1, static_cast<int>(node["rows"]));
   };
-  return {matrix("camera_matrix"), matrix("distortion_coefficients"), matrix("rectification_matrix"), matrix("projection_matrix")};
+  return {matrix("camera_matrix"), matrix("distortion_coefficients"), matrix("rectification_matrix"),
+          matrix("projection_matrix")};
 }
 
 TEST(Interchange, ImageProcWouldRectifyRightly) {
@@ -122,8 +131,10 @@ TEST(Interchange, ImageProcWouldRectifyRightly) {
   std::vector<cv::Point2d> in_left, in_right, l, r;
   cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), matrix_of(c.left), distortion_of(c.left), in_left);
   cv::projectPoints(points, turn, translation_of(c), matrix_of(c.right), distortion_of(c.right), in_right);
-  const auto undistort = [](const std::vector<cv::Point2d>& from, const Rectified& by, std::vector<cv::Point2d>& to) {
-    cv::undistortPoints(from, to, by.k, by.d, by.r, by.p, cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-14));
+  const auto undistort = [](const std::vector<cv::Point2d>& from, const Rectified& by,
+                            std::vector<cv::Point2d>& to) {
+    cv::undistortPoints(from, to, by.k, by.d, by.r, by.p,
+                        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-14));
   };
   undistort(in_left, left, l);
   undistort(in_right, right, r);
@@ -134,7 +145,8 @@ TEST(Interchange, ImageProcWouldRectifyRightly) {
     const cv::Mat seen = left.r * cv::Mat(points[i]);
     const double disparity = (l[i].x - left.p.at<double>(0, 2)) - (r[i].x - right.p.at<double>(0, 2));
     EXPECT_NEAR(f * baseline_mm / disparity, seen.at<double>(2), 1e-5);
-    EXPECT_TRUE(l[i].x > 0 && l[i].x < 1920 && r[i].x > 0 && r[i].x < 1920) << "the middle of the field stays in the pictures";
+    EXPECT_TRUE(l[i].x > 0 && l[i].x < 1920 && r[i].x > 0 && r[i].x < 1920)
+        << "the middle of the field stays in the pictures";
   }
 }
 

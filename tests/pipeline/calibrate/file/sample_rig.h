@@ -72,7 +72,8 @@ inline SampleFiles opencv_sample_files() {
   const auto k1 = text.find("K1:"), r = text.find("R:");
   std::string cameras = text.substr(k1, r - k1);
   cameras = replaced(replaced(cameras, "K1", "M1"), "K2", "M2");
-  const std::string by_product = "R1: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., -2.e-01 ]\n";
+  const std::string by_product =
+      "R1: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., -2.e-01 ]\n";
   return {"%YAML:1.0\n---\n" + cameras, "%YAML:1.0\n---\n" + text.substr(r) + by_product};
 }
 

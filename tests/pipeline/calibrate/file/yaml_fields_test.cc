@@ -38,13 +38,32 @@ TEST(YamlFields, NamesTheLine) {
 }
 
 TEST(YamlFields, RefusesWhatYamlLetsPass) {
-  for (const char* text :
-       {"a: 1", "a: 1\nb", "a: 1\n---\nb: 2\n", "- a\n", "plain\n", "a: &x 1\n", "a: 1\nb: *x\n", "a: *x\n", "[a]: 1\n",
-        "? [a]\n: 1\n", "m: {rows: 1, cols: 1, data: [.nan]}\n", "m: {rows: 1, cols: 1, data: [1e999]}\n",
-        "m: {rows: 1, cols: 1, data: [1, 2]}\n", "m: {rows: 2, cols: 1, data: [1]}\n", "m: {rows: 1, cols: 1, data: 1}\n",
-        "m: {rows: 1, cols: 1, data: [[1]]}\n", "m: {rows: 1, rows: 1, cols: 1, data: [1]}\n", "m: {rows: 1, cols: 1}\n",
-        "m: {rows: 1.0, cols: 1, data: [1]}\n", "m: {rows: 99999999999, cols: 1, data: [1]}\n",
-        "m: !!opencv-matrix {rows: 1, cols: 1, dt: d, data: [1], more: 1}\n", "\n", "", "   ", "%YAML:1.0", "\xff\xfe\x61"}) {
+  for (const char* text : {"a: 1",
+                           "a: 1\nb",
+                           "a: 1\n---\nb: 2\n",
+                           "- a\n",
+                           "plain\n",
+                           "a: &x 1\n",
+                           "a: 1\nb: *x\n",
+                           "a: *x\n",
+                           "[a]: 1\n",
+                           "? [a]\n: 1\n",
+                           "m: {rows: 1, cols: 1, data: [.nan]}\n",
+                           "m: {rows: 1, cols: 1, data: [1e999]}\n",
+                           "m: {rows: 1, cols: 1, data: [1, 2]}\n",
+                           "m: {rows: 2, cols: 1, data: [1]}\n",
+                           "m: {rows: 1, cols: 1, data: 1}\n",
+                           "m: {rows: 1, cols: 1, data: [[1]]}\n",
+                           "m: {rows: 1, rows: 1, cols: 1, data: [1]}\n",
+                           "m: {rows: 1, cols: 1}\n",
+                           "m: {rows: 1.0, cols: 1, data: [1]}\n",
+                           "m: {rows: 99999999999, cols: 1, data: [1]}\n",
+                           "m: !!opencv-matrix {rows: 1, cols: 1, dt: d, data: [1], more: 1}\n",
+                           "\n",
+                           "",
+                           "   ",
+                           "%YAML:1.0",
+                           "\xff\xfe\x61"}) {
     const auto fields = parse_yaml_fields(text);
     ASSERT_FALSE(fields) << text;
     EXPECT_EQ(fields.error().code, Errc::InvalidInput) << text;
@@ -59,11 +78,19 @@ TEST(YamlFields, BombsDoNotGoOff) {
   for (int i = 0; i < 700; ++i) ladder += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
   std::string keys;
   for (int i = 0; keys.size() < most - 20; ++i) keys += "k" + std::to_string(i) + ": 1\n";
-  const std::vector<std::string> bombs{
-       std::string(most, '['), "a: " + std::string(most - 10, '[') + "\n", "a: " + std::string(most - 10, '{') + "\n",
-        "a: " + std::string(100, '[') + std::string(100, ']') + "\n", ladder, std::string(most, '-'), std::string(most, '?'),
-        "a: \"" + std::string(most - 10, 'x') + "\n", std::string(most, '&'), std::string(most - 1, '#') + "\n",
-        "a: [" + std::string(most - 10, ',') + "]\n", std::string(most, '\n'), "m: {rows: 4096, cols: 4096, data: [1]}\n"};
+  const std::vector<std::string> bombs{std::string(most, '['),
+                                       "a: " + std::string(most - 10, '[') + "\n",
+                                       "a: " + std::string(most - 10, '{') + "\n",
+                                       "a: " + std::string(100, '[') + std::string(100, ']') + "\n",
+                                       ladder,
+                                       std::string(most, '-'),
+                                       std::string(most, '?'),
+                                       "a: \"" + std::string(most - 10, 'x') + "\n",
+                                       std::string(most, '&'),
+                                       std::string(most - 1, '#') + "\n",
+                                       "a: [" + std::string(most - 10, ',') + "]\n",
+                                       std::string(most, '\n'),
+                                       "m: {rows: 4096, cols: 4096, data: [1]}\n"};
   for (const std::string& text : bombs) EXPECT_FALSE(parse_yaml_fields(text)) << text.substr(0, 20);
   EXPECT_TRUE(parse_yaml_fields(keys));
 }

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/html_reader.h"
 #include "tests/pipeline/calibrate/report/reported_set.h"
+#include "tests/support/html_reader.h"
 
 namespace relievo::tests {
 namespace {
@@ -28,7 +28,9 @@ int count(const std::string& text, std::string_view words) {
 // The numbers of a path, letters aside: x and y in turn.
 std::vector<double> numbers(const std::string& path) {
   std::string plain = path;
-  std::replace_if(plain.begin(), plain.end(), [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }, ' ');
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; },
+      ' ');
   std::istringstream in(plain);
   std::vector<double> all;
   for (double value = 0; in >> value;) all.push_back(value);
@@ -66,8 +68,9 @@ TEST(CalibrationReport, EscapesNamesOfFiles) {
   EXPECT_TRUE(holds(page.text(), kWickedName)) << "it is still called what it is called";
   EXPECT_TRUE(holds(page.text(), "caf\xEF\xBF\xBD"));
   EXPECT_TRUE(holds(page.text(), "boards <i>of</i> March"));
-  const auto link = std::find_if(page.elements().begin(), page.elements().end(), 
-                                 [](const HtmlElement& e) { return e.name == "a" && !e.attributes.at("href").starts_with("#"); });
+  const auto link = std::find_if(page.elements().begin(), page.elements().end(), [](const HtmlElement& e) {
+    return e.name == "a" && !e.attributes.at("href").starts_with("#");
+  });
   ASSERT_NE(link, page.elements().end());
   EXPECT_EQ(link->attributes.at("href"), "corners_%3Cscript%3Ealert%28%22%261%27%22%29%3C%2Fscript%3E.png");
 }
@@ -75,7 +78,9 @@ TEST(CalibrationReport, EscapesNamesOfFiles) {
 TEST(CalibrationReport, SaysTheVerdictInWordAndShape) {
   ReportedSet set;
   std::vector<std::string> icons;
-  for (const auto& [verdict, word] : {std::pair{CalibrationVerdict::Pass, "Pass"}, {CalibrationVerdict::Usable, "Usable"}, {CalibrationVerdict::Refuse, "Refuse"}}) {
+  for (const auto& [verdict, word] : {std::pair{CalibrationVerdict::Pass, "Pass"},
+                                      {CalibrationVerdict::Usable, "Usable"},
+                                      {CalibrationVerdict::Refuse, "Refuse"}}) {
     set.output.quality.verdict = verdict;
     set.output.quality.reasons = {Sentence("view {} is at fault", {kWickedName})};
     const std::string html = pipeline::calibration_report_html(set.report());
@@ -132,7 +137,9 @@ TEST(CalibrationReport, SaysInMillimetresHowWrongAFaceMayBe) {
 TEST(CalibrationReport, JudgesEachFigureByWhatIsGood) {
   ReportedSet set;
   auto& q = set.output.quality;
-  const auto marks = [&](const char* which) { return HtmlReader(pipeline::calibration_report_html(set.report())).with_class(which).size(); };
+  const auto marks = [&](const char* which) {
+    return HtmlReader(pipeline::calibration_report_html(set.report())).with_class(which).size();
+  };
   const std::size_t bad = marks("bad");
   const std::size_t fair = marks("fair");
   q.held_out_epipolar_px = 0.3;
@@ -183,13 +190,16 @@ TEST(CalibrationReport, DrawsEveryResidualAsItIs) {
 TEST(CalibrationReport, DrawsTheRigToScale) {
   ReportedSet set;
   const HtmlReader page(pipeline::calibration_report_html(set.report()));
-  const auto at = [](const HtmlElement& line, const char* name) { return std::atof(line.attributes.at(name).c_str()); };
+  const auto at = [](const HtmlElement& line, const char* name) {
+    return std::atof(line.attributes.at(name).c_str());
+  };
   const auto measures = page.with_class("measure");
   const auto rulers = page.with_class("ruler");
   ASSERT_EQ(measures.size(), 1U);
   ASSERT_EQ(rulers.size(), 3U);
   const double ruler = at(rulers[0], "x2") - at(rulers[0], "x1");
-  const double drawn = std::hypot(at(measures[0], "x2") - at(measures[0], "x1"), at(measures[0], "y2") - at(measures[0], "y1"));
+  const double drawn = std::hypot(at(measures[0], "x2") - at(measures[0], "x1"),
+                                  at(measures[0], "y2") - at(measures[0], "y1"));
   const pipeline::Vec3d right = inverse(set.output.calibration.right_from_left).translation_mm;
   EXPECT_NEAR(100 * drawn / ruler, std::hypot(right.x, right.z), 0.1);
   EXPECT_EQ(page.with_class("board").size(), 15U);
@@ -211,7 +221,8 @@ TEST(CalibrationReport, DrawsUncertaintyInProportion) {
   ASSERT_EQ(rms.size(), 16U);
   const double floor = 2 * rms[1] - worst[1];  // worst is twice rms: nought lies as far below
   for (std::size_t i = 1; i < 8; ++i) {
-    EXPECT_NEAR(floor - rms[2 * i + 1], (floor - rms[1]) * (1.0 + static_cast<double>(i)), 0.5) << "nought is on the axis";
+    EXPECT_NEAR(floor - rms[2 * i + 1], (floor - rms[1]) * (1.0 + static_cast<double>(i)), 0.5)
+        << "nought is on the axis";
     EXPECT_NEAR(rms[2 * i] - rms[2 * i - 2], rms[2] - rms[0], 0.11) << "steps of 50 mm";
   }
 }
@@ -220,7 +231,8 @@ TEST(CalibrationReport, StaysReadableForVeryManyCorners) {
   ReportedSet set;
   const auto corners = [](const std::string& html) {
     int all = 0;
-    for (const HtmlElement& dots : HtmlReader(html).with_class("dots")) all += count(dots.attributes.at("d"), "M");
+    for (const HtmlElement& dots : HtmlReader(html).with_class("dots"))
+      all += count(dots.attributes.at("d"), "M");
     return all;
   };
   const std::string few = pipeline::calibration_report_html(set.report());

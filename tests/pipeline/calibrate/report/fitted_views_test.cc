@@ -73,9 +73,9 @@ TEST(FittedViews, BoardsStandWhereTheyWereHeld) {
   for (std::size_t v = 0; v < set.output.views.size(); ++v) {
     if (!set.output.quality.views[v].used) continue;
     const auto& pattern = set.boards.input().pattern;
-    const pipeline::Vec3d middle =
-        apply(set.output.views[v].left_from_board,
-              pipeline::Vec3d{0.5 * (pattern.columns - 1) * pattern.square_mm, 0.5 * (pattern.rows - 1) * pattern.square_mm, 0});
+    const pipeline::Vec3d middle = apply(set.output.views[v].left_from_board,
+                                         pipeline::Vec3d{0.5 * (pattern.columns - 1) * pattern.square_mm,
+                                                         0.5 * (pattern.rows - 1) * pattern.square_mm, 0});
     EXPECT_NEAR(std::hypot(middle.x, middle.y, middle.z), set.output.quality.views[v].distance_mm, 1e-3);
     // Corners 22 and 31 lie on both sides of it: the true rig sees it between them, as far as the
     // calibration knows where its own picture's middle is.

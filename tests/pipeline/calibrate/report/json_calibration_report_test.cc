@@ -12,13 +12,38 @@ namespace {
 TEST(CalibrationReportJson, KeepsTheKeysThatScriptsKnow) {
   ReportedSet set;
   const auto json = nlohmann::json::parse(pipeline::calibration_report_json(set.report()));
-  for (const char* key : {"verdict", "reasons", "views_used", "views_given", "pair_rms_px", "left_rms_px", "right_rms_px", "epipolar_rms_px",
-                          "held_out_epipolar_px", "coverage_left", "coverage_right", "holds_still", "slip_ratio", "slip_cause", "moved_after",
-                          "moved_after_first", "moved_after_last", "baseline_mm", "expected_baseline_mm", "tilt_spread_deg", "board_sag_mm",
-                          "board_sag_sigma_mm", "board_bent", "working_distance_mm", "depth_sigma_mm", "face_depth_sigma_mm", "shape_sigma_mm",
-                          "uncertainty", "views"})
+  for (const char* key : {"verdict",
+                          "reasons",
+                          "views_used",
+                          "views_given",
+                          "pair_rms_px",
+                          "left_rms_px",
+                          "right_rms_px",
+                          "epipolar_rms_px",
+                          "held_out_epipolar_px",
+                          "coverage_left",
+                          "coverage_right",
+                          "holds_still",
+                          "slip_ratio",
+                          "slip_cause",
+                          "moved_after",
+                          "moved_after_first",
+                          "moved_after_last",
+                          "baseline_mm",
+                          "expected_baseline_mm",
+                          "tilt_spread_deg",
+                          "board_sag_mm",
+                          "board_sag_sigma_mm",
+                          "board_bent",
+                          "working_distance_mm",
+                          "depth_sigma_mm",
+                          "face_depth_sigma_mm",
+                          "shape_sigma_mm",
+                          "uncertainty",
+                          "views"})
     EXPECT_TRUE(json.contains(key)) << key;
-  for (const char* key : {"name", "used", "reason", "left_rms_px", "right_rms_px", "epipolar_rms_px", "excess_px", "corners_dropped", "distance_mm", "tilt_deg"})
+  for (const char* key : {"name", "used", "reason", "left_rms_px", "right_rms_px", "epipolar_rms_px",
+                          "excess_px", "corners_dropped", "distance_mm", "tilt_deg"})
     EXPECT_TRUE(json["views"][0].contains(key)) << key;
 }
 
@@ -37,7 +62,8 @@ TEST(CalibrationReportJson, HoldsWhatThePageShows) {
   EXPECT_EQ(json["calibration"]["right_from_left"]["translation_sigma_mm"][0], u.translation_mm[0]);
   EXPECT_EQ(json["views"][12]["name"], kWickedName);
   EXPECT_EQ(json["views"][13]["name"], "caf\xEF\xBF\xBD");
-  EXPECT_EQ(json["views"][0]["left_from_board"]["translation_mm"][2], set.output.views[0].left_from_board.translation_mm.z);
+  EXPECT_EQ(json["views"][0]["left_from_board"]["translation_mm"][2],
+            set.output.views[0].left_from_board.translation_mm.z);
   const auto& residuals = json["views"][2]["right_residuals_px"];
   ASSERT_EQ(residuals.size(), 54U);
   EXPECT_TRUE(residuals[7].is_null()) << "a stray was dropped";

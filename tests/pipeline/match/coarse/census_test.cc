@@ -41,9 +41,12 @@ TEST(Census, HasABitForEveryDarkerNeighbourAndNoneAtTheBorder) {
     }
 }
 
-TEST(Census, IsBlindToGainAndOffset) { EXPECT_EQ(census_of(picture(1, 0)).values, census_of(picture(0.5F, 40)).values); }
+TEST(Census, IsBlindToGainAndOffset) {
+  EXPECT_EQ(census_of(picture(1, 0)).values, census_of(picture(0.5F, 40)).values);
+}
 
-// Both views alike but for three pixels of disparity: nothing is cheaper than the truth, and what nobody sees costs most.
+// Both views alike but for three pixels of disparity: nothing is cheaper than the truth, and what nobody sees
+// costs most.
 TEST(Census, CostsNothingAtTheTruth) {
   constexpr int kShift = 3, kCandidates = 6;
   const Plane<std::uint64_t> left = census_of(picture(1, 0));
@@ -56,7 +59,9 @@ TEST(Census, CostsNothingAtTheTruth) {
   const std::vector<std::int16_t> first(kWidth, 1);
   std::vector<std::uint8_t> cost(std::size_t{kWidth} * kCandidates);
   census_costs({left, right, seen, blind, +1}, first.data(), 8, kCandidates, cost.data());
-  const auto at = [&](int x, int disparity) { return cost[static_cast<std::size_t>(x * kCandidates + disparity - 1)]; };
+  const auto at = [&](int x, int disparity) {
+    return cost[static_cast<std::size_t>(x * kCandidates + disparity - 1)];
+  };
   for (int x = kShift; x < kWidth; ++x) EXPECT_EQ(at(x, kShift), x - kShift == 12 ? kUnknownCost : 0) << x;
   EXPECT_GT(at(10, 2), 0);
   EXPECT_EQ(at(2, 4), kUnknownCost) << "left of the picture";

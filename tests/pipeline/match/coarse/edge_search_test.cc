@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A ridge that rises from a plane and falls off it steeply, as a nose does from its root to its tip, both known; and a
-// field that lies over it like a blanket.
+// A ridge that rises from a plane and falls off it steeply, as a nose does from its root to its tip, both
+// known; and a field that lies over it like a blanket.
 #include "pipeline/match/coarse/edge_search.h"
 
 #include <gtest/gtest.h>
@@ -20,9 +20,9 @@ namespace {
 using test::StageBench;
 
 constexpr int kWidth = 640, kHeight = 400;
-constexpr int kLeft = 260, kRight = 420;          // the ridge's columns in the left view
-constexpr float kPlane = 48, kRise = 32;          // disparities, full-size pixels
-constexpr int kBlanket = 24;                      // pixels beside the ridge's edge under the blanket
+constexpr int kLeft = 260, kRight = 420;  // the ridge's columns in the left view
+constexpr float kPlane = 48, kRise = 32;  // disparities, full-size pixels
+constexpr int kBlanket = 24;              // pixels beside the ridge's edge under the blanket
 constexpr int kFrom = 90, kTo = 540, kTop = 20, kBottom = 380;  // the field
 
 float ridge(int y) { return kPlane + kRise * std::clamp((static_cast<float>(y) - 120) / 120, 0.0F, 1.0F); }
@@ -37,10 +37,12 @@ struct Scene {
     const auto pixels = static_cast<std::size_t>(kWidth) * kHeight;
     pair.width_px = kWidth, pair.height_px = kHeight;
     pair.region.assign(pixels, 1);
-    for (RectifiedView* view : {&pair.left, &pair.right}) view->valid.assign(pixels, 1), view->grey.resize(pixels);
+    for (RectifiedView* view : {&pair.left, &pair.right})
+      view->valid.assign(pixels, 1), view->grey.resize(pixels);
     std::mt19937 random(7);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> near(&bench.output, kWidth + 128, kHeight), far(&bench.output, kWidth + 128, kHeight), across(&bench.output, kWidth + 128, kHeight);
+    Plane<float> near(&bench.output, kWidth + 128, kHeight), far(&bench.output, kWidth + 128, kHeight),
+        across(&bench.output, kWidth + 128, kHeight);
     for (Plane<float>* skin : {&near, &far}) {
       for (float& v : skin->values) v = normal(random);
       box_sum(*skin, 2, bench.context.pool, across, *skin);
@@ -48,12 +50,15 @@ struct Scene {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const std::size_t k = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
-        pair.left.grey[k] = 90 + 3 * (x >= kLeft && x < kRight ? near : far).row(y)[x] + 0.5F * normal(random);
+        pair.left.grey[k] =
+            90 + 3 * (x >= kLeft && x < kRight ? near : far).row(y)[x] + 0.5F * normal(random);
         const float at = static_cast<float>(x) + ridge(y);
         const bool on_ridge = at >= kLeft && at < kRight;
         const int whole = static_cast<int>(at);
         const float part = at - static_cast<float>(whole);
-        const float there = on_ridge ? near.row(y)[whole] + part * (near.row(y)[whole + 1] - near.row(y)[whole]) : far.row(y)[x + static_cast<int>(kPlane)];
+        const float there = on_ridge
+                                ? near.row(y)[whole] + part * (near.row(y)[whole + 1] - near.row(y)[whole])
+                                : far.row(y)[x + static_cast<int>(kPlane)];
         pair.right.grey[k] = 90 + 3 * there + 0.5F * normal(random);
       }
   }
@@ -64,7 +69,11 @@ struct Scene {
         const int x = 2 * i, y = 2 * j;
         if (x < kFrom || x >= kTo || y < kTop || y >= kBottom) continue;
         field.domain.row(j)[i] = 1;
-        const float share = blanket == 0 ? 0.0F : std::clamp((static_cast<float>(x - kRight + blanket)) / static_cast<float>(2 * blanket), 0.0F, 1.0F);
+        const float share =
+            blanket == 0
+                ? 0.0F
+                : std::clamp((static_cast<float>(x - kRight + blanket)) / static_cast<float>(2 * blanket),
+                             0.0F, 1.0F);
         const bool under = blanket > 0 && std::abs(x - kRight) < blanket;
         field.disparity_px.row(j)[i] = under ? ridge(y) + share * (kPlane - ridge(y)) : truth(x, y);
       }
@@ -75,11 +84,13 @@ struct Scene {
     const Pyramids pyramids = build_pyramids(pair, 3, context);
     ASSERT_TRUE(search_edges(pair, pyramids, {}, context, field).has_value());
   }
-  // Nodes of the field at the steep part of the ridge's right edge that lie further than two pixels from the truth.
+  // Nodes of the field at the steep part of the ridge's right edge that lie further than two pixels from the
+  // truth.
   int wrong() const {
     int count = 0;
     for (int j = 260 / 2; j < 370 / 2; ++j)
-      for (int i = (kRight - 2 * kBlanket) / 2; i < (kRight + 2 * kBlanket) / 2; ++i) count += std::abs(field.disparity_px.row(j)[i] - truth(2 * i, 2 * j)) > 2 ? 1 : 0;
+      for (int i = (kRight - 2 * kBlanket) / 2; i < (kRight + 2 * kBlanket) / 2; ++i)
+        count += std::abs(field.disparity_px.row(j)[i] - truth(2 * i, 2 * j)) > 2 ? 1 : 0;
     return count;
   }
 };
@@ -127,7 +138,8 @@ TEST(EdgeSearch, AddsWhatGoesOnBesideTheField) {
 TEST(EdgeSearch, AnEmptyFieldStaysEmpty) {
   Scene scene;
   scene.search();
-  EXPECT_EQ(std::count(scene.field.domain.values.begin(), scene.field.domain.values.end(), std::uint8_t{1}), 0);
+  EXPECT_EQ(std::count(scene.field.domain.values.begin(), scene.field.domain.values.end(), std::uint8_t{1}),
+            0);
 }
 
 TEST(EdgeSearch, IsTheSameForAnyNumberOfThreads) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/coarse/semi_global.h"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <gtest/gtest.h>
 #include <memory_resource>
 #include <random>
 #include <vector>
@@ -23,7 +23,9 @@ struct Views {
       for (auto& bits : census->values) bits = (std::uint64_t{random()} << 32 | random()) >> 2;
     for (auto* valid : {&left_valid, &right_valid})
       for (auto& v : valid->values) v = random() % 10 != 0 ? 1 : 0;
-    for (auto& f : first.values) f = static_cast<std::int16_t>(static_cast<int>(random() % static_cast<unsigned>(2 * spread + 1)) - spread);
+    for (auto& f : first.values)
+      f = static_cast<std::int16_t>(static_cast<int>(random() % static_cast<unsigned>(2 * spread + 1)) -
+                                    spread);
   }
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   Plane<std::uint64_t> left{memory, kWidth, kHeight}, right{memory, kWidth, kHeight};
@@ -31,7 +33,8 @@ struct Views {
   Plane<std::int16_t> first{memory, kWidth, kHeight};
 };
 
-// The recurrence as Hirschmueller writes it, path by path and candidate by candidate, over disparities instead of lanes.
+// The recurrence as Hirschmueller writes it, path by path and candidate by candidate, over disparities
+// instead of lanes.
 struct Twin {
   const Views& v;
   int sign, candidates;
@@ -41,13 +44,15 @@ struct Twin {
   int first(int x, int y) const { return v.first.row(y)[x]; }
   int cost(int x, int y, int k) const {
     const int other = x - sign * (first(x, y) + k);
-    const bool seen = v.left_valid.row(y)[x] != 0 && other >= 0 && other < kWidth && v.right_valid.row(y)[other] != 0;
+    const bool seen =
+        v.left_valid.row(y)[x] != 0 && other >= 0 && other < kWidth && v.right_valid.row(y)[other] != 0;
     return seen ? std::popcount(v.left.row(y)[x] ^ v.right.row(y)[other]) : kUnknown;
   }
   void add_path(int dx, int dy, Cells& sums) const {
     Cells path(kWidth * kHeight);
     for (int i = 0; i < kWidth * kHeight; ++i) {
-      const int x = dx >= 0 ? i % kWidth : kWidth - 1 - i % kWidth, y = dy >= 0 ? i / kWidth : kHeight - 1 - i / kWidth;
+      const int x = dx >= 0 ? i % kWidth : kWidth - 1 - i % kWidth,
+                y = dy >= 0 ? i / kWidth : kHeight - 1 - i / kWidth;
       const int px = x - dx, py = y - dy;
       const bool begins = px < 0 || px >= kWidth || py < 0 || py >= kHeight;
       auto& own = path[static_cast<std::size_t>(y * kWidth + x)];
@@ -55,16 +60,20 @@ struct Twin {
         own.push_back(cost(x, y, k));
         if (begins) continue;
         const auto& before = path[static_cast<std::size_t>(py * kWidth + px)];
-        const int least = *std::min_element(before.begin(), before.end()), at = first(x, y) + k - first(px, py);
+        const int least = *std::min_element(before.begin(), before.end()),
+                  at = first(x, y) + k - first(px, py);
         int best = least + costs.jump_penalty;
         if (at >= 0 && at < candidates) {
           best = std::min(best, before[static_cast<std::size_t>(at)]);
           if (at > 0) best = std::min(best, before[static_cast<std::size_t>(at - 1)] + costs.step_penalty);
-          if (at + 1 < candidates) best = std::min(best, before[static_cast<std::size_t>(at + 1)] + costs.step_penalty);
+          if (at + 1 < candidates)
+            best = std::min(best, before[static_cast<std::size_t>(at + 1)] + costs.step_penalty);
         }
         own.back() += best - least;
       }
-      for (int k = 0; k < candidates; ++k) sums[static_cast<std::size_t>(y * kWidth + x)][static_cast<std::size_t>(k)] += own[static_cast<std::size_t>(k)];
+      for (int k = 0; k < candidates; ++k)
+        sums[static_cast<std::size_t>(y * kWidth + x)][static_cast<std::size_t>(k)] +=
+            own[static_cast<std::size_t>(k)];
     }
   }
   Cells sums() const {
@@ -83,7 +92,8 @@ TEST(SemiGlobal, FindsWhatItsSlowTwinFinds) {
       for (const int sign : {1, -1}) {
         const Views v(spread);
         Plane<float> found(v.memory, kWidth, kHeight, 0);
-        semi_global({v.left, v.right, v.left_valid, v.right_valid, sign}, v.first, candidates, {}, *v.memory, found);
+        semi_global({v.left, v.right, v.left_valid, v.right_valid, sign}, v.first, candidates, {}, *v.memory,
+                    found);
         const Twin twin{v, sign, candidates, {}};
         const auto sums = twin.sums();
         int known = 0;
@@ -96,7 +106,8 @@ TEST(SemiGlobal, FindsWhatItsSlowTwinFinds) {
               EXPECT_EQ(d, kNoDisparity);
             } else if (d != kNoDisparity) {
               ++known;
-              EXPECT_LE(std::abs(d - static_cast<float>(v.first.row(y)[x] + k)), 0.5F) << candidates << ' ' << spread << ' ' << x << ' ' << y;
+              EXPECT_LE(std::abs(d - static_cast<float>(v.first.row(y)[x] + k)), 0.5F)
+                  << candidates << ' ' << spread << ' ' << x << ' ' << y;
             }
           }
         EXPECT_GT(known, kWidth * kHeight / 3);

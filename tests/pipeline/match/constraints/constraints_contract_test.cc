@@ -19,7 +19,8 @@ namespace {
 using test::BumpScene;
 using test::StageBench;
 
-std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char* key = nullptr, const char* value = nullptr) {
+std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char* key = nullptr,
+                                            const char* value = nullptr) {
   AlgorithmSet set;
   EXPECT_TRUE(set.set("constraints", name));
   if (key != nullptr) {
@@ -42,7 +43,9 @@ struct Planted {
       if (!scene.judged(k.at_px.x, k.at_px.y)) continue;
       const bool spoil = wrong_every > 0 && ++count % wrong_every == 0;
       const auto d = static_cast<float>(scene.disparity(k.at_px.x, k.at_px.y)) + noise(random);
-      matches.push_back({k.at_px, spoil ? d + (count % (2 * wrong_every) == 0 ? off(random) : -off(random)) : d, 0.1F, 0.1F, 0});
+      matches.push_back({k.at_px,
+                         spoil ? d + (count % (2 * wrong_every) == 0 ? off(random) : -off(random)) : d, 0.1F,
+                         0.1F, 0});
       wrong.push_back(spoil);
     }
   }
@@ -93,7 +96,8 @@ TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
       StageBench bench(1 << 20, std::size_t{32} << 20, threads);
       constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, bench.context);
       if (first.empty()) first = planted.matches;
-      for (std::size_t k = 0; k < first.size(); ++k) ASSERT_EQ(first[k].rejected_by, planted.matches[k].rejected_by);
+      for (std::size_t k = 0; k < first.size(); ++k)
+        ASSERT_EQ(first[k].rejected_by, planted.matches[k].rejected_by);
     }
   }
 }
@@ -116,19 +120,22 @@ TEST_P(MatchConstraints, BearNothingAndTooLittleMemory) {
 INSTANTIATE_TEST_SUITE_P(All, MatchConstraints, testing::ValuesIn(test::names_of("constraints")),
                          [](const auto& chosen) { return test::test_name(chosen.param); });
 
-// What one view shows elsewhere, ZMNCC finds a place for all the same. Its own threshold has spared the default limit
-// any work; a limit of its own takes what was found there, and hardly anything else.
+// What one view shows elsewhere, ZMNCC finds a place for all the same. Its own threshold has spared the
+// default limit any work; a limit of its own takes what was found there, and hardly anything else.
 TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
   const BumpScene scene{.width_px = 260, .height_px = 180};
   StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
   RectifiedPair pair(&bench.output);
   pair = scene.render(&bench.output);
   const RectifiedPair other = BumpScene{.width_px = 260, .height_px = 180, .seed = 99}.render(&bench.output);
-  for (std::size_t k = 0; k < pair.right.grey.size() / 2; ++k) pair.right.grey[k] = other.right.grey[k];  // its upper half
+  for (std::size_t k = 0; k < pair.right.grey.size() / 2; ++k)
+    pair.right.grey[k] = other.right.grey[k];  // its upper half
   AlgorithmSet set;
   ASSERT_TRUE(set.set("matcher", "zmncc"));
   const auto matcher = make_matcher(set);
-  auto found = run_stage(bench.context, [&](StageContext& c) { return (*matcher)->match(pair, test::lattice(pair, 4, &bench.output), c); });
+  auto found = run_stage(bench.context, [&](StageContext& c) {
+    return (*matcher)->match(pair, test::lattice(pair, 4, &bench.output), c);
+  });
   ASSERT_TRUE(found);
   std::vector<Match> matches(found->matches.begin(), found->matches.end());
   const auto reject = [&](const char* limit) {
@@ -138,7 +145,8 @@ TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
     for (const Match& m : judged) {
       const bool in_both = std::abs(m.left_px.y - 90) <= 13;  // the window lies across the seam
       if (in_both || !scene.judged(m.left_px.x, m.left_px.y)) continue;
-      const bool wrong = std::abs(static_cast<double>(m.disparity_px) - scene.disparity(m.left_px.x, m.left_px.y)) > 1;
+      const bool wrong =
+          std::abs(static_cast<double>(m.disparity_px) - scene.disparity(m.left_px.x, m.left_px.y)) > 1;
       (wrong ? bad : good) += 1;
       if (m.rejected_by != 0) (wrong ? bad_out : good_out) += 1;
     }
@@ -161,10 +169,13 @@ TEST(OrderingConstraint, TheLargestOrderedSetStays) {
   // On the right row: 10 20 55 30 40 5 50; 55 and 5 are out of order.
   const float right[] = {10, 20, 55, 30, 40, 5, 50};
   std::vector<Match> matches;
-  for (int k = 0; k < 7; ++k) matches.push_back({{static_cast<float>(60 + 10 * k), 4}, static_cast<float>(60 + 10 * k) - right[k], 0, 0.1F, 0});
+  for (int k = 0; k < 7; ++k)
+    matches.push_back(
+        {{static_cast<float>(60 + 10 * k), 4}, static_cast<float>(60 + 10 * k) - right[k], 0, 0.1F, 0});
   matches.push_back({{65, 5}, 0, 0, 0.1F, 0});  // another row
   constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
-  for (std::size_t k = 0; k < matches.size(); ++k) EXPECT_EQ(matches[k].rejected_by, k == 2 || k == 5 ? 2 : 0) << k;
+  for (std::size_t k = 0; k < matches.size(); ++k)
+    EXPECT_EQ(matches[k].rejected_by, k == 2 || k == 5 ? 2 : 0) << k;
 }
 
 // The slow twin: no set of a row in order is larger (all subsets tried).
@@ -175,7 +186,8 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
   for (int trial = 0; trial < 50; ++trial) {
     StageBench bench(1024, 1 << 16, 1);
     std::vector<Match> matches;
-    for (int k = 0; k < 12; ++k) matches.push_back({{static_cast<float>(50 + 3 * k), 4}, unit(random), 0, 0.1F, 0});
+    for (int k = 0; k < 12; ++k)
+      matches.push_back({{static_cast<float>(50 + 3 * k), 4}, unit(random), 0, 0.1F, 0});
     constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
     int kept = 0;
     float last = -1e9F;
@@ -191,7 +203,8 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
       int size = 0;
       for (int k = 0; k < 12 && size >= 0; ++k) {
         if ((set >> k & 1) == 0) continue;
-        const float at = matches[static_cast<std::size_t>(k)].left_px.x - matches[static_cast<std::size_t>(k)].disparity_px;
+        const float at = matches[static_cast<std::size_t>(k)].left_px.x -
+                         matches[static_cast<std::size_t>(k)].disparity_px;
         size = at >= before ? size + 1 : -100;
         before = at;
       }
@@ -224,13 +237,15 @@ TEST(LeftRightConstraint, CatchesAPixelBetweenPixels) {
 
 TEST(StatisticalConstraint, TakesWhatStandsOutFromItsNeighboursAndFromAll) {
   Planted near({.width_px = 240, .height_px = 160}, 9, 2);
-  constraint("statistical", "statistical.global_sigmas", "0")->judge(near.pair, near.matches, 2, 4, near.bench.context);
+  constraint("statistical", "statistical.global_sigmas", "0")
+      ->judge(near.pair, near.matches, 2, 4, near.bench.context);
   EXPECT_GT(near.rejected().first, 0.99);
   EXPECT_LT(near.rejected().second, 0.005);
   Planted all({.width_px = 240, .height_px = 160}, 9, 2);
   for (std::size_t k = 0; k < all.matches.size(); ++k)
     if (all.wrong[k]) all.matches[k].disparity_px += all.matches[k].disparity_px > 20 ? 60.0F : -60.0F;
-  constraint("statistical", "statistical.local_sigmas", "0")->judge(all.pair, all.matches, 2, 4, all.bench.context);
+  constraint("statistical", "statistical.local_sigmas", "0")
+      ->judge(all.pair, all.matches, 2, 4, all.bench.context);
   EXPECT_GT(all.rejected().first, 0.99);
   EXPECT_LT(all.rejected().second, 0.005);
 }

@@ -49,11 +49,12 @@ MatchSet matches_at(float disparity) {
 TEST(Overexposure, IsTheShareOfTheFaceThatIsWhite) {
   RectifiedPair pair = grey_pair();
   EXPECT_EQ(measure_overexposure(pair, matches_at(kDisparity)).left, 0);
-  whiten(pair.left, 0, kFaceX);                               // half of the face
-  whiten(pair.right, kFaceX - kDisparity + 40, kWidth);       // what lies right of half its half width
+  whiten(pair.left, 0, kFaceX);                          // half of the face
+  whiten(pair.right, kFaceX - kDisparity + 40, kWidth);  // what lies right of half its half width
   const Overexposure white = measure_overexposure(pair, matches_at(kDisparity));
   EXPECT_NEAR(white.left, 0.5, 0.01);
-  EXPECT_NEAR(white.right, (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / 3.14159265, 0.01) << "a circle's cap, for an ellipse is a circle stretched";
+  EXPECT_NEAR(white.right, (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / 3.14159265, 0.01)
+      << "a circle's cap, for an ellipse is a circle stretched";
 }
 
 TEST(Overexposure, AWhiteWallIsNone) {

@@ -28,7 +28,8 @@ using Pixels = std::vector<std::uint8_t>;
 Pixels pixels(const hal::Picture& picture) {
   const ImageView view = picture.view();
   Pixels rgb;
-  for (int y = 0; y < view.height_px; ++y) rgb.insert(rgb.end(), view.row(y), view.row(y) + 3 * view.width_px);
+  for (int y = 0; y < view.height_px; ++y)
+    rgb.insert(rgb.end(), view.row(y), view.row(y) + 3 * view.width_px);
   return rgb;
 }
 
@@ -46,7 +47,8 @@ Pixels face_too_bright(const Pixels& picture) {
   Pixels made = brighter(picture, 8);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      if (std::hypot(x - kWidth / 2, y - kHeight / 2) > 110) std::fill_n(made.begin() + 3 * (y * kWidth + x), 3, std::uint8_t{40});
+      if (std::hypot(x - kWidth / 2, y - kHeight / 2) > 110)
+        std::fill_n(made.begin() + 3 * (y * kWidth + x), 3, std::uint8_t{40});
   return made;
 }
 
@@ -69,27 +71,34 @@ TEST(PairDiagnosis, TellsWhatWasDoneToThePictures) {
   const hal::sim::PicturePair shot = hal::sim::render_pair(*scene, rig, {}, 1, pool);
   const Pixels left = pixels(shot.left), right = pixels(shot.right);
   const Pixels grey(left.size(), 128);
-  const struct { const char* what; Pixels left, right; std::optional<PairFault> fault; } kRows[] = {
-      {"nothing", left, right, std::nullopt},
-      {"unequal exposures are no fault", left, brighter(right, 0.4), std::nullopt},
-      {"the right lens covered", left, brighter(right, 0.03), PairFault::RightDark},
-      {"the left lens covered", brighter(left, 0.03), right, PairFault::LeftDark},
-      {"both covered", brighter(left, 0.03), brighter(right, 0.03), PairFault::BothDark},
-      {"a lamp in the left", brighter(left, 8), right, PairFault::LeftOverexposed},
-      {"a lamp in both", brighter(left, 8), brighter(right, 8), PairFault::BothOverexposed},
-      {"a lamp on the face, seen by the right one", left, face_too_bright(right), PairFault::RightOverexposed},
-      {"one grey", left, grey, PairFault::RightBlank},
-      {"the same twice", left, left, PairFault::SamePicture},
-      {"one higher", left, lifted(right, 24), PairFault::Shifted}};
+  const struct {
+    const char* what;
+    Pixels left, right;
+    std::optional<PairFault> fault;
+  } kRows[] = {{"nothing", left, right, std::nullopt},
+               {"unequal exposures are no fault", left, brighter(right, 0.4), std::nullopt},
+               {"the right lens covered", left, brighter(right, 0.03), PairFault::RightDark},
+               {"the left lens covered", brighter(left, 0.03), right, PairFault::LeftDark},
+               {"both covered", brighter(left, 0.03), brighter(right, 0.03), PairFault::BothDark},
+               {"a lamp in the left", brighter(left, 8), right, PairFault::LeftOverexposed},
+               {"a lamp in both", brighter(left, 8), brighter(right, 8), PairFault::BothOverexposed},
+               {"a lamp on the face, seen by the right one", left, face_too_bright(right),
+                PairFault::RightOverexposed},
+               {"one grey", left, grey, PairFault::RightBlank},
+               {"the same twice", left, left, PairFault::SamePicture},
+               {"one higher", left, lifted(right, 24), PairFault::Shifted}};
   for (const auto& row : kRows) {
     test::StageBench bench{std::size_t{64} << 20, std::size_t{64} << 20};
-    const auto fault = diagnose_pair({view_of(row.left), view_of(row.right)}, test::true_calibration(rig), {}, bench.context);
+    const auto fault = diagnose_pair({view_of(row.left), view_of(row.right)}, test::true_calibration(rig), {},
+                                     bench.context);
     EXPECT_EQ(fault, row.fault) << row.what;
     EXPECT_TRUE(!fault || !error_of(*fault).what.view().empty());
     EXPECT_EQ(bench.output.used(), 0U);
   }
   test::StageBench tiny{1024, 1024};
-  EXPECT_THROW(static_cast<void>(diagnose_pair({view_of(left), view_of(right)}, test::true_calibration(rig), {}, tiny.context)), std::bad_alloc);
+  EXPECT_THROW(static_cast<void>(diagnose_pair({view_of(left), view_of(right)}, test::true_calibration(rig),
+                                               {}, tiny.context)),
+               std::bad_alloc);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ Pyramids pyramids_of(const RectifiedPair& pair, Arena& memory) {
     for (int level = 1; level <= kCoarseLevel; ++level) {
       const PyramidLevel& from = (*levels)[static_cast<std::size_t>(level - 1)];
       PyramidLevel half(&memory, (from.grey.width + 1) / 2, (from.grey.height + 1) / 2);
-      halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, half, 0, half.grey.height);
+      halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, half,
+                 0, half.grey.height);
       levels->push_back(std::move(half));
     }
   }
@@ -41,7 +42,8 @@ EpipolarShift measured(const BumpScene& scene, StageBench& bench, double wrong_p
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i) {
       field.domain.row(j)[i] = scene.judged(2 * i, 2 * j) ? 1 : 0;
-      field.disparity_px.row(j)[i] = static_cast<float>(scene.disparity(2 * i, 2 * j) + (j / 12 % 2 == 0 ? wrong_px : -wrong_px));
+      field.disparity_px.row(j)[i] =
+          static_cast<float>(scene.disparity(2 * i, 2 * j) + (j / 12 % 2 == 0 ? wrong_px : -wrong_px));
     }
   return measure_epipolar_shift(pair, pyramids, field, EpipolarSearch::Search, bench.context);
 }
@@ -53,7 +55,8 @@ TEST(EpipolarAlignment, FindsOffsetAndTilt) {
     const BumpScene scene{.width_px = 240, .height_px = 200, .rows_px = rows, .rows_tilt = 1e-3};
     const EpipolarShift shift = measured(scene, bench);
     ASSERT_TRUE(shift.measured()) << rows;
-    EXPECT_NEAR(shift.at(scene.width_px / 2.0, scene.height_px / 2.0), rows, 0.015 + 0.01 * std::abs(rows)) << rows;
+    EXPECT_NEAR(shift.at(scene.width_px / 2.0, scene.height_px / 2.0), rows, 0.015 + 0.01 * std::abs(rows))
+        << rows;
     EXPECT_NEAR(shift.slope_x, 1e-3, 2e-4) << rows;
     EXPECT_NEAR(shift.slope_y, 0, 2e-4) << rows;
   }
@@ -66,7 +69,9 @@ TEST(EpipolarAlignment, NoiseDoesNotBiasIt) {
     constexpr int kSeeds = 6;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
       StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20);
-      const EpipolarShift shift = measured({.width_px = 240, .height_px = 200, .contrast = 5, .noise = 4, .seed = seed, .rows_px = rows}, bench);
+      const EpipolarShift shift = measured(
+          {.width_px = 240, .height_px = 200, .contrast = 5, .noise = 4, .seed = seed, .rows_px = rows},
+          bench);
       ASSERT_TRUE(shift.measured());
       bias += (shift.offset_px - rows) / kSeeds;
       variance += shift.covariance_px2[0] / (kSeeds * kSeeds);
@@ -78,7 +83,8 @@ TEST(EpipolarAlignment, NoiseDoesNotBiasIt) {
 
 TEST(EpipolarAlignment, ExposureAndAWrongSurfaceDoNotMatter) {
   StageBench bench(std::size_t{32} << 20, std::size_t{16} << 20);
-  const EpipolarShift unequal = measured({.width_px = 240, .height_px = 200, .right_gain = 0.6, .right_offset = 25, .rows_px = 0.2}, bench);
+  const EpipolarShift unequal = measured(
+      {.width_px = 240, .height_px = 200, .right_gain = 0.6, .right_offset = 25, .rows_px = 0.2}, bench);
   EXPECT_NEAR(unequal.offset_px, 0.2, 0.03);
   const EpipolarShift beside = measured({.width_px = 240, .height_px = 200, .rows_px = 0.2}, bench, 0.8);
   EXPECT_NEAR(beside.offset_px, 0.2, 0.05);
@@ -102,7 +108,9 @@ TEST(EpipolarAlignment, ShiftedRowsAgree) {
   double worst = 0;
   for (int y = 12; y < moved.height_px - 12; ++y)
     for (int x = 12; x < moved.width_px - 12; ++x)
-      worst = std::max(worst, std::abs(static_cast<double>(right.row(y)[x] - still.right.grey[static_cast<std::size_t>(y * moved.width_px + x)])));
+      worst = std::max(
+          worst, std::abs(static_cast<double>(
+                     right.row(y)[x] - still.right.grey[static_cast<std::size_t>(y * moved.width_px + x)])));
   EXPECT_LT(worst, 6) << "of a texture of 20 grey levels' deviation, waves from 5 px on";
 }
 

@@ -31,7 +31,9 @@ struct Face {
       for (int x = 80; x <= 560; x += 16) {
         const bool liar = random() % 10 == 0;
         const double sigma = liar ? 4 : noise;
-        locals.push_back({x + 3.0, y - 2.0, linear().at(x + 3.0, y - 2.0) + at(x + 3.0, y - 2.0) + sigma * normal(random), 500, 0});
+        locals.push_back({x + 3.0, y - 2.0,
+                          linear().at(x + 3.0, y - 2.0) + at(x + 3.0, y - 2.0) + sigma * normal(random), 500,
+                          0});
       }
   }
   double at(double x, double y) const {
@@ -77,7 +79,8 @@ TEST(RowMotion, AHillIsFoundAndTheRestStays) {
       }
       const auto n = static_cast<double>(face.locals.size());
       EXPECT_LT(std::sqrt(square / n), 0.08 + 0.02 * std::abs(height)) << height;
-      EXPECT_NEAR(motion.at(320, 460), height, 0.2 + 0.06 * std::abs(height)) << "the prior draws it down a little";
+      EXPECT_NEAR(motion.at(320, 460), height, 0.2 + 0.06 * std::abs(height))
+          << "the prior draws it down a little";
       EXPECT_NEAR(motion.at(320, 150), 0, 0.25);
       EXPECT_NEAR(motion.rms_px, std::sqrt(own / n), 0.1);
     }

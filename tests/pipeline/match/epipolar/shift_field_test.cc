@@ -27,7 +27,8 @@ struct Places {
         // Those with less information are noisier, as in life.
         const double information = i % 3 == 0 ? 100 : 900;
         const double sigma = noise * std::sqrt(900 / information);
-        locals.push_back({x, y, at(x, y) + sigma * normal(random) + together[static_cast<std::size_t>(block)], information, block});
+        locals.push_back({x, y, at(x, y) + sigma * normal(random) + together[static_cast<std::size_t>(block)],
+                          information, block});
       }
   }
   double at(double x, double y) const { return offset + slope_x * (x - 930) + slope_y * (y - 570); }
@@ -48,7 +49,8 @@ TEST_F(ShiftField, FindsAPerfectField) {
   EXPECT_NEAR(shift.slope_x, 4e-4, 1e-12);
   EXPECT_NEAR(shift.slope_y, -2e-4, 1e-12);
   double square = 0;
-  for (const LocalShift& at : places.locals) square += places.at(at.x_px, at.y_px) * places.at(at.x_px, at.y_px);
+  for (const LocalShift& at : places.locals)
+    square += places.at(at.x_px, at.y_px) * places.at(at.x_px, at.y_px);
   EXPECT_NEAR(shift.residual_px, std::sqrt(square / 1080), 0.01);
   EXPECT_EQ(scratch_.used(), 0U);
 }
@@ -75,7 +77,8 @@ TEST_F(ShiftField, AFifthOfLiarsDoNotMoveIt) {
     places.locals[k].information = 5000;  // and sure of themselves
   }
   const EpipolarShift shift = fit_shift_field(places.locals, true, scratch_);
-  EXPECT_NEAR(shift.offset_px, places.at(shift.middle_x_px, shift.middle_y_px), 4 * std::sqrt(shift.covariance_px2[0]));
+  EXPECT_NEAR(shift.offset_px, places.at(shift.middle_x_px, shift.middle_y_px),
+              4 * std::sqrt(shift.covariance_px2[0]));
   EXPECT_LT(shift.sigma_px, 0.02);
 }
 
@@ -83,12 +86,14 @@ TEST_F(ShiftField, TooLittleIsNotMeasured) {
   const Places places(random_, 0.1, 0);
   EXPECT_FALSE(fit_shift_field({}, true, scratch_).measured());
   EXPECT_FALSE(fit_shift_field(std::span(places.locals).first(11), true, scratch_).measured());
-  EXPECT_FALSE(fit_shift_field(std::span(places.locals).first(150), true, scratch_).measured()) << "one row of blocks";
+  EXPECT_FALSE(fit_shift_field(std::span(places.locals).first(150), true, scratch_).measured())
+      << "one row of blocks";
 }
 
 TEST_F(ShiftField, TwoFieldsAddUp) {
   EpipolarShift first;
-  first.offset_px = 0.5, first.slope_x = 1e-3, first.slope_y = 2e-3, first.middle_x_px = 100, first.middle_y_px = 50;
+  first.offset_px = 0.5, first.slope_x = 1e-3, first.slope_y = 2e-3, first.middle_x_px = 100,
+  first.middle_y_px = 50;
   const EpipolarShift second = fit_shift_field(Places(random_, 0.1, 0).locals, true, scratch_);
   const EpipolarShift sum = sum_of(first, second);
   for (const double x : {0.0, 500.0, 1000.0})

@@ -25,7 +25,9 @@ class FileMatcherTest : public testing::Test {
   Result<MatchSet> read_file(const std::string& path, std::size_t output_bytes = 1 << 22) {
     bench_ = std::make_unique<StageBench>(output_bytes, 1 << 22, 1);
     const Keypoints none(std::pmr::get_default_resource());
-    return run_stage(bench_->context, [&](StageContext& c) { return FileMatcher({.path = path, .sigma_px = 0.4F}).match(pair_, none, c); });
+    return run_stage(bench_->context, [&](StageContext& c) {
+      return FileMatcher({.path = path, .sigma_px = 0.4F}).match(pair_, none, c);
+    });
   }
   std::string refusal(const std::string& text) {
     const auto matches = read(text);
@@ -43,7 +45,8 @@ class FileMatcherTest : public testing::Test {
 };
 
 TEST_F(FileMatcherTest, ReadsWhatAHandWrites) {
-  const auto matches = read("# by hand\n80.5 50 21.25\n\n  90, 51.5,\t20 , 0.125  # an eye\r\n100\t52\t-3e-1");
+  const auto matches =
+      read("# by hand\n80.5 50 21.25\n\n  90, 51.5,\t20 , 0.125  # an eye\r\n100\t52\t-3e-1");
   ASSERT_TRUE(matches);
   ASSERT_EQ(matches->matches.size(), 3U);
   EXPECT_EQ(matches->lattice_step_px, 0);
@@ -64,9 +67,11 @@ TEST_F(FileMatcherTest, SaysHowAlikeTheTwoPlacesAre) {
 }
 
 TEST_F(FileMatcherTest, HostileFilesAreRefusedByTheirLine) {
-  for (const char* line : {"80", "80 50", "80 50 20 1 1", "80 50 x", "80 50 20x", "80 50 nan", "80 50 inf", "80 50 1e999", "80,,50 20", "80 50 20,",
-                           ",80 50 20", "80 50 0x14", "-1 50 20", "160 50 20", "80 100 20", "80 50 90", "80 50 -90", "80 50 20 0", "80 50 20 -1",
-                           "80 50 20 1e9", "\x01\x02", "80;50;20", "eighty fifty twenty"}) {
+  for (const char* line :
+       {"80",          "80 50",        "80 50 20 1 1", "80 50 x",   "80 50 20x",          "80 50 nan",
+        "80 50 inf",   "80 50 1e999",  "80,,50 20",    "80 50 20,", ",80 50 20",          "80 50 0x14",
+        "-1 50 20",    "160 50 20",    "80 100 20",    "80 50 90",  "80 50 -90",          "80 50 20 0",
+        "80 50 20 -1", "80 50 20 1e9", "\x01\x02",     "80;50;20",  "eighty fifty twenty"}) {
     const std::string place = refusal(std::string("# one\n80 50 20\n") + line + "\n80 50 20\n");
     EXPECT_NE(place.find("matches.txt line 3"), std::string::npos) << line << " -> " << place;
   }
@@ -92,7 +97,8 @@ TEST_F(FileMatcherTest, MemoryThatIsUsedUpAndCancellationAreReported) {
   bench_->output.reset();
   StageBench roomy(1 << 20, 1 << 20, 1);
   roomy.cancelled = true;
-  const auto matches = FileMatcher({.path = (folder_.path() / "matches.txt").string()}).match(pair_, none, roomy.context);
+  const auto matches =
+      FileMatcher({.path = (folder_.path() / "matches.txt").string()}).match(pair_, none, roomy.context);
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }

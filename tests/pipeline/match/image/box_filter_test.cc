@@ -23,7 +23,8 @@ TEST(BoxSum, EqualsTheSlowTwinForEveryRadius) {
       for (int x = 0; x < 37; ++x) {
         double sum = 0;
         for (int j = std::max(0, y - radius); j <= std::min(22, y + radius); ++j)
-          for (int i = std::max(0, x - radius); i <= std::min(36, x + radius); ++i) sum += static_cast<double>(from.row(j)[i]);
+          for (int i = std::max(0, x - radius); i <= std::min(36, x + radius); ++i)
+            sum += static_cast<double>(from.row(j)[i]);
         EXPECT_NEAR(static_cast<double>(to.row(y)[x]), sum, 0.02) << radius << " at " << x << "," << y;
       }
   }

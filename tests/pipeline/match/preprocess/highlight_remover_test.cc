@@ -20,7 +20,8 @@ using test::StageBench;
 const test::BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
 struct Bench : StageBench {
-  explicit Bench(std::size_t scratch_bytes = std::size_t{1} << 20) : StageBench(std::size_t{8} << 20, scratch_bytes) {}
+  explicit Bench(std::size_t scratch_bytes = std::size_t{1} << 20)
+      : StageBench(std::size_t{8} << 20, scratch_bytes) {}
   RectifiedPair skin(double light = kLeftLamp.light) { return test::shining_skin(kScene, &output, light); }
   // A pair without a region is a face all over.
   Result<void> remove(RectifiedPair& pair) {
@@ -29,7 +30,8 @@ struct Bench : StageBench {
   }
 };
 
-double rms_apart(const RectifiedView& a, const RectifiedView& b, int width_px, const Lamp& around, double radii) {
+double rms_apart(const RectifiedView& a, const RectifiedView& b, int width_px, const Lamp& around,
+                 double radii) {
   double sum = 0, n = 0;
   for (std::size_t k = 0; k < a.grey.size(); ++k) {
     const double dx = static_cast<double>(k % static_cast<std::size_t>(width_px)) - around.x_px;
@@ -53,7 +55,9 @@ TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
   EXPECT_LT(rms_apart(done.right, dull.right, dull.width_px, kRightLamp, 2), 0.6 * added);
   std::size_t far = 0;
   for (std::size_t k = 0; k < dull.left.grey.size(); ++k) {
-    if (std::hypot(static_cast<double>(k % 200) - kLeftLamp.x_px, static_cast<double>(k / 200) - kLeftLamp.y_px) < 5 * kLeftLamp.radius_px) continue;
+    if (std::hypot(static_cast<double>(k % 200) - kLeftLamp.x_px,
+                   static_cast<double>(k / 200) - kLeftLamp.y_px) < 5 * kLeftLamp.radius_px)
+      continue;
     ASSERT_NEAR(done.left.grey[k], shining.left.grey[k], 0.5) << k;
     ++far;
   }
@@ -67,7 +71,8 @@ TEST(HighlightRemover, RedLipsAreAskedByTheirOwnColour) {
   constexpr Lamp kLamp{90, 80, 5, 0.12};
   const auto painted = [&](double light) {
     RectifiedPair pair = kScene.render(&bench.output);
-    for (RectifiedView* view : {&pair.left, &pair.right}) paint_skin(*view, pair.width_px, {kLamp.x_px, kLamp.y_px, kLamp.radius_px, light}, kLips);
+    for (RectifiedView* view : {&pair.left, &pair.right})
+      paint_skin(*view, pair.width_px, {kLamp.x_px, kLamp.y_px, kLamp.radius_px, light}, kLips);
     pair.face_centre_px = {90, 80};
     pair.face_width_px = 300;  // lips of 28 px, a lamp's image of 20
     return pair;
@@ -86,10 +91,12 @@ TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
   for (const int top : {10, 70}) {
     RectifiedPair done = bench.skin();
     done.region.assign(done.left.grey.size(), 0);
-    for (int y = top; y < top + 20; ++y) std::fill_n(done.region.begin() + y * done.width_px + 40, 100, std::uint8_t{1});
+    for (int y = top; y < top + 20; ++y)
+      std::fill_n(done.region.begin() + y * done.width_px + 40, 100, std::uint8_t{1});
     ASSERT_TRUE(bench.remove(done));
     const double changed = rms_apart(done.left, shining.left, shining.width_px, kLeftLamp, 1);
-    if (top == 10) EXPECT_EQ(changed, 0); else EXPECT_GT(changed, 5);
+    if (top == 10) EXPECT_EQ(changed, 0);
+    else EXPECT_GT(changed, 5);
   }
 }
 
@@ -98,12 +105,14 @@ TEST(HighlightRemover, WhereNoFaceIsLookedForNothingIsSkin) {
   RectifiedPair pair = bench.skin();
   pair.region.clear();
   const auto left = pair.left.grey, right = pair.right.grey;
-  ASSERT_TRUE(run_stage(bench.context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); }));
+  ASSERT_TRUE(
+      run_stage(bench.context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); }));
   EXPECT_EQ(pair.left.grey, left);
   EXPECT_EQ(pair.right.grey, right);
 }
 
-// Of two cameras exposed unlike, the brighter one sees skin whose red has reached its end: paler than it is, as under a lamp.
+// Of two cameras exposed unlike, the brighter one sees skin whose red has reached its end: paler than it is,
+// as under a lamp.
 TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
   Bench bench;
   RectifiedPair pair = bench.skin(0);
@@ -113,13 +122,15 @@ TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
   const double gain = 262.0 / reds[reds.size() / 2];
   for (std::uint8_t& v : pair.left.rgb) v = static_cast<std::uint8_t>(std::min(255L, std::lround(gain * v)));
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k)
-    pair.left.grey[k] = static_cast<float>(pair.left.rgb[3 * k] + pair.left.rgb[3 * k + 1] + pair.left.rgb[3 * k + 2]) / 3;
+    pair.left.grey[k] =
+        static_cast<float>(pair.left.rgb[3 * k] + pair.left.rgb[3 * k + 1] + pair.left.rgb[3 * k + 2]) / 3;
   std::size_t ended = 0;
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k) ended += pair.left.rgb[3 * k] == 255 ? 1U : 0U;
   ASSERT_GT(ended, pair.left.grey.size() / 4);
   const auto before = pair.left.grey;
   ASSERT_TRUE(bench.remove(pair));
-  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 0.75) << "x " << k % 200 << " y " << k / 200;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    ASSERT_NEAR(pair.left.grey[k], before[k], 0.75) << "x " << k % 200 << " y " << k / 200;
 }
 
 // The white of an eye, teeth: no skin. Right beside them two or three levels may go.
@@ -134,7 +145,8 @@ TEST(HighlightRemover, WhiteThingsStay) {
     }
   const auto before = pair.left.grey;
   ASSERT_TRUE(bench.remove(pair));
-  for (std::size_t k = 0; k < before.size(); ++k) ASSERT_NEAR(pair.left.grey[k], before[k], 3) << "x " << k % 200 << " y " << k / 200;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    ASSERT_NEAR(pair.left.grey[k], before[k], 3) << "x " << k % 200 << " y " << k / 200;
 }
 
 TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {
@@ -142,7 +154,8 @@ TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {
   RectifiedPair pair = bench.skin();
   for (RectifiedView* view : {&pair.left, &pair.right})
     for (std::size_t k = 0; k < view->grey.size(); ++k)
-      std::fill_n(view->rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, static_cast<std::uint8_t>(view->grey[k]));
+      std::fill_n(view->rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
+                  static_cast<std::uint8_t>(view->grey[k]));
   const auto left = pair.left.grey, right = pair.right.grey;
   ASSERT_TRUE(bench.remove(pair));
   EXPECT_EQ(pair.left.grey, left);

@@ -28,7 +28,8 @@ using test::StageBench;
 const BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
 const RectifiedPair& rendered() {
-  static const RectifiedPair pair = test::shining_skin(kScene, std::pmr::get_default_resource(), test::kLeftLamp.light);
+  static const RectifiedPair pair =
+      test::shining_skin(kScene, std::pmr::get_default_resource(), test::kLeftLamp.light);
   return pair;
 }
 
@@ -138,11 +139,14 @@ INSTANTIATE_TEST_SUITE_P(All, PreprocessorContract, testing::ValuesIn(test::name
                          [](const auto& name) { return test::test_name(name.param); });
 
 // How the right camera's exposure may differ: 255 * gain * (grey / 255)^gamma + offset.
-struct Exposure { double gain, offset, gamma; };
+struct Exposure {
+  double gain, offset, gamma;
+};
 
 void expose(RectifiedPair& pair, const Exposure& e) {
   for (float& grey : pair.right.grey)
-    grey = static_cast<float>(255 * e.gain * std::pow(std::max(0.0, static_cast<double>(grey)) / 255, e.gamma) + e.offset);
+    grey = static_cast<float>(
+        255 * e.gain * std::pow(std::max(0.0, static_cast<double>(grey)) / 255, e.gamma) + e.offset);
 }
 
 // Rms of left minus its true partner over the left view's standard deviation, where the scene is seen twice.
@@ -154,14 +158,20 @@ double unlikeness(const BumpScene& scene, const RectifiedPair& pair) {
       const double at = x - scene.disparity(x, y);
       const int column = static_cast<int>(at);
       const float* right = pair.right.grey.data() + static_cast<std::ptrdiff_t>(y) * pair.width_px + column;
-      const double partner = static_cast<double>(right[0]) + (at - column) * static_cast<double>(right[1] - right[0]);
-      const double left = static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
-      ++n; sum += left; squares += left * left; apart += (left - partner) * (left - partner);
+      const double partner =
+          static_cast<double>(right[0]) + (at - column) * static_cast<double>(right[1] - right[0]);
+      const double left =
+          static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
+      ++n;
+      sum += left;
+      squares += left * left;
+      apart += (left - partner) * (left - partner);
     }
   return std::sqrt(apart / n / (squares / n - sum * sum / n / n));
 }
 
-constexpr Exposure kExposures[] = {{0.6, 0, 1}, {1, 40, 1}, {0.5, 90, 1}, {0.9, 0, 0.6}, {0.9, 5, 1.8}, {0.7, 30, 1.4}};
+constexpr Exposure kExposures[] = {{0.6, 0, 1},   {1, 40, 1},    {0.5, 90, 1},
+                                   {0.9, 0, 0.6}, {0.9, 5, 1.8}, {0.7, 30, 1.4}};
 
 TEST(Preprocessors, ExposuresAreUndone) {
   for (const std::uint32_t seed : {1U, 2U}) {
@@ -183,7 +193,8 @@ TEST(Preprocessors, ExposuresAreUndone) {
         const auto done = run(*make(name), pair, bench);
         ASSERT_TRUE(done);
         // The views show a slightly different part of the scene: their histograms are not the same.
-        EXPECT_LT(unlikeness(scene, *done), 0.15) << name << " gain " << exposure.gain << " offset " << exposure.offset << " gamma " << exposure.gamma;
+        EXPECT_LT(unlikeness(scene, *done), 0.15) << name << " gain " << exposure.gain << " offset "
+                                                  << exposure.offset << " gamma " << exposure.gamma;
       }
     }
   }
@@ -204,11 +215,13 @@ TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
   const auto& after = done->left.grey;
   std::size_t checked = 0;
   for (std::size_t k = 2; k < before.size(); k += 97) {
-    const bool inside = std::all_of(after.begin() + static_cast<std::ptrdiff_t>(k) - 2, after.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+    const bool inside = std::all_of(after.begin() + static_cast<std::ptrdiff_t>(k) - 2,
+                                    after.begin() + static_cast<std::ptrdiff_t>(k) + 1,
                                     [](float v) { return v > 1 && v < 254; });
     if (!inside || std::abs(before[k] - before[k - 2]) < 4) continue;
     const float was = (before[k - 1] - before[k - 2]) / (before[k] - before[k - 2]);
-    EXPECT_NEAR((after[k - 1] - after[k - 2]) / (after[k] - after[k - 2]), was, 0.01F + 0.01F * std::abs(was));
+    EXPECT_NEAR((after[k - 1] - after[k - 2]) / (after[k] - after[k - 2]), was,
+                0.01F + 0.01F * std::abs(was));
     ++checked;
   }
   EXPECT_GT(checked, 100U);
@@ -219,7 +232,8 @@ TEST(Preprocessors, TheEqualisedHistogramIsFlat) {
   const auto done = run(*make("histogram-normalise"), bench.scene(), bench);
   ASSERT_TRUE(done);
   std::vector<double> tenths(10);
-  for (const float grey : done->left.grey) tenths[std::min<std::size_t>(9, static_cast<std::size_t>(grey / 25.5F))] += 1;
+  for (const float grey : done->left.grey)
+    tenths[std::min<std::size_t>(9, static_cast<std::size_t>(grey / 25.5F))] += 1;
   for (const double n : tenths) EXPECT_NEAR(n / static_cast<double>(done->left.grey.size()), 0.1, 0.005);
 }
 
@@ -237,8 +251,14 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x) {
       const auto k = static_cast<std::size_t>(y * pair.width_px + x);
-      if (x >= pair.width_px - 30) { pair.right.grey[k] = 255; pair.right.valid[k] = 0; }
-      if (y < 40) { pair.left.grey[k] = 0; pair.region[k] = 0; }
+      if (x >= pair.width_px - 30) {
+        pair.right.grey[k] = 255;
+        pair.right.valid[k] = 0;
+      }
+      if (y < 40) {
+        pair.left.grey[k] = 0;
+        pair.region[k] = 0;
+      }
     }
   const auto done = run(*make("histogram-match"), pair, bench);
   ASSERT_TRUE(done);
@@ -256,16 +276,24 @@ TEST(GreyHistogram, AgreesWithCounting) {
   Bench bench;
   const RectifiedPair pair = bench.scene();
   const auto all = [](int, int) { return true; };
-  const GreyHistogram histogram = GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, all, bench.pool);
+  const GreyHistogram histogram =
+      GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, all, bench.pool);
   std::vector<float> sorted(pair.left.grey.begin(), pair.left.grey.end());
   std::sort(sorted.begin(), sorted.end());
   ASSERT_EQ(histogram.count(), sorted.size());
   for (double grey = 1; grey < 254; grey += 3.7) {
-    const auto below = std::lower_bound(sorted.begin(), sorted.end(), static_cast<float>(grey)) - sorted.begin();
-    EXPECT_NEAR(histogram.share_below(grey), static_cast<double>(below) / static_cast<double>(sorted.size()), 0.002) << grey;
+    const auto below =
+        std::lower_bound(sorted.begin(), sorted.end(), static_cast<float>(grey)) - sorted.begin();
+    EXPECT_NEAR(histogram.share_below(grey), static_cast<double>(below) / static_cast<double>(sorted.size()),
+                0.002)
+        << grey;
   }
   for (double share = 0.01; share < 1; share += 0.07)
-    EXPECT_NEAR(histogram.grey_at(share), static_cast<double>(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size()))]), 0.6) << share;
+    EXPECT_NEAR(
+        histogram.grey_at(share),
+        static_cast<double>(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size()))]),
+        0.6)
+        << share;
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ struct Pictures {
     for (std::size_t k = 0; k < rgb.size(); ++k) rgb[k] = static_cast<std::byte>(k * 7 % 253);
   }
   StereoFrame frame() const {
-    return {{grey.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8}, {rgb.data(), kWidth, kHeight, 3 * kWidth, PixelFormat::Rgb8}};
+    return {{grey.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8},
+            {rgb.data(), kWidth, kHeight, 3 * kWidth, PixelFormat::Rgb8}};
   }
 };
 
@@ -46,7 +47,8 @@ TEST(GivenPair, TakesEveryPixelAsItIs) {
 TEST(GivenPair, TheNominalRigHoldsTheRangeWhateverItsSign) {
   const Pictures pictures;
   test::StageBench bench(std::size_t{4} << 20, std::size_t{1} << 16, 1);
-  for (const DisparityRange range : {DisparityRange{0, 256}, DisparityRange{-40, 30}, DisparityRange{12, 60}, DisparityRange{-90, -20}}) {
+  for (const DisparityRange range :
+       {DisparityRange{0, 256}, DisparityRange{-40, 30}, DisparityRange{12, 60}, DisparityRange{-90, -20}}) {
     const auto pair = take_rectified(pictures.frame(), range, bench.context);
     ASSERT_TRUE(pair);
     EXPECT_GT(pair->near_mm, 0);
@@ -68,7 +70,9 @@ TEST(GivenPair, RefusesWhatIsNoPair) {
   frame.right = {};
   EXPECT_EQ(take_rectified(frame, {0, 64}, bench.context).error().code, Errc::InvalidInput);
   test::StageBench tiny(1024, 1024, 1);
-  const auto starved = run_stage(tiny.context, [&](StageContext& c) { return take_rectified(pictures.frame(), {0, 64}, c); });
+  const auto starved = run_stage(tiny.context, [&](StageContext& c) {
+    return take_rectified(pictures.frame(), {0, 64}, c);
+  });
   EXPECT_EQ(starved.error().code, Errc::OutOfMemory);
 }
 

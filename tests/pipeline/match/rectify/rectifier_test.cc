@@ -55,8 +55,10 @@ TEST(RectifiedGeometry, APointLiesOnTheSameRowInBothViewsAtTheStatedDepth) {
         const double v = pair.focal_px * p.y / p.z + pair.left_centre_px.y;
         const double u_right = pair.focal_px * (p.x - pair.baseline_mm) / p.z + pair.right_centre_px.x;
         EXPECT_NEAR(pair.depth_mm(u - u_right), p.z, 1e-6);
-        const Vec2d left = source_pixel(c.left, pair.rectified_from_left, pair.focal_px, pair.left_centre_px, {u, v});
-        const Vec2d right = source_pixel(c.right, pair.rectified_from_right, pair.focal_px, pair.right_centre_px, {u_right, v});
+        const Vec2d left =
+            source_pixel(c.left, pair.rectified_from_left, pair.focal_px, pair.left_centre_px, {u, v});
+        const Vec2d right = source_pixel(c.right, pair.rectified_from_right, pair.focal_px,
+                                         pair.right_centre_px, {u_right, v});
         const Vec2d left_truth = project(c.left, in_left);
         const Vec2d right_truth = project(c.right, apply(c.right_from_left, in_left));
         EXPECT_NEAR(left.x, left_truth.x, 1e-6);
@@ -89,8 +91,11 @@ TEST(RectifiedGeometry, LyingSensorsGiveUprightWindows) {
     EXPECT_EQ(pair.width_px, upright.width_px);
     EXPECT_EQ(pair.height_px, upright.height_px);
     for (const Vec2d at : {Vec2d{20, 30}, Vec2d{300, 500}, Vec2d{250, 90}}) {
-      const Vec2d expected = test::laid(source_pixel(c.right, upright.rectified_from_right, upright.focal_px, upright.right_centre_px, at), 480, 640, side);
-      const Vec2d found = source_pixel(lying.right, pair.rectified_from_right, pair.focal_px, pair.right_centre_px, at);
+      const Vec2d expected = test::laid(
+          source_pixel(c.right, upright.rectified_from_right, upright.focal_px, upright.right_centre_px, at),
+          480, 640, side);
+      const Vec2d found =
+          source_pixel(lying.right, pair.rectified_from_right, pair.focal_px, pair.right_centre_px, at);
       EXPECT_NEAR(found.x, expected.x, 1e-6);
       EXPECT_NEAR(found.y, expected.y, 1e-6);
     }
@@ -126,15 +131,20 @@ TEST(Rectifier, ResamplesASmoothPictureToItsAnalyticValues) {
   const auto shade = [](double x, double y) { return 128 + 60 * std::sin(0.05 * x) * std::cos(0.04 * y); };
   std::vector<std::uint16_t> picture(static_cast<std::size_t>(w * h));
   for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) picture[static_cast<std::size_t>(y * w + x)] = static_cast<std::uint16_t>(std::lround(257 * shade(x, y)));
+    for (int x = 0; x < w; ++x)
+      picture[static_cast<std::size_t>(y * w + x)] =
+          static_cast<std::uint16_t>(std::lround(257 * shade(x, y)));
   const ImageView view{reinterpret_cast<const std::byte*>(picture.data()), w, h, 2 * w, PixelFormat::Grey16};
   test::StageBench bench;
-  const auto pair = run_stage(bench.context, [&](StageContext& ctx) { return Rectifier({}).rectify({view, view}, c, ctx); });
+  const auto pair = run_stage(bench.context, [&](StageContext& ctx) {
+    return Rectifier({}).rectify({view, view}, c, ctx);
+  });
   ASSERT_TRUE(pair);
   std::size_t seen = 0;
   for (int y = 0; y < pair->height_px; ++y)
     for (int x = 0; x < pair->width_px; ++x) {
-      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair->width_px) + static_cast<std::size_t>(x);
+      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair->width_px) +
+                     static_cast<std::size_t>(x);
       if (pair->left.valid[k] == 0) continue;
       ++seen;
       const Vec2d from = source_pixel(c.left, pair->rectified_from_left, pair->focal_px, pair->left_centre_px,
@@ -150,8 +160,11 @@ TEST(Rectifier, RefusesWhatIsNotThisCalibrations) {
   const ImageView right_size{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
   const ImageView wrong_size{bytes.data(), 152, 120, 456, PixelFormat::Rgb8};
   test::StageBench bench(1 << 22, 1 << 22);
-  for (const auto& [left, right] : {std::pair{wrong_size, right_size}, std::pair{right_size, wrong_size}, std::pair{ImageView{}, right_size}}) {
-    const auto pair = run_stage(bench.context, [&, l = left, r = right](StageContext& ctx) { return Rectifier({}).rectify({l, r}, c, ctx); });
+  for (const auto& [left, right] : {std::pair{wrong_size, right_size}, std::pair{right_size, wrong_size},
+                                    std::pair{ImageView{}, right_size}}) {
+    const auto pair = run_stage(bench.context, [&, l = left, r = right](StageContext& ctx) {
+      return Rectifier({}).rectify({l, r}, c, ctx);
+    });
     ASSERT_FALSE(pair);
     EXPECT_EQ(pair.error().code, Errc::InvalidInput);
     EXPECT_FALSE(pair.error().where().empty());
@@ -165,9 +178,13 @@ TEST(Rectifier, EveryArenaTooSmallSaysSo) {
   bool succeeded = false;
   for (std::size_t size = 512; size < (1U << 24) && !succeeded; size += size / 3) {
     test::StageBench bench(size, size, 1);
-    const auto pair = run_stage(bench.context, [&](StageContext& ctx) { return Rectifier({}).rectify({view, view}, c, ctx); });
+    const auto pair = run_stage(bench.context, [&](StageContext& ctx) {
+      return Rectifier({}).rectify({view, view}, c, ctx);
+    });
     succeeded = pair.has_value();
-    if (!succeeded) { EXPECT_EQ(pair.error().code, Errc::OutOfMemory); }
+    if (!succeeded) {
+      EXPECT_EQ(pair.error().code, Errc::OutOfMemory);
+    }
   }
   EXPECT_TRUE(succeeded);
 }

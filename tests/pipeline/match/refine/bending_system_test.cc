@@ -27,10 +27,13 @@ Eigen::MatrixXd dense(const BendingSystem& s) {
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       m(id(x, y), id(x, y)) += static_cast<double>(s.data.row(y)[x]);
-      if (s.bend_xx.row(y)[x] > 0) add(s.bend_xx.row(y)[x], {{id(x - 1, y), 1}, {id(x, y), -2}, {id(x + 1, y), 1}});
-      if (s.bend_yy.row(y)[x] > 0) add(s.bend_yy.row(y)[x], {{id(x, y - 1), 1}, {id(x, y), -2}, {id(x, y + 1), 1}});
+      if (s.bend_xx.row(y)[x] > 0)
+        add(s.bend_xx.row(y)[x], {{id(x - 1, y), 1}, {id(x, y), -2}, {id(x + 1, y), 1}});
+      if (s.bend_yy.row(y)[x] > 0)
+        add(s.bend_yy.row(y)[x], {{id(x, y - 1), 1}, {id(x, y), -2}, {id(x, y + 1), 1}});
       if (s.bend_xy.row(y)[x] > 0)
-        add(s.bend_xy.row(y)[x], {{id(x, y), 1}, {id(x + 1, y), -1}, {id(x, y + 1), -1}, {id(x + 1, y + 1), 1}});
+        add(s.bend_xy.row(y)[x],
+            {{id(x, y), 1}, {id(x + 1, y), -1}, {id(x, y + 1), -1}, {id(x + 1, y + 1), 1}});
     }
   return m;
 }
@@ -40,7 +43,8 @@ void fill(BendingSystem& s, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.1F, 1);
   const auto in = [&](int x, int y) {
-    return x >= 1 && y >= 1 && x < s.width() - 1 && y < s.height() - 1 && !(x >= 5 && x < 7 && y >= 4 && y < 6);
+    return x >= 1 && y >= 1 && x < s.width() - 1 && y < s.height() - 1 &&
+           !(x >= 5 && x < 7 && y >= 4 && y < 6);
   };
   for (int y = 0; y < s.height(); ++y)
     for (int x = 0; x < s.width(); ++x) {
@@ -60,7 +64,8 @@ TEST(BendingSystem, AppliesLikeItsDenseTwin) {
   Plane<float> x(&bench.scratch, 13, 11);
   std::mt19937 random(2);
   for (int j = 1; j < 10; ++j)
-    for (int i = 1; i < 12; ++i) x.row(j)[i] = s.data.row(j)[i] > 0 ? std::uniform_real_distribution<float>(-1, 1)(random) : 0.0F;
+    for (int i = 1; i < 12; ++i)
+      x.row(j)[i] = s.data.row(j)[i] > 0 ? std::uniform_real_distribution<float>(-1, 1)(random) : 0.0F;
   Plane<float> out(&bench.scratch, 13, 11);
   Plane<float> rolling(&bench.scratch, rolling_floats(13), 1);
   // In two bands, as threads do it.
@@ -68,7 +73,8 @@ TEST(BendingSystem, AppliesLikeItsDenseTwin) {
   apply_system(s, x, true, out, 4, 11, rolling.row(0));
   const Eigen::MatrixXd m = dense(s);
   Eigen::VectorXd v(13 * 11);
-  for (std::size_t k = 0; k < x.values.size(); ++k) v(static_cast<long>(k)) = static_cast<double>(x.values[k]);
+  for (std::size_t k = 0; k < x.values.size(); ++k)
+    v(static_cast<long>(k)) = static_cast<double>(x.values[k]);
   const Eigen::VectorXd expected = m * v;
   for (std::size_t k = 0; k < out.values.size(); ++k)
     EXPECT_NEAR(static_cast<double>(out.values[k]), expected(static_cast<long>(k)), 2e-4) << k;
@@ -91,7 +97,8 @@ TEST(BendingSystem, SolvesLikeItsDenseTwin) {
     EXPECT_NEAR(static_cast<double>(x.values[k]), expected(static_cast<long>(k)), 2e-3) << k;
 }
 
-// Skin that says little: one node in sixteen is known, and a little. What the few say must reach all the others.
+// Skin that says little: one node in sixteen is known, and a little. What the few say must reach all the
+// others.
 void fill_sparsely(BendingSystem& s) {
   fill(s, 7);
   std::mt19937 random(8);
@@ -120,7 +127,8 @@ TEST(BendingSystem, IsSolvedInFewStepsWhereLittleIsKnown) {
   }
   const Eigen::VectorXd expected = m.ldlt().solve(b);
   double worst = 0;
-  for (std::size_t k = 0; k < x.values.size(); ++k) worst = std::max(worst, std::abs(static_cast<double>(x.values[k]) - expected(static_cast<long>(k))));
+  for (std::size_t k = 0; k < x.values.size(); ++k)
+    worst = std::max(worst, std::abs(static_cast<double>(x.values[k]) - expected(static_cast<long>(k))));
   EXPECT_LT(worst, 0.02 * expected.cwiseAbs().maxCoeff());
 }
 

@@ -24,7 +24,8 @@ struct Weighed {
   Plane<float> across{&bench.output, kSize, kSize}, wrinkled{&bench.output, kSize, kSize};
   BendingSystem system{&bench.output, kSize, kSize};
 
-  explicit Weighed(const std::function<float(int, int)>& surface, const BendingExpectation& expected = kExpected) {
+  explicit Weighed(const std::function<float(int, int)>& surface,
+                   const BendingExpectation& expected = kExpected) {
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         d.row(y)[x] = surface(x, y);
@@ -39,10 +40,13 @@ struct Weighed {
   }
 };
 
-float wave(int x, float height) { return height * std::sin(static_cast<float>(x) * 2 * std::numbers::pi_v<float> / 10); }
+float wave(int x, float height) {
+  return height * std::sin(static_cast<float>(x) * 2 * std::numbers::pi_v<float> / 10);
+}
 
 TEST(BendingWeights, APlaneIsHeldWhollyHoweverItTilts) {
-  const Weighed tilted([](int x, int y) { return 0.5F * static_cast<float>(x) - 0.25F * static_cast<float>(y); });
+  const Weighed tilted(
+      [](int x, int y) { return 0.5F * static_cast<float>(x) - 0.25F * static_cast<float>(y); });
   for (int x = 2; x < kSize - 2; ++x) {
     EXPECT_FLOAT_EQ(tilted.system.bend_xx.row(kMiddle)[x], 100);
     EXPECT_FLOAT_EQ(tilted.system.bend_yy.row(kMiddle)[x], 100);
@@ -52,7 +56,7 @@ TEST(BendingWeights, APlaneIsHeldWhollyHoweverItTilts) {
 
 TEST(BendingWeights, ACreaseIsLetGoWhereItIsAndNowhereElse) {
   const Weighed step([](int x, int) { return x < kMiddle ? 0.0F : 3.0F; });
-  EXPECT_LT(step.least(kMiddle - 1, kMiddle), 0.2F);   // 3 px are 43 creases: a two-thousandth
+  EXPECT_LT(step.least(kMiddle - 1, kMiddle), 0.2F);  // 3 px are 43 creases: a two-thousandth
   EXPECT_GT(step.least(kMiddle - 8, kMiddle - 4), 99.0F);
 }
 
@@ -81,7 +85,8 @@ TEST(BendingWeights, LittleWavesAllOverAreNoRelief) {
 TEST(BendingWeights, OutsideTheDomainNothingIsHeld) {
   Weighed scene([](int x, int y) { return static_cast<float>((x * 7 + y * 3) % 5); });
   scene.domain.row(kMiddle)[kMiddle] = 0;
-  weigh_bending(scene.d, scene.domain, kExpected, scene.bench.pool, scene.across, scene.wrinkled, scene.system);
+  weigh_bending(scene.d, scene.domain, kExpected, scene.bench.pool, scene.across, scene.wrinkled,
+                scene.system);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle], 0);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle - 1], 0);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle + 1], 0);

@@ -20,9 +20,9 @@ using test::StageBench;
 constexpr int kWidth = 320;
 constexpr int kHeight = 200;
 constexpr int kLevel = 1;
-constexpr float kSkin = 12;        // disparity in pixels of the level
+constexpr float kSkin = 12;  // disparity in pixels of the level
 constexpr float kHighlight = 9;
-constexpr double kSpot = 22;       // sigma of the highlight
+constexpr double kSpot = 22;  // sigma of the highlight
 
 // Both views, noise and all.
 struct Scene {
@@ -37,18 +37,24 @@ struct Scene {
     Plane<float> skin(&bench.output, kWidth + 64, kHeight), across(&bench.output, kWidth + 64, kHeight);
     for (float& v : skin.values) v = normal(random);
     box_sum(skin, 1, bench.context.pool, across, skin);  // pores of three pixels, as strong as a third
-    const auto spot = [](double x, int y) { return 40 * std::exp(-((x - 160) * (x - 160) + (y - 100.0) * (y - 100.0)) / (2 * kSpot * kSpot)); };
+    const auto spot = [](double x, int y) {
+      return 40 * std::exp(-((x - 160) * (x - 160) + (y - 100.0) * (y - 100.0)) / (2 * kSpot * kSpot));
+    };
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
-        left.row(y)[x] = 60 + texture / 3 * skin.row(y)[x] + static_cast<float>(spot(x, y)) + noise * normal(random);
-        right.row(y)[x] = 60 + texture / 3 * skin.row(y)[x + static_cast<int>(kSkin)] +
-                          static_cast<float>(spot(static_cast<double>(static_cast<float>(x) + kHighlight), y)) + noise * normal(random);
+        left.row(y)[x] =
+            60 + texture / 3 * skin.row(y)[x] + static_cast<float>(spot(x, y)) + noise * normal(random);
+        right.row(y)[x] =
+            60 + texture / 3 * skin.row(y)[x + static_cast<int>(kSkin)] +
+            static_cast<float>(spot(static_cast<double>(static_cast<float>(x) + kHighlight), y)) +
+            noise * normal(random);
       }
     for (int y = 10; y < kHeight - 10; ++y)
       for (int x = 40; x < kWidth - 20; ++x) {
         field.domain.row(y)[x] = 1;
         const double at_highlight = std::hypot(x - 160, y - 100) < 1.5 * kSpot ? 1 : 0;
-        field.disparity_px.row(y)[x] = (1 << kLevel) * (kSkin + static_cast<float>(at_highlight) * (kHighlight - kSkin));
+        field.disparity_px.row(y)[x] =
+            (1 << kLevel) * (kSkin + static_cast<float>(at_highlight) * (kHighlight - kSkin));
       }
   }
   RefinerScene views() const { return {left, right, valid, kLevel, 1}; }

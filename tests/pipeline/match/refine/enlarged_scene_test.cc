@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Enlarged pictures against polynomials, which a cubic must repeat; and what enlarging is for: bars six pixels wide, which at half the size are taken for the wall.
+// Enlarged pictures against polynomials, which a cubic must repeat; and what enlarging is for: bars six
+// pixels wide, which at half the size are taken for the wall.
 #include "pipeline/match/refine/enlarged_scene.h"
 
 #include <gtest/gtest.h>
@@ -34,11 +35,17 @@ RectifiedPair grey_pair(int width, int height) {
   return pair;
 }
 
-float& at(RectifiedView& view, int width, int x, int y) { return view.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+float& at(RectifiedView& view, int width, int x, int y) {
+  return view
+      .grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+}
 
 TEST(EnlargedScene, RepeatsAPolynomialBetweenThePixels) {
   RectifiedPair pair = grey_pair(kWidth, kHeight);
-  const auto grey = [](double x, double y) { return 100 + 0.2 * (x - 160) - 0.3 * (y - 100) + 0.001 * (x - 160) * (x - 160) + 0.002 * (x - 160) * (y - 100); };
+  const auto grey = [](double x, double y) {
+    return 100 + 0.2 * (x - 160) - 0.3 * (y - 100) + 0.001 * (x - 160) * (x - 160) +
+           0.002 * (x - 160) * (y - 100);
+  };
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) at(pair.left, kWidth, x, y) = static_cast<float>(grey(x, y));
   pair.left.valid[5 * kWidth + 7] = 0;
@@ -46,7 +53,8 @@ TEST(EnlargedScene, RepeatsAPolynomialBetweenThePixels) {
   ASSERT_EQ(made.width_px, 2 * kWidth);
   ASSERT_EQ(made.height_px, 2 * kHeight);
   for (int y = 6; y < 2 * kHeight - 6; ++y)
-    for (int x = 6; x < 2 * kWidth - 6; ++x) ASSERT_NEAR(at(made.left, 2 * kWidth, x, y), grey((x - 0.5) / 2, (y - 0.5) / 2), 0.01) << x << " " << y;
+    for (int x = 6; x < 2 * kWidth - 6; ++x)
+      ASSERT_NEAR(at(made.left, 2 * kWidth, x, y), grey((x - 0.5) / 2, (y - 0.5) / 2), 0.01) << x << " " << y;
   int invalid = 0;
   for (const std::uint8_t v : made.left.valid) invalid += v == 0 ? 1 : 0;
   EXPECT_EQ(invalid, 4);
@@ -99,7 +107,8 @@ TEST(EnlargedScene, BarsSixPixelsWideStandBeforeTheirWall) {
   }
   test::StageBench bench(std::size_t{64} << 20, std::size_t{256} << 20);
   const Keypoints keypoints = test::lattice(pair, 1, &bench.output);
-  const auto found = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto found =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(found);
   int right = 0, asked = 0, of_wall = 0, wrong_of_wall = 0;
   for (const Match& m : found->matches) {
@@ -108,7 +117,8 @@ TEST(EnlargedScene, BarsSixPixelsWideStandBeforeTheirWall) {
     of_wall += !bar ? 1 : 0;
     wrong_of_wall += !bar && std::abs(m.disparity_px - kWall) > 1 ? 1 : 0;
   }
-  for (const Keypoint& k : keypoints.points) asked += on_bar(static_cast<int>(k.at_px.x)) && k.at_px.x > 60 ? 1 : 0;
+  for (const Keypoint& k : keypoints.points)
+    asked += on_bar(static_cast<int>(k.at_px.x)) && k.at_px.x > 60 ? 1 : 0;
   EXPECT_GT(right, 0.7 * asked);
   EXPECT_GT(of_wall, 0.5 * kWidth * kHeight);
   EXPECT_LT(wrong_of_wall, 0.1 * of_wall) << "nor are bars wider than they are";

@@ -16,7 +16,9 @@ namespace {
 
 constexpr int kWidth = 27, kHeight = 22;  // odd and even: the lattices above have a border on either side
 
-bool known(int x, int y) { return x >= 2 && y >= 1 && x < kWidth - 1 && y < kHeight - 2 && (x < 9 || x > 11 || y < 6 || y > 9); }
+bool known(int x, int y) {
+  return x >= 2 && y >= 1 && x < kWidth - 1 && y < kHeight - 2 && (x < 9 || x > 11 || y < 6 || y > 9);
+}
 
 void fill(BendingSystem& s) {
   std::mt19937 random(4);
@@ -42,7 +44,8 @@ Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageBench
     if (!known(k % kWidth, k / kWidth)) continue;
     r.values[static_cast<std::size_t>(k)] = 1;
     preconditioner.apply(r, whole, z);
-    for (int i = 0; i < kWidth * kHeight; ++i) m(i, k) = static_cast<double>(z.values[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < kWidth * kHeight; ++i)
+      m(i, k) = static_cast<double>(z.values[static_cast<std::size_t>(i)]);
   }
   return m;
 }
@@ -57,7 +60,8 @@ TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
   EXPECT_LT((m - m.transpose()).cwiseAbs().maxCoeff(), 1e-4 * m.cwiseAbs().maxCoeff());
   for (int k = 0; k < kWidth * kHeight; ++k)
     EXPECT_EQ(m(k, k) > 0, known(k % kWidth, k / kWidth)) << k % kWidth << ", " << k / kWidth;
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((m + m.transpose()) / 2).eigenvalues();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((m + m.transpose()) / 2).eigenvalues();
   int positive = 0;
   for (const double value : values) positive += value > 1e-4;
   int nodes = 0;

@@ -37,7 +37,8 @@ struct Scene {
   explicit Scene(float texture = 4, float brighter = 6, float noise = 0.7F) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> near(&bench.output, kWidth + 64, kHeight), far(&bench.output, kWidth + 64, kHeight), across(&bench.output, kWidth + 64, kHeight);
+    Plane<float> near(&bench.output, kWidth + 64, kHeight), far(&bench.output, kWidth + 64, kHeight),
+        across(&bench.output, kWidth + 64, kHeight);
     for (Plane<float>* skin : {&near, &far}) {
       for (float& v : skin->values) v = normal(random);
       box_sum(*skin, 1, bench.context.pool, across, *skin);
@@ -53,13 +54,16 @@ struct Scene {
     for (int y = kTop; y < kBottom; ++y)
       for (int x = 50; x < kWidth - 20; ++x) {
         field.domain.row(y)[x] = 1;
-        const float share = std::clamp((static_cast<float>(x - contour(y)) + kHang) / (2 * kHang), 0.0F, 1.0F);
+        const float share =
+            std::clamp((static_cast<float>(x - contour(y)) + kHang) / (2 * kHang), 0.0F, 1.0F);
         field.disparity_px.row(y)[x] = (1 << kLevel) * (kNear + share * (kFar - kNear));
       }
   }
   RefinerScene views() const { return {left, right, valid, kLevel, 1}; }
   int cut() { return cut_at_occluding_contours(views(), bench.context, field); }
-  float true_disparity(int x, int y) const { return static_cast<float>((1 << kLevel) * (x < contour(y) ? kNear : kFar)); }
+  float true_disparity(int x, int y) const {
+    return static_cast<float>((1 << kLevel) * (x < contour(y) ? kNear : kFar));
+  }
   // Nodes further than half a pixel of the level from the truth.
   int wrong() const {
     int count = 0;
@@ -98,9 +102,11 @@ TEST(OccludingContour, SteepSkinStays) {
     for (int x = 51; x < kWidth - 20; ++x) {
       const float from = static_cast<float>(x - 1) - scene.field.disparity_px.row(y)[x - 1] / (1 << kLevel);
       const float to = static_cast<float>(x) - scene.field.disparity_px.row(y)[x] / (1 << kLevel);
-      for (int k = std::max(0, static_cast<int>(std::ceil(from))); k <= static_cast<int>(std::floor(to)); ++k) {
+      for (int k = std::max(0, static_cast<int>(std::ceil(from))); k <= static_cast<int>(std::floor(to));
+           ++k) {
         const float t = (static_cast<float>(k) - from) / (to - from);
-        scene.right.row(y)[k] = 6 + scene.left.row(y)[x - 1] + t * (scene.left.row(y)[x] - scene.left.row(y)[x - 1]);
+        scene.right.row(y)[k] =
+            6 + scene.left.row(y)[x - 1] + t * (scene.left.row(y)[x] - scene.left.row(y)[x - 1]);
       }
     }
   const auto before = scene.field.disparity_px.values;
@@ -111,7 +117,8 @@ TEST(OccludingContour, SteepSkinStays) {
 TEST(OccludingContour, NothingSteepNothingCut) {
   Scene scene;
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) scene.field.disparity_px.row(y)[x] = static_cast<float>((1 << kLevel) * kNear);
+    for (int x = 0; x < kWidth; ++x)
+      scene.field.disparity_px.row(y)[x] = static_cast<float>((1 << kLevel) * kNear);
   const auto before = scene.field.disparity_px.values;
   EXPECT_EQ(scene.cut(), 0);
   EXPECT_EQ(scene.field.disparity_px.values, before);
@@ -133,7 +140,8 @@ TEST_P(LyingContour, IsFoundWhicheverSideIsNear) {
   Scene scene(4, 6, 0.5F);
   std::mt19937 random(9);
   std::normal_distribution<float> normal(0, 1);
-  Plane<float> skin(&scene.bench.output, kWidth + 64, kHeight), across(&scene.bench.output, kWidth + 64, kHeight);
+  Plane<float> skin(&scene.bench.output, kWidth + 64, kHeight),
+      across(&scene.bench.output, kWidth + 64, kHeight);
   for (float& v : skin.values) v = normal(random);
   box_sum(skin, 1, scene.bench.context.pool, across, skin);
   const auto level_px = [](int y) { return (y < kRow) == GetParam() ? kNear : kFar; };
@@ -142,12 +150,18 @@ TEST_P(LyingContour, IsFoundWhicheverSideIsNear) {
       scene.left.row(y)[x] = 90 + 4.0F / 3 * skin.row(y)[x] + 0.5F * normal(random);
       scene.right.row(y)[x] = 96 + 4.0F / 3 * skin.row(y)[x + level_px(y)] + 0.5F * normal(random);
       const float share = std::clamp((static_cast<float>(y - kRow) + kHang) / (2 * kHang), 0.0F, 1.0F);
-      scene.field.disparity_px.row(y)[x] = (1 << kLevel) * (static_cast<float>(level_px(0)) + share * static_cast<float>(level_px(kHeight - 1) - level_px(0)));
+      scene.field.disparity_px.row(y)[x] =
+          (1 << kLevel) *
+          (static_cast<float>(level_px(0)) + share * static_cast<float>(level_px(kHeight - 1) - level_px(0)));
     }
   const auto wrong = [&] {
     int count = 0;
     for (int y = kTop; y < kBottom; ++y)
-      for (int x = 50; x < kWidth - 20; ++x) count += std::abs(scene.field.disparity_px.row(y)[x] - static_cast<float>((1 << kLevel) * level_px(y))) > 1 ? 1 : 0;
+      for (int x = 50; x < kWidth - 20; ++x)
+        count +=
+            std::abs(scene.field.disparity_px.row(y)[x] - static_cast<float>((1 << kLevel) * level_px(y))) > 1
+                ? 1
+                : 0;
     return count;
   };
   const int before = wrong(), columns = kWidth - 70;
@@ -162,7 +176,8 @@ TEST(OccludingContour, IsTheSameForAnyNumberOfThreads) {
   ThreadPool alone(1), many(3);
   StageContext first{one.bench.output, one.bench.scratch, alone, one.bench.progress, one.bench.cancelled};
   StageContext second{two.bench.output, two.bench.scratch, many, two.bench.progress, two.bench.cancelled};
-  EXPECT_EQ(cut_at_occluding_contours(one.views(), first, one.field), cut_at_occluding_contours(two.views(), second, two.field));
+  EXPECT_EQ(cut_at_occluding_contours(one.views(), first, one.field),
+            cut_at_occluding_contours(two.views(), second, two.field));
   EXPECT_EQ(one.field.disparity_px.values, two.field.disparity_px.values);
 }
 

@@ -30,7 +30,8 @@ Errors measure(const BumpScene& scene, int threads = 2) {
   StageBench bench(std::size_t{64} << 20, std::size_t{256} << 20, threads);
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   EXPECT_TRUE(matches);
   Errors errors;
   if (!matches) return errors;
@@ -92,7 +93,8 @@ TEST(RefinedMatcher, GivesTheSameBytesForAnyNumberOfThreads) {
     StageBench bench(std::size_t{64} << 20, std::size_t{128} << 20, threads);
     const RectifiedPair pair = scene.render(&bench.output);
     const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    const auto matches = run_stage(
+        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     if (first.empty()) {
       first.assign(matches->matches.begin(), matches->matches.end());
@@ -102,7 +104,8 @@ TEST(RefinedMatcher, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(std::memcmp(&shift, &matches->epipolar_shift, sizeof shift), 0) << threads << " threads";
     ASSERT_EQ(first.size(), matches->matches.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
-      ASSERT_EQ(first[k].disparity_px, matches->matches[k].disparity_px) << threads << " threads, match " << k;
+      ASSERT_EQ(first[k].disparity_px, matches->matches[k].disparity_px)
+          << threads << " threads, match " << k;
       ASSERT_EQ(first[k].sigma_px, matches->matches[k].sigma_px);
     }
   }
@@ -113,7 +116,8 @@ TEST(RefinedMatcher, RefusesAPlainWall) {
   StageBench bench;
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
@@ -123,11 +127,15 @@ TEST(RefinedMatcher, AFewPlacesAreMatchedAsWellAsMany) {
   StageBench bench;
   const RectifiedPair pair = scene.render(&bench.output);
   Keypoints keypoints(&bench.output);
-  for (int k = 0; k < 5; ++k) keypoints.points.push_back({{100.5F + 30 * static_cast<float>(k), 80.25F + 20 * static_cast<float>(k)}, 1});
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  for (int k = 0; k < 5; ++k)
+    keypoints.points.push_back(
+        {{100.5F + 30 * static_cast<float>(k), 80.25F + 20 * static_cast<float>(k)}, 1});
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   ASSERT_EQ(matches->matches.size(), 5U);
-  for (const Match& m : matches->matches) EXPECT_NEAR(m.disparity_px, scene.disparity(m.left_px.x, m.left_px.y), 0.25);
+  for (const Match& m : matches->matches)
+    EXPECT_NEAR(m.disparity_px, scene.disparity(m.left_px.x, m.left_px.y), 0.25);
 }
 
 TEST(RefinedMatcher, RefusesUnrelatedViews) {
@@ -136,7 +144,8 @@ TEST(RefinedMatcher, RefusesUnrelatedViews) {
   const RectifiedPair other = BumpScene{.seed = 22}.render(&bench.output);
   pair.right.grey = other.right.grey;
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   if (matches) {
     // What chance leaves must say itself that it is unlike: the similarity rule takes it away.
     std::size_t alike = 0;
@@ -157,7 +166,8 @@ TEST(RefinedMatcher, EveryArenaTooSmallSaysSo) {
   bool succeeded = false;
   for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
     StageBench bench(size, size);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    const auto matches = run_stage(
+        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     succeeded = matches.has_value();
     if (succeeded) break;
     EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
@@ -183,10 +193,12 @@ TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
   StageBench bench;
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto aligned = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto aligned =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   RefinedMatcherOptions off;
   off.align_beyond_px = 100;
-  const auto unaligned = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+  const auto unaligned = run_stage(
+      bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
   ASSERT_TRUE(aligned);
   ASSERT_TRUE(unaligned);
   EXPECT_NEAR(aligned->epipolar_shift.residual_px, 0.8, 0.15);
@@ -213,8 +225,10 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
   RefinedMatcherOptions off;
   off.follow_motion = 0;
-  const auto followed = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
-  const auto ignored = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+  const auto followed =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto ignored = run_stage(
+      bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
   ASSERT_TRUE(followed);
   ASSERT_TRUE(ignored);
   EXPECT_GT(followed->motion_px, 0.3);
@@ -222,10 +236,12 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   const auto off_there = [&](const MatchSet& set) {
     std::vector<double> errors;
     for (const Match& m : set.matches)
-      if (scene.judged(m.left_px.x, m.left_px.y) && scene.moved(m.left_px.x - m.disparity_px, m.left_px.y) > 2)
+      if (scene.judged(m.left_px.x, m.left_px.y) &&
+          scene.moved(m.left_px.x - m.disparity_px, m.left_px.y) > 2)
         errors.push_back(std::abs(m.disparity_px - scene.disparity(m.left_px.x, m.left_px.y)));
     EXPECT_GT(errors.size(), 300U);
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                     errors.end());
     return errors[errors.size() / 2];
   };
   EXPECT_LT(off_there(*followed), 0.1);
@@ -239,7 +255,8 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   }
 }
 
-// Where no face was looked for every surface is wanted: a strip in front of a wall, and the wall on both sides.
+// Where no face was looked for every surface is wanted: a strip in front of a wall, and the wall on both
+// sides.
 TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
   StageBench bench;
   BumpScene wall{.base_px = 12, .tilt = 0, .bump_px = 0, .seed = 41, .face = false};
@@ -253,15 +270,22 @@ TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
     for (int x = kLeft; x < kRight; ++x) {
       const auto row = static_cast<std::size_t>(y * pair.width_px);
       pair.left.grey[row + static_cast<std::size_t>(x)] = front.left.grey[row + static_cast<std::size_t>(x)];
-      pair.right.grey[row + static_cast<std::size_t>(x - 30)] = front.right.grey[row + static_cast<std::size_t>(x - 30)];
+      pair.right.grey[row + static_cast<std::size_t>(x - 30)] =
+          front.right.grey[row + static_cast<std::size_t>(x - 30)];
     }
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto matches =
+      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   int seen[3] = {}, right[3] = {};
   for (const Match& m : matches->matches) {
-    const int part = m.left_px.x < kLeft - 30 ? 0 : m.left_px.x >= kRight + 8 ? 2 : m.left_px.x >= kLeft + 4 && m.left_px.x < kRight - 4 ? 1 : -1;
-    if (part < 0 || m.left_px.x < 40 || m.left_px.y < 8 || m.left_px.y > static_cast<float>(pair.height_px - 8)) continue;
+    const int part = m.left_px.x < kLeft - 30                               ? 0
+                     : m.left_px.x >= kRight + 8                            ? 2
+                     : m.left_px.x >= kLeft + 4 && m.left_px.x < kRight - 4 ? 1
+                                                                            : -1;
+    if (part < 0 || m.left_px.x < 40 || m.left_px.y < 8 ||
+        m.left_px.y > static_cast<float>(pair.height_px - 8))
+      continue;
     ++seen[part];
     right[part] += std::abs(m.disparity_px - (part == 1 ? 30.0F : 12.0F)) < 0.5F ? 1 : 0;
   }
@@ -271,18 +295,21 @@ TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
   }
 }
 
-// Blur must not buy accuracy. On the rig of the rendered faces (2900 px focal length, 140 mm, 560 mm: 5.2 px and
-// 1.3 px of disparity a millimetre) waves of 0.3 mm come back, 6 mm long with 80 % of their height, 4 mm with 50 %.
+// Blur must not buy accuracy. On the rig of the rendered faces (2900 px focal length, 140 mm, 560 mm: 5.2 px
+// and 1.3 px of disparity a millimetre) waves of 0.3 mm come back, 6 mm long with 80 % of their height, 4 mm
+// with 50 %.
 TEST(RefinedMatcher, KeepsTheReliefOfSkin) {
   struct Row {
     double period_px, share;
   };
   for (const Row& row : {Row{31, 0.8}, Row{21, 0.5}}) {
-    const BumpScene scene{.ripple_px = 0.39, .ripple_period_px = row.period_px, .contrast = 8, .noise = 1.5, .seed = 51};
+    const BumpScene scene{
+        .ripple_px = 0.39, .ripple_period_px = row.period_px, .contrast = 8, .noise = 1.5, .seed = 51};
     StageBench bench;
     const RectifiedPair pair = scene.render(&bench.output);
     const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-    const auto matches = run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    const auto matches = run_stage(
+        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     double seen = 0;
     double all = 0;
@@ -294,7 +321,8 @@ TEST(RefinedMatcher, KeepsTheReliefOfSkin) {
       all += wave * wave;
     }
     EXPECT_GT(seen / all / scene.ripple_px, row.share) << row.period_px << " px";
-    RecordProperty("share_" + std::to_string(static_cast<int>(row.period_px)), std::to_string(seen / all / scene.ripple_px));
+    RecordProperty("share_" + std::to_string(static_cast<int>(row.period_px)),
+                   std::to_string(seen / all / scene.ripple_px));
   }
 }
 

@@ -42,10 +42,12 @@ struct Fitted {
       const auto side = static_cast<float>(2 * box + 1);
       for (float& v : pull.values) v /= side;  // as loud as before, a pixel
     }
-    for (std::size_t k = 0; k < pull.values.size(); ++k) system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
+    for (std::size_t k = 0; k < pull.values.size(); ++k)
+      system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
     Plane<float> fit(&bench.output, kSide, kSide);
     solve(system, 120, kToTheEnd, bench.context.pool, bench.context.scratch, fit);
-    for (std::size_t k = 0; k < pull.values.size(); ++k) pull.values[k] += system.data.values[k] * fit.values[k];
+    for (std::size_t k = 0; k < pull.values.size(); ++k)
+      pull.values[k] += system.data.values[k] * fit.values[k];
   }
   double mean_excess(StageBench& bench) {
     Plane<float> excess(&bench.output, kSide, kSide);

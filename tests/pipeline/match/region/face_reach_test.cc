@@ -42,7 +42,9 @@ struct Wall {
       }
   }
   // A cone.
-  static double depth(int i, int j) { return std::min(kWall, kTip + (kWall - kTip) * std::hypot(i * kStep - 480, j * kStep - 300) / 40); }
+  static double depth(int i, int j) {
+    return std::min(kWall, kTip + (kWall - kTip) * std::hypot(i * kStep - 480, j * kStep - 300) / 40);
+  }
   double from_tip_mm(int i, int j) const {
     const double z = depth(i, j);
     return std::hypot((i * kStep - 480) * z / 1500, (j * kStep - 300) * z / 1500, z - kTip);

@@ -29,7 +29,9 @@ RectifiedPair blank_pair(int width, int height) {
 }
 
 TEST(Checksum, KnownAnswers) {  // FIPS 180-4, examples of NIST
-  const auto of = [](std::string_view text) { return sha256(std::as_bytes(std::span(text.data(), text.size()))); };
+  const auto of = [](std::string_view text) {
+    return sha256(std::as_bytes(std::span(text.data(), text.size())));
+  };
   EXPECT_TRUE(reads_as(of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"));
   EXPECT_TRUE(reads_as(of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));
   EXPECT_TRUE(reads_as(of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -40,7 +42,8 @@ TEST(Checksum, KnownAnswers) {  // FIPS 180-4, examples of NIST
 TEST(FaceFinder, AForeignCascadeIsNotParsed) {
   const std::filesystem::path dir = std::filesystem::path(testing::TempDir()) / "foreign_cascades";
   std::filesystem::create_directories(dir);
-  for (const char* name : {"alt2", "default", "alt"}) std::ofstream(dir / (std::string("haarcascade_frontalface_") + name + ".xml")) << "<opencv_storage/>";
+  for (const char* name : {"alt2", "default", "alt"})
+    std::ofstream(dir / (std::string("haarcascade_frontalface_") + name + ".xml")) << "<opencv_storage/>";
   FaceFinderOptions options;
   options.cascade_dir = dir.string();
   const auto finder = FaceFinder::open(options);
@@ -105,7 +108,8 @@ TEST(FaceFinder, TheRegionHoldsTheRenderedFaces) {
     for (const CloudPoint& p : skin.points) {
       if (std::hypot(p.at_mm.x - tip.x, p.at_mm.y - tip.y, p.at_mm.z - tip.z) > 115) continue;
       ++all;
-      inside += pair.region[static_cast<std::size_t>(p.left_px.y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(p.left_px.x)];
+      inside += pair.region[static_cast<std::size_t>(p.left_px.y) * static_cast<std::size_t>(pair.width_px) +
+                            static_cast<std::size_t>(p.left_px.x)];
     }
     EXPECT_GT(static_cast<double>(inside), 0.999 * static_cast<double>(all)) << name;
   }
@@ -115,7 +119,9 @@ TEST(FaceRegion, AnEllipseAroundTheFaceCutAtTheBorder) {
   StageRoom room;
   RectifiedPair pair = blank_pair(400, 300);
   ASSERT_TRUE(mark_face_region(pair, {{100, 150}, 100, 0, 50}, room.context));
-  const auto at = [&](int x, int y) { return pair.region[static_cast<std::size_t>(y) * 400 + static_cast<std::size_t>(x)]; };
+  const auto at = [&](int x, int y) {
+    return pair.region[static_cast<std::size_t>(y) * 400 + static_cast<std::size_t>(x)];
+  };
   EXPECT_EQ(at(100, 150), 1);
   EXPECT_EQ(at(100 + 77, 160), 1) << "115 mm beside the nose";
   EXPECT_EQ(at(100, 160 + 77), 1);

@@ -19,7 +19,8 @@ class FilePoints : public testing::Test {
     return choose((here_ / "points.csv").string());
   }
   Result<Keypoints> choose(const std::string& path) {
-    return bench_.select(*test::make_selector("file-points", {{"file-points.path", path}}), SelectionBench::rendered());
+    return bench_.select(*test::make_selector("file-points", {{"file-points.path", path}}),
+                         SelectionBench::rendered());
   }
   void refused(const std::string& text, const std::string& place) {
     const auto chosen = read(text);
@@ -33,7 +34,8 @@ class FilePoints : public testing::Test {
 };
 
 TEST_F(FilePoints, EveryFormIsRead) {
-  const auto chosen = read("# by hand\r\nx,y\n\n10.25,20.5\r\n 30 40\n12;7 ; left eye, the corner\n\t+1e1\t8\n10.25, 20.5\n0,0\n199,159");
+  const auto chosen = read(
+      "# by hand\r\nx,y\n\n10.25,20.5\r\n 30 40\n12;7 ; left eye, the corner\n\t+1e1\t8\n10.25, 20.5\n0,0\n199,159");
   ASSERT_TRUE(chosen);
   const Vec2f expected[] = {{0, 0}, {12, 7}, {10, 8}, {10.25F, 20.5F}, {30, 40}, {199, 159}};
   ASSERT_EQ(chosen->points.size(), std::size(expected));
@@ -71,7 +73,8 @@ TEST_F(FilePoints, OnePointOrMoreThanThePictureHasPixels) {
   EXPECT_EQ(one->points.size(), 1U);
   std::string text;
   for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 400; ++x) text += std::to_string(x / 2) + (x % 2 != 0 && x < 398 ? ".5" : "") + " " + std::to_string(y) + "\n";
+    for (int x = 0; x < 400; ++x)
+      text += std::to_string(x / 2) + (x % 2 != 0 && x < 398 ? ".5" : "") + " " + std::to_string(y) + "\n";
   const auto many = read(text);
   ASSERT_TRUE(many) << many.error().what.view();
   EXPECT_EQ(many->points.size(), 399U * 160U);  // the last column stands there twice

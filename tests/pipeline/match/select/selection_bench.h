@@ -22,7 +22,8 @@ namespace relievo::test {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-inline std::unique_ptr<pipeline::KeypointSelector> make_selector(const std::string& name, const Settings& settings = {}) {
+inline std::unique_ptr<pipeline::KeypointSelector> make_selector(const std::string& name,
+                                                                 const Settings& settings = {}) {
   pipeline::AlgorithmSet set;
   EXPECT_TRUE(set.set("selector", name));
   for (const auto& [key, value] : settings) EXPECT_TRUE(set.set(key, value)) << key;
@@ -47,7 +48,8 @@ class PointFile {
 };
 
 struct SelectionBench : StageBench {
-  explicit SelectionBench(int threads = 2) : StageBench(std::size_t{8} << 20, std::size_t{8} << 20, threads) {}
+  explicit SelectionBench(int threads = 2)
+      : StageBench(std::size_t{8} << 20, std::size_t{8} << 20, threads) {}
 
   static const BumpScene& scene() {
     static const BumpScene scene{.width_px = 200, .height_px = 160, .bump_radius_px = 40};
@@ -64,7 +66,8 @@ struct SelectionBench : StageBench {
     pair.left.grey.assign(pair.left.grey.size(), grey);
     return pair;
   }
-  Result<pipeline::Keypoints> select(const pipeline::KeypointSelector& selector, const pipeline::RectifiedPair& pair) {
+  Result<pipeline::Keypoints> select(const pipeline::KeypointSelector& selector,
+                                     const pipeline::RectifiedPair& pair) {
     return pipeline::run_stage(context, [&](pipeline::StageContext& c) { return selector.select(pair, c); });
   }
 };

@@ -17,7 +17,13 @@ using test::BumpScene;
 using test::StageBench;
 
 constexpr double kNearPx = 1.5;
-const BumpScene kScene{.width_px = 400, .height_px = 320, .bump_radius_px = 80, .noise = 2, .right_gain = 0.8, .right_offset = 10, .seed = 21};
+const BumpScene kScene{.width_px = 400,
+                       .height_px = 320,
+                       .bump_radius_px = 80,
+                       .noise = 2,
+                       .right_gain = 0.8,
+                       .right_offset = 10,
+                       .seed = 21};
 
 const RectifiedPair& rendered() {
   static const RectifiedPair pair = kScene.render(std::pmr::get_default_resource());
@@ -28,7 +34,8 @@ struct Figures {
   double count = 0;
   double repeated = 0;  // of the judged left points: one in the right view within kNearPx of the true partner
   double chance = 0;    // the same, if the right view's points were strewn at random
-  double matched = 0;   // of the judged left points: matched by `refined` within a quarter of a pixel of the truth
+  double matched =
+      0;  // of the judged left points: matched by `refined` within a quarter of a pixel of the truth
 };
 
 Figures figures_of(const std::string& name) {
@@ -55,22 +62,29 @@ Figures figures_of(const std::string& name) {
     ++judged;
     const double partner = x - kScene.disparity(x, y);
     f.repeated += std::any_of(right->points.begin(), right->points.end(), [&](const Keypoint& q) {
-      return std::hypot(static_cast<double>(q.at_px.x) - partner, static_cast<double>(q.at_px.y) - y) <= kNearPx;
+      return std::hypot(static_cast<double>(q.at_px.x) - partner, static_cast<double>(q.at_px.y) - y) <=
+             kNearPx;
     });
   }
   for (const Match& m : matches->matches) {
     const double x = static_cast<double>(m.left_px.x), y = static_cast<double>(m.left_px.y);
-    f.matched += kScene.judged(x, y) && std::abs(static_cast<double>(m.disparity_px) - kScene.disparity(x, y)) < 0.25;
+    f.matched +=
+        kScene.judged(x, y) && std::abs(static_cast<double>(m.disparity_px) - kScene.disparity(x, y)) < 0.25;
   }
   f.repeated /= judged;
   f.matched /= judged;
   const double area = static_cast<double>(kScene.width_px) * kScene.height_px;
-  f.chance = 1 - std::exp(-static_cast<double>(right->points.size()) / area * std::numbers::pi * kNearPx * kNearPx);
-  std::printf("| `%s` | %.0f | %.0f %% | %.0f %% | %.1f %% |\n", name.c_str(), f.count, 100 * f.repeated, 100 * f.chance, 100 * f.matched);
+  f.chance =
+      1 - std::exp(-static_cast<double>(right->points.size()) / area * std::numbers::pi * kNearPx * kNearPx);
+  std::printf("| `%s` | %.0f | %.0f %% | %.0f %% | %.1f %% |\n", name.c_str(), f.count, 100 * f.repeated,
+              100 * f.chance, 100 * f.matched);
   return f;
 }
 
-struct Promise { const char* name; double repeated; };
+struct Promise {
+  const char* name;
+  double repeated;
+};
 
 class Repeatability : public testing::TestWithParam<Promise> {};
 
@@ -81,7 +95,8 @@ TEST_P(Repeatability, IsWhatTheSelectorPromises) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Repeatability,
-                         testing::Values(Promise{"good-features", 0.7}, Promise{"harris", 0.75}, Promise{"haar", 0.8}, Promise{"wavelet-salient", 0.3}),
+                         testing::Values(Promise{"good-features", 0.7}, Promise{"harris", 0.75},
+                                         Promise{"haar", 0.8}, Promise{"wavelet-salient", 0.3}),
                          [](const auto& promise) { return test::test_name(promise.param.name); });
 
 // What looks at nothing repeats by chance: the measure itself is sound.

@@ -14,7 +14,9 @@ using test::SelectionBench;
 
 class SelectorContract : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<KeypointSelector> selector() const { return test::make_selector(GetParam(), {{"file-points.path", file_.path()}}); }
+  std::unique_ptr<KeypointSelector> selector() const {
+    return test::make_selector(GetParam(), {{"file-points.path", file_.path()}});
+  }
   test::PointFile file_;
 };
 
@@ -27,7 +29,8 @@ TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
     for (int x = 0; x < pair.width_px; ++x) {
       const auto k = static_cast<std::size_t>(y * pair.width_px + x);
       if (std::hypot(x - 90, y - 70) < 60) pair.region[k] = 1;
-      if (x + y < 130) pair.left.valid[k] = 0, pair.left.grey[k] = 0;  // an edge and corners, but no picture's
+      if (x + y < 130)
+        pair.left.valid[k] = 0, pair.left.grey[k] = 0;  // an edge and corners, but no picture's
     }
   const auto chosen = bench.select(*selector(), pair);
   ASSERT_TRUE(chosen);
@@ -61,7 +64,8 @@ TEST_P(SelectorContract, NoMoreThanAskedFor) {
   const std::string key = GetParam() + ".max_points";
   AlgorithmSet set;
   if (!set.set(key, "40")) return;  // it says where its points are, not how many
-  const auto chosen = bench.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionBench::rendered());
+  const auto chosen =
+      bench.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionBench::rendered());
   ASSERT_TRUE(chosen);
   EXPECT_LE(chosen->points.size(), 40U);
   EXPECT_GE(chosen->points.size(), 20U);
@@ -117,7 +121,8 @@ TEST_P(SelectorContract, TooLittleMemoryIsAnError) {
   const RectifiedPair& pair = SelectionBench::rendered();
   for (const std::size_t output : {std::size_t{16}, std::size_t{1} << 20}) {
     test::StageBench bench(output, output == 16 ? std::size_t{8} << 20 : 64);
-    const auto chosen = run_stage(bench.context, [&](StageContext& c) { return selector()->select(pair, c); });
+    const auto chosen =
+        run_stage(bench.context, [&](StageContext& c) { return selector()->select(pair, c); });
     if (chosen && output > 16) continue;  // a lattice asks for no scratch memory
     ASSERT_FALSE(chosen);
     EXPECT_EQ(chosen.error().code, Errc::OutOfMemory);

@@ -19,26 +19,31 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::SelectionBench;
 using test::make_selector;
+using test::SelectionBench;
 
-float& pixel(RectifiedPair& pair, int x, int y) { return pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]; }
+float& pixel(RectifiedPair& pair, int x, int y) {
+  return pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)];
+}
 
 // Bright squares; returns their corners (between pixels).
 std::vector<Vec2f> paint_squares(RectifiedPair& pair) {
   std::vector<Vec2f> corners;
-  for (const auto& [left, top, side] : {std::array{30, 25, 40}, std::array{110, 40, 55}, std::array{40, 95, 45}}) {
+  for (const auto& [left, top, side] :
+       {std::array{30, 25, 40}, std::array{110, 40, 55}, std::array{40, 95, 45}}) {
     for (int y = top; y < top + side; ++y)
       for (int x = left; x < left + side; ++x) pixel(pair, x, y) = 190;
     for (const int y : {top, top + side})
-      for (const int x : {left, left + side}) corners.push_back({static_cast<float>(x) - 0.5F, static_cast<float>(y) - 0.5F});
+      for (const int x : {left, left + side})
+        corners.push_back({static_cast<float>(x) - 0.5F, static_cast<float>(y) - 0.5F});
   }
   return corners;
 }
 
 float nearest(const Vec2f& at, const Keypoints& points) {
   float best = 1e9F;
-  for (const Keypoint& p : points.points) best = std::min(best, std::hypot(p.at_px.x - at.x, p.at_px.y - at.y));
+  for (const Keypoint& p : points.points)
+    best = std::min(best, std::hypot(p.at_px.x - at.x, p.at_px.y - at.y));
   return best;
 }
 
@@ -49,13 +54,15 @@ TEST_P(Corners, OfSquaresAreFoundAndTheirEdgesAreNot) {
   SelectionBench bench;
   RectifiedPair pair = bench.plain();
   const auto corners = paint_squares(pair);
-  const auto found = bench.select(*make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
+  const auto found = bench.select(
+      *make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), corners.size());
   for (const Vec2f& corner : corners) EXPECT_LT(nearest(corner, *found), 4.3F) << corner.x << " " << corner.y;
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Corners, testing::Values("good-features", "harris"), [](const auto& name) { return test::test_name(name.param); });
+INSTANTIATE_TEST_SUITE_P(Both, Corners, testing::Values("good-features", "harris"),
+                         [](const auto& name) { return test::test_name(name.param); });
 
 TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
   SelectionBench bench;
@@ -63,7 +70,8 @@ TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
   using Place = std::pair<float, float>;
   const auto places = [&](const char* levels) {
     std::set<Place> all;
-    const auto chosen = bench.select(*make_selector("good-features", {{"good-features.levels", levels}}), pair);
+    const auto chosen =
+        bench.select(*make_selector("good-features", {{"good-features.levels", levels}}), pair);
     EXPECT_TRUE(chosen);
     for (const Keypoint& p : chosen->points) all.insert({p.at_px.x, p.at_px.y});
     return all;
@@ -75,7 +83,8 @@ TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
   EXPECT_GT(united.size(), strong.size());
   EXPECT_GT(united.size(), weak.size());
   for (const Place& a : weak)
-    for (const Place& b : weak) EXPECT_TRUE(a == b || std::hypot(a.first - b.first, a.second - b.second) >= 12);
+    for (const Place& b : weak)
+      EXPECT_TRUE(a == b || std::hypot(a.first - b.first, a.second - b.second) >= 12);
 }
 
 TEST(GoodFeatures, BinaryThresholdsFindOutlinesTheGreyPictureHides) {
@@ -86,14 +95,18 @@ TEST(GoodFeatures, BinaryThresholdsFindOutlinesTheGreyPictureHides) {
     for (int x = 150; x < 175; ++x) pixel(pair, x, y) = 44;  // four grey levels above the ground
   const Vec2f corner{149.5F, 9.5F};
   const auto grey = bench.select(*make_selector("good-features", {{"good-features.levels", "0.3:4"}}), pair);
-  const auto binary = bench.select(*make_selector("good-features", {{"good-features.levels", "0.3:4"}, {"good-features.binary_thresholds", "42+100"}}), pair);
+  const auto binary = bench.select(
+      *make_selector("good-features",
+                     {{"good-features.levels", "0.3:4"}, {"good-features.binary_thresholds", "42+100"}}),
+      pair);
   ASSERT_TRUE(grey && binary);
   EXPECT_GT(nearest(corner, *grey), 10);
   EXPECT_LT(nearest(corner, *binary), 4.3F);
 }
 
 TEST(GoodFeatures, WrongLevelsAreRefused) {
-  for (const char* levels : {"", "0.1", "0.1:", ":4", "0.1:4+", "0:4", "1.1:4", "0.1:0.5", "0.1:4x", "nan:4", "0.1:1e9", "0.1:4,0.2:3"}) {
+  for (const char* levels : {"", "0.1", "0.1:", ":4", "0.1:4+", "0:4", "1.1:4", "0.1:0.5", "0.1:4x", "nan:4",
+                             "0.1:1e9", "0.1:4,0.2:3"}) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("selector", "good-features") && set.set("good-features.levels", levels));
     const auto made = pipeline::make_selector(set);
@@ -113,8 +126,11 @@ TEST(CornerResponse, AgreesWithItsSlowTwin) {
   const RectifiedPair& pair = SelectionBench::rendered();
   const Selectable selectable(pair, &bench.scratch);
   Plane<float> response(&bench.scratch, pair.width_px, pair.height_px);
-  ASSERT_TRUE(corner_response(pair.left.grey, selectable, {3, 1}, smaller_eigenvalue, 0, bench.context, response));
-  const auto grey = [&](int x, int y) { return static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]); };
+  ASSERT_TRUE(
+      corner_response(pair.left.grey, selectable, {3, 1}, smaller_eigenvalue, 0, bench.context, response));
+  const auto grey = [&](int x, int y) {
+    return static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
+  };
   for (int y = 5; y < pair.height_px - 5; y += 13)
     for (int x = 5; x < pair.width_px - 5; x += 11) {
       double xx = 0, xy = 0, yy = 0;
@@ -143,16 +159,21 @@ TEST(CornerResponse, HarrisTellsCornersEdgesAndPlainsApart) {
 TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
   SelectionBench bench;
   RectifiedPair pair = bench.plain(100);
-  struct Blob { double x, y, sigma, height; };
+  struct Blob {
+    double x, y, sigma, height;
+  };
   const Blob blobs[] = {{40, 40, 2.2, 60}, {110.4, 50.3, 3.5, -60}, {60, 110, 5, 80}, {150, 110, 2.5, 50}};
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x)
       for (const Blob& b : blobs)
-        pixel(pair, x, y) += static_cast<float>(b.height * std::exp(-(std::pow(x - b.x, 2) + std::pow(y - b.y, 2)) / (2 * b.sigma * b.sigma)));
-  const auto found = bench.select(*make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
+        pixel(pair, x, y) += static_cast<float>(
+            b.height * std::exp(-(std::pow(x - b.x, 2) + std::pow(y - b.y, 2)) / (2 * b.sigma * b.sigma)));
+  const auto found =
+      bench.select(*make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), std::size(blobs));
-  for (const Blob& b : blobs) EXPECT_LT(nearest({static_cast<float>(b.x), static_cast<float>(b.y)}, *found), 1.1F);
+  for (const Blob& b : blobs)
+    EXPECT_LT(nearest({static_cast<float>(b.x), static_cast<float>(b.y)}, *found), 1.1F);
 }
 
 TEST(Haar, TheIntegralImageAgreesWithItsSlowTwin) {
@@ -162,19 +183,25 @@ TEST(Haar, TheIntegralImageAgreesWithItsSlowTwin) {
   const auto box = [&](int x0, int y0, int x1, int y1) {  // both ends included
     double sum = 0;
     for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) sum += static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
+      for (int x = x0; x <= x1; ++x)
+        sum += static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
     return sum;
   };
   for (const int size : {9, 15, 27, 51}) {
     const int l = size / 3, h = size / 2;
     for (const auto& [x, y] : {std::pair(30, 30), std::pair(97, 81), std::pair(170, 120)}) {
-      const double yy = box(x - l + 1, y - h, x + l - 1, y - h + l - 1) - 2 * box(x - l + 1, y - h + l, x + l - 1, y - h + 2 * l - 1) +
+      const double yy = box(x - l + 1, y - h, x + l - 1, y - h + l - 1) -
+                        2 * box(x - l + 1, y - h + l, x + l - 1, y - h + 2 * l - 1) +
                         box(x - l + 1, y - h + 2 * l, x + l - 1, y + h);
-      const double xx = box(x - h, y - l + 1, x - h + l - 1, y + l - 1) - 2 * box(x - h + l, y - l + 1, x - h + 2 * l - 1, y + l - 1) +
+      const double xx = box(x - h, y - l + 1, x - h + l - 1, y + l - 1) -
+                        2 * box(x - h + l, y - l + 1, x - h + 2 * l - 1, y + l - 1) +
                         box(x - h + 2 * l, y - l + 1, x + h, y + l - 1);
-      const double xy = box(x - l, y - l, x - 1, y - 1) + box(x + 1, y + 1, x + l, y + l) - box(x + 1, y - l, x + l, y - 1) - box(x - l, y + 1, x - 1, y + l);
+      const double xy = box(x - l, y - l, x - 1, y - 1) + box(x + 1, y + 1, x + l, y + l) -
+                        box(x + 1, y - l, x + l, y - 1) - box(x - l, y + 1, x - 1, y + l);
       const double expected = (xx * yy - 0.81 * xy * xy) / std::pow(size, 4);
-      EXPECT_NEAR(static_cast<double>(fast.determinant(x, y, size)), expected, 1e-5 * (1 + std::abs(expected))) << size;
+      EXPECT_NEAR(static_cast<double>(fast.determinant(x, y, size)), expected,
+                  1e-5 * (1 + std::abs(expected)))
+          << size;
     }
   }
 }
@@ -196,7 +223,8 @@ TEST(WaveletSalient, TheTransformKeepsTheEnergy) {
   for (int s = 1; s <= 6; ++s)
     for (int o = 0; o < SalientTracks::kOrientations; ++o)
       for (int y = 0; y < tracks.rows(s); ++y)
-        for (int x = 0; x < tracks.columns(s); ++x) found += std::pow(static_cast<double>(tracks.magnitude(s, o, x, y)), 2);
+        for (int x = 0; x < tracks.columns(s); ++x)
+          found += std::pow(static_cast<double>(tracks.magnitude(s, o, x, y)), 2);
   EXPECT_NEAR(found / energy, 1, 1e-5);
 }
 
@@ -236,7 +264,10 @@ TEST(WaveletSalient, SaliencyIsTheSumAlongTheTrack) {
 TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
   SelectionBench bench;
   const auto& pair = SelectionBench::rendered();
-  const auto draw = [&](const char* seed) { return bench.select(*make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}), pair); };
+  const auto draw = [&](const char* seed) {
+    return bench.select(*make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}),
+                        pair);
+  };
   const auto one = draw("1"), again = draw("1"), other = draw("2");
   ASSERT_TRUE(one && again && other);
   ASSERT_EQ(one->points.size(), 6400U);
@@ -261,7 +292,12 @@ TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->lattice_step_px, 8);
   EXPECT_EQ(whole->points.size(), 25U * 20U);
-  const auto part = bench.select(*make_selector("grid-points", {{"grid-points.step_px", "7"}, {"grid-points.left_px", "31"}, {"grid-points.top_px", "12"}, {"grid-points.width_px", "22"}, {"grid-points.height_px", "14"}}), pair);
+  const auto part = bench.select(*make_selector("grid-points", {{"grid-points.step_px", "7"},
+                                                                {"grid-points.left_px", "31"},
+                                                                {"grid-points.top_px", "12"},
+                                                                {"grid-points.width_px", "22"},
+                                                                {"grid-points.height_px", "14"}}),
+                                 pair);
   ASSERT_TRUE(part);
   EXPECT_EQ(part->lattice_step_px, 7);
   ASSERT_EQ(part->points.size(), 8U);
@@ -270,10 +306,12 @@ TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
     EXPECT_EQ(part->points[k].at_px.y, 12.0F + 7.0F * static_cast<float>(k / 4));
   }
   // Down to the view's edge, and what lies beyond it.
-  const auto corner = bench.select(*make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
+  const auto corner = bench.select(
+      *make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->points.size(), 2U);
-  for (const char* option : {"grid-points.left_px", "grid-points.top_px", "grid-points.width_px", "grid-points.height_px"}) {
+  for (const char* option :
+       {"grid-points.left_px", "grid-points.top_px", "grid-points.width_px", "grid-points.height_px"}) {
     const auto beyond = bench.select(*make_selector("grid-points", {{option, "201"}}), pair);
     ASSERT_FALSE(beyond) << option;
     EXPECT_EQ(beyond.error().code, Errc::InvalidInput);
@@ -291,7 +329,8 @@ TEST(GridPoints, ARectangleBesideTheFaceSaysSo) {
   ASSERT_FALSE(beside);
   EXPECT_EQ(beside.error().code, Errc::NoFace);
   EXPECT_NE(beside.error().what.view().find("rectangle"), std::string_view::npos);
-  const auto across = bench.select(*make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
+  const auto across = bench.select(
+      *make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->points.size(), 25U);
 }

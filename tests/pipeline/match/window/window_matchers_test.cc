@@ -33,7 +33,8 @@ TEST(WindowMatchers, FindTheSurfaceToATenthOfAPixel) {
 
 TEST(WindowMatchers, ScatteredKeypointsBetweenPixelsAreAsGood) {
   const MatchTrial anywhere{.scene = {}, .scattered = 1500};
-  for (const MatchErrors& errors : {measure(SsdMatcher({.window_px = 15}), anywhere), measure(ZmnccMatcher({.window_px = 15}), anywhere)}) {
+  for (const MatchErrors& errors : {measure(SsdMatcher({.window_px = 15}), anywhere),
+                                    measure(ZmnccMatcher({.window_px = 15}), anywhere)}) {
     EXPECT_LT(errors.rms_px, 0.10);
     EXPECT_LT(errors.wrong, 0.003);
     EXPECT_GT(errors.covered, 0.99);
@@ -43,10 +44,12 @@ TEST(WindowMatchers, ScatteredKeypointsBetweenPixelsAreAsGood) {
 TEST(WindowMatchers, ThreeColoursSayMoreThanGrey) {
   const BumpScene faint{.contrast = 4, .noise = 1.5, .seed = 3};
   const MatchErrors grey = measure(ZmnccMatcher({.window_px = 9, .min_score = 0}), {.scene = faint});
-  const MatchErrors colours = measure(ZmnccMatcher({.window_px = 9, .channels = 3, .min_score = 0}), {.scene = faint, .colours = true});
+  const MatchErrors colours = measure(ZmnccMatcher({.window_px = 9, .channels = 3, .min_score = 0}),
+                                      {.scene = faint, .colours = true});
   EXPECT_LT(colours.wrong, 0.5 * grey.wrong);
   EXPECT_LT(colours.rms_px, 0.8 * grey.rms_px);
-  const MatchErrors ssd = measure(SsdMatcher({.window_px = 9, .channels = 3}), {.scene = faint, .colours = true});
+  const MatchErrors ssd =
+      measure(SsdMatcher({.window_px = 9, .channels = 3}), {.scene = faint, .colours = true});
   EXPECT_LT(ssd.wrong, 0.5 * grey.wrong);
 }
 
@@ -57,16 +60,20 @@ TEST(WindowMatchers, CorrelationIsBlindToExposureAndDifferencesAreNot) {
   EXPECT_LT(zmncc.rms_px, 1.1 * equal.rms_px + 0.005);
   EXPECT_GT(zmncc.covered, 0.99);
   EXPECT_LT(zmncc.mean_cost, equal.mean_cost + 0.02);
-  const MatchErrors ssd = measure(SsdMatcher({.window_px = 15, .max_difference = 255, .sigma_limit_px = 10}), unequal);
+  const MatchErrors ssd =
+      measure(SsdMatcher({.window_px = 15, .max_difference = 255, .sigma_limit_px = 10}), unequal);
   EXPECT_GT(ssd.mean_cost, 0.2);  // it says itself that the views are unlike
 }
 
 // On a slanted plane and on a face-like curve (radius 70 mm) from rich and quiet to faint and noisy.
 TEST(WindowMatchers, SigmaSaysWhatTheErrorIs) {
-  for (const BumpScene& scene : {BumpScene{.bump_px = 0, .contrast = 8, .noise = 1, .seed = 4}, BumpScene{.bump_px = 0, .contrast = 20, .noise = 4, .seed = 5},
-                                 BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 20, .noise = 2, .seed = 6},
-                                 BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 5, .noise = 1.5, .seed = 9}}) {
-    for (const MatchErrors& errors : {measure(SsdMatcher({.window_px = 15}), {.scene = scene}), measure(ZmnccMatcher({.window_px = 15}), {.scene = scene})}) {
+  for (const BumpScene& scene :
+       {BumpScene{.bump_px = 0, .contrast = 8, .noise = 1, .seed = 4},
+        BumpScene{.bump_px = 0, .contrast = 20, .noise = 4, .seed = 5},
+        BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 20, .noise = 2, .seed = 6},
+        BumpScene{.bump_px = 4, .bump_radius_px = 90, .contrast = 5, .noise = 1.5, .seed = 9}}) {
+    for (const MatchErrors& errors : {measure(SsdMatcher({.window_px = 15}), {.scene = scene}),
+                                      measure(ZmnccMatcher({.window_px = 15}), {.scene = scene})}) {
       EXPECT_NEAR(errors.within_sigma, 0.68, 0.15);  // the face's bend is allowed for where there is none
       EXPECT_NEAR(errors.within_two_sigma, 0.95, 0.05);
     }
@@ -80,7 +87,9 @@ struct Twin {
   bool correlate;
 
   double grey(const RectifiedView& view, int x, int y) const {
-    return static_cast<double>(view.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)]);
+    return static_cast<double>(
+        view.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+                  static_cast<std::size_t>(x)]);
   }
   double unlike(int x, int y, int d) const {
     double n = 0, l = 0, r = 0, ll = 0, rr = 0, lr = 0, ssd = 0;
@@ -89,7 +98,11 @@ struct Twin {
         const double a = grey(pair.left, x + i, y + j);
         const double b = grey(pair.right, x - d + i, y + j);
         ++n;
-        l += a; r += b; ll += a * a; rr += b * b; lr += a * b;
+        l += a;
+        r += b;
+        ll += a * a;
+        rr += b * b;
+        lr += a * b;
         ssd += (a - b) * (a - b);
       }
     return correlate ? 1 - (lr - l * r / n) / std::sqrt((ll - l * l / n) * (rr - r * r / n)) : ssd;
@@ -106,7 +119,9 @@ struct Twin {
         best = d;
       }
     }
-    if (best - 1 < first || best + 1 > last || x - best - 1 - radius < 0 || x - best + 1 + radius >= pair.width_px) return -1e9;
+    if (best - 1 < first || best + 1 > last || x - best - 1 - radius < 0 ||
+        x - best + 1 + radius >= pair.width_px)
+      return -1e9;
     const double before = unlike(x, y, best - 1);
     const double after = unlike(x, y, best + 1);
     return best + (before - after) / (2 * (before - 2 * least + after));
@@ -115,13 +130,21 @@ struct Twin {
 
 TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
   StageBench bench(std::size_t{16} << 20, std::size_t{32} << 20);
-  const BumpScene scene{.width_px = 140, .height_px = 70, .base_px = 18, .bump_px = 4, .bump_radius_px = 25, .noise = 2, .seed = 8};
+  const BumpScene scene{.width_px = 140,
+                        .height_px = 70,
+                        .base_px = 18,
+                        .bump_px = 4,
+                        .bump_radius_px = 25,
+                        .noise = 2,
+                        .seed = 8};
   const RectifiedPair pair = scene.render(&bench.output);
   const Keypoints keypoints = test::lattice(pair, 3, &bench.output);
   for (const bool correlate : {false, true}) {
     const auto fast = run_stage(bench.context, [&](StageContext& c) {
-      return correlate ? ZmnccMatcher({.window_px = 7, .min_score = 0, .sigma_limit_px = 10}).match(pair, keypoints, c)
-                       : SsdMatcher({.window_px = 7, .max_difference = 255, .sigma_limit_px = 10}).match(pair, keypoints, c);
+      return correlate ? ZmnccMatcher({.window_px = 7, .min_score = 0, .sigma_limit_px = 10})
+                             .match(pair, keypoints, c)
+                       : SsdMatcher({.window_px = 7, .max_difference = 255, .sigma_limit_px = 10})
+                             .match(pair, keypoints, c);
     });
     ASSERT_TRUE(fast);
     const Twin twin{pair, 3, correlate};
@@ -134,7 +157,8 @@ TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
     for (const Match& m : fast->matches) {
       if (!visible(m.left_px)) continue;
       ++matched;
-      EXPECT_NEAR(m.disparity_px, twin.disparity(static_cast<int>(m.left_px.x), static_cast<int>(m.left_px.y)), 2e-4)
+      EXPECT_NEAR(m.disparity_px,
+                  twin.disparity(static_cast<int>(m.left_px.x), static_cast<int>(m.left_px.y)), 2e-4)
           << "correlate " << correlate << " at " << m.left_px.x << ", " << m.left_px.y;
     }
     EXPECT_EQ(matched, expected);
@@ -146,9 +170,12 @@ TEST(WindowMatchers, NoWindowLooksAtPixelsThatAreNotThere) {
   StageBench bench(std::size_t{16} << 20, std::size_t{32} << 20);
   RectifiedPair pair = BumpScene{.width_px = 160, .height_px = 96}.render(&bench.output);
   for (int y = 0; y < 96; ++y)
-    for (int x = 60; x < 64; ++x) pair.right.valid[static_cast<std::size_t>(y) * 160 + static_cast<std::size_t>(x)] = 0;
+    for (int x = 60; x < 64; ++x)
+      pair.right.valid[static_cast<std::size_t>(y) * 160 + static_cast<std::size_t>(x)] = 0;
   const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) { return ZmnccMatcher({.window_px = 9}).match(pair, keypoints, c); });
+  const auto matches = run_stage(bench.context, [&](StageContext& c) {
+    return ZmnccMatcher({.window_px = 9}).match(pair, keypoints, c);
+  });
   ASSERT_TRUE(matches);
   for (const Match& m : matches->matches) {
     const float at = m.left_px.x - m.disparity_px;

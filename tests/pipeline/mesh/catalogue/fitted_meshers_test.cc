@@ -50,7 +50,8 @@ TEST(BezierNet, NeighboursShareBorderAndTangent) {
   for (int r = 0; r + 1 < net.rows(); ++r)
     for (int c = 0; c + 1 < net.columns(); ++c)
       for (std::size_t i = 0; i < 4; ++i) {
-        const BezierNet::Patch &here = net.patch(c, r), &right = net.patch(c + 1, r), &below = net.patch(c, r + 1);
+        const BezierNet::Patch &here = net.patch(c, r), &right = net.patch(c + 1, r),
+                               &below = net.patch(c, r + 1);
         EXPECT_NEAR(here[i][3], right[i][0], 1e-9);
         EXPECT_NEAR(here[3][i], below[0][i], 1e-9);
         EXPECT_NEAR(here[i][3] - here[i][2], right[i][1] - right[i][0], 1e-9) << "C1";
@@ -101,8 +102,13 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
   std::vector<Vec3f> truth;
   for (const CloudPoint& p : truth_points.points) truth.push_back(p.at_mm);
   const NearestVertex nearest(truth, std::pmr::get_default_resource());
-  for (const auto& [name, median_mm] : std::vector<std::pair<std::string, double>>{
-           {"grid", 0.06}, {"delaunay", 0.06}, {"advancing-front", 0.06}, {"marching-cubes", 0.05}, {"bezier", 0.05}, {"rbf", 0.12}, {"poisson", 0.12}}) {
+  for (const auto& [name, median_mm] : std::vector<std::pair<std::string, double>>{{"grid", 0.06},
+                                                                                   {"delaunay", 0.06},
+                                                                                   {"advancing-front", 0.06},
+                                                                                   {"marching-cubes", 0.05},
+                                                                                   {"bezier", 0.05},
+                                                                                   {"rbf", 0.12},
+                                                                                   {"poisson", 0.12}}) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("mesher", name));
     const auto mesher = make_mesher(set);
@@ -116,10 +122,12 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
       const Vec3f& p = result->vertices_mm[v];
       const auto hit = nearest.find(p, 3);
       if (hit.vertex == NearestVertex::kNone || !result->measured[v]) continue;
-      off.push_back(std::abs(static_cast<double>(mesh::dot(mesh::minus(p, truth[hit.vertex]), result->normals[v]))));
+      off.push_back(
+          std::abs(static_cast<double>(mesh::dot(mesh::minus(p, truth[hit.vertex]), result->normals[v]))));
     }
     std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-    std::cout << name << ": median " << off[off.size() / 2] << " mm, " << result->triangles.size() << " triangles\n";
+    std::cout << name << ": median " << off[off.size() / 2] << " mm, " << result->triangles.size()
+              << " triangles\n";
     EXPECT_LT(off[off.size() / 2], median_mm) << name;
   }
 }

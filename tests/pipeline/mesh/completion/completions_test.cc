@@ -68,8 +68,11 @@ TEST_P(Completions, MakeOneSurfaceAndLeaveTheMeasuredAsItIs) {
   const auto measured = [](const FaceMesh& m) { return std::count(m.measured.begin(), m.measured.end(), 1); };
   EXPECT_EQ(measured(*after), measured(before));
   ASSERT_GE(after->vertices_mm.size(), before.vertices_mm.size());
-  EXPECT_EQ(std::memcmp(after->vertices_mm.data(), before.vertices_mm.data(), before.vertices_mm.size() * sizeof(Vec3f)), 0);
-  EXPECT_EQ(std::memcmp(after->sigma_mm.data(), before.sigma_mm.data(), before.sigma_mm.size() * sizeof(float)), 0);
+  EXPECT_EQ(std::memcmp(after->vertices_mm.data(), before.vertices_mm.data(),
+                        before.vertices_mm.size() * sizeof(Vec3f)),
+            0);
+  EXPECT_EQ(
+      std::memcmp(after->sigma_mm.data(), before.sigma_mm.data(), before.sigma_mm.size() * sizeof(float)), 0);
 }
 
 TEST_P(Completions, AreTheSameForAnyNumberOfThreads) {
@@ -78,10 +81,12 @@ TEST_P(Completions, AreTheSameForAnyNumberOfThreads) {
   ThreadPool single(1);
   StageContext context{again.output, again.scratch, single, again.progress, again.cancelled};
   const auto completion = named(GetParam());
-  const auto second = run_stage(context, [&](StageContext& c) { return completion->complete(FaceMesh(turned().mesh), {1, 0, 0}, c); });
+  const auto second = run_stage(context, [&](StageContext& c) {
+    return completion->complete(FaceMesh(turned().mesh), {1, 0, 0}, c);
+  });
   ASSERT_TRUE(first && second);
-  EXPECT_TRUE(same(first->vertices_mm, second->vertices_mm) && same(first->triangles, second->triangles) && same(first->normals, second->normals) &&
-              same(first->sigma_mm, second->sigma_mm));
+  EXPECT_TRUE(same(first->vertices_mm, second->vertices_mm) && same(first->triangles, second->triangles) &&
+              same(first->normals, second->normals) && same(first->sigma_mm, second->sigma_mm));
 }
 
 TEST_P(Completions, GiveBackWhatIsNoFace) {
@@ -160,7 +165,8 @@ TEST_P(HiddenFace, LiesWithinTwoMillimetresOfTheHead) {
   const double share = within / static_cast<double>(off.size());
   std::sort(off.begin(), off.end());
   RecordProperty("median_mm", std::to_string(off[off.size() / 2]));
-  std::printf("%zu completed vertices: median %.2f mm, 95 %% within %.2f mm, within sigma %.2f\n", off.size(), off[off.size() / 2], off[off.size() * 95 / 100], share);
+  std::printf("%zu completed vertices: median %.2f mm, 95 %% within %.2f mm, within sigma %.2f\n", off.size(),
+              off[off.size() / 2], off[off.size() * 95 / 100], share);
   EXPECT_LT(off[off.size() / 2], 2);
   EXPECT_LT(off[off.size() * 95 / 100], 6);
   EXPECT_GT(share, 0.5);

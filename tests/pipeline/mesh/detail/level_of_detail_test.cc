@@ -23,7 +23,10 @@ using test::StageRoom;
 FaceModel ball(double noise_mm = 0) {
   StageRoom room;
   auto mesh = room.run([&](StageContext& c) {
-    return GridMesher({}).mesh(test::formula_cloud(2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm), c);
+    return GridMesher({}).mesh(
+        test::formula_cloud(
+            2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm),
+        c);
   });
   FaceModel model(std::pmr::get_default_resource());
   if (!mesh) return model;
@@ -31,7 +34,9 @@ FaceModel ball(double noise_mm = 0) {
   model.texture.width_px = model.texture.height_px = 4;
   model.texture.rgb.assign(48, 100);
   for (const Vec3f& v : model.mesh.vertices_mm)
-    model.texture.vertex_rgb.insert(model.texture.vertex_rgb.end(), {static_cast<std::uint8_t>(v.x + 100), static_cast<std::uint8_t>(v.y + 100), 7});
+    model.texture.vertex_rgb.insert(
+        model.texture.vertex_rgb.end(),
+        {static_cast<std::uint8_t>(v.x + 100), static_cast<std::uint8_t>(v.y + 100), 7});
   for (const auto& t : model.mesh.triangles) {
     float middle = 0;
     for (const std::uint32_t v : t) middle += model.mesh.vertices_mm[v].x;
@@ -58,8 +63,10 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
     // The ball itself is the truth: vertices are the model's, and between them it is as round as stated.
     double worst = 0;
     for (const auto& t : m.triangles) {
-      const Vec3f middle = mesh::times(mesh::plus(mesh::plus(m.vertices_mm[t[0]], m.vertices_mm[t[1]]), m.vertices_mm[t[2]]), 1 / 3.0F);
-      worst = std::max(worst, std::abs(90 - static_cast<double>(mesh::length(mesh::minus(middle, {0, 0, 600})))));
+      const Vec3f middle = mesh::times(
+          mesh::plus(mesh::plus(m.vertices_mm[t[0]], m.vertices_mm[t[1]]), m.vertices_mm[t[2]]), 1 / 3.0F);
+      worst =
+          std::max(worst, std::abs(90 - static_cast<double>(mesh::length(mesh::minus(middle, {0, 0, 600})))));
     }
     EXPECT_LT(worst, light->max_error_mm + 0.12) << "noise is 0.02 mm";
     // A texture coordinate still says where its vertex lies, on its side of the seam.
@@ -70,12 +77,17 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
       EXPECT_NEAR(light->model.texture.uv[i].y, 0.5F + at.y / 400, 1e-4F);
     }
     for (std::size_t t = 0; t < m.triangles.size(); ++t) {
-      const auto chart = [&](std::size_t k) { return light->model.texture.uv[3 * t + k].x - m.vertices_mm[m.triangles[t][k]].x / 800 < 0.5F; };
+      const auto chart = [&](std::size_t k) {
+        return light->model.texture.uv[3 * t + k].x - m.vertices_mm[m.triangles[t][k]].x / 800 < 0.5F;
+      };
       EXPECT_TRUE(chart(0) == chart(1) && chart(1) == chart(2)) << "no triangle lies across the seam";
     }
-    for (std::size_t v = 0; v < m.vertices_mm.size(); ++v) EXPECT_EQ(light->model.texture.vertex_rgb[3 * v], static_cast<std::uint8_t>(m.vertices_mm[v].x + 100));
+    for (std::size_t v = 0; v < m.vertices_mm.size(); ++v)
+      EXPECT_EQ(light->model.texture.vertex_rgb[3 * v], static_cast<std::uint8_t>(m.vertices_mm[v].x + 100));
     EXPECT_EQ(light->model.texture.rgb, model.texture.rgb);
-    EXPECT_NEAR(area_mm2(m.vertices_mm, m.triangles), area_mm2(model.mesh.vertices_mm, model.mesh.triangles), 0.005 * area_mm2(m.vertices_mm, m.triangles)) << "the border stays";
+    EXPECT_NEAR(area_mm2(m.vertices_mm, m.triangles), area_mm2(model.mesh.vertices_mm, model.mesh.triangles),
+                0.005 * area_mm2(m.vertices_mm, m.triangles))
+        << "the border stays";
   }
 }
 
@@ -118,15 +130,19 @@ TEST(SurfaceDistance, IsTheNearestOfAll) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t i = 0; i < 200; ++i) {
     const Vec3f middle{at(random), at(random), 300 + at(random)};
-    for (int k = 0; k < 3; ++k) vertices.push_back({middle.x + at(random) / 8, middle.y + at(random) / 8, middle.z + at(random) / 8});
+    for (int k = 0; k < 3; ++k)
+      vertices.push_back({middle.x + at(random) / 8, middle.y + at(random) / 8, middle.z + at(random) / 8});
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   for (int i = 0; i < 300; ++i) {
     const Vec3f p{1.5F * at(random), at(random), 300 + at(random)};
     double nearest = 1e30;
-    for (const auto& t : triangles) nearest = std::min(nearest, squared_distance_to_triangle(p, vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+    for (const auto& t : triangles)
+      nearest =
+          std::min(nearest, squared_distance_to_triangle(p, vertices[t[0]], vertices[t[1]], vertices[t[2]]));
     const std::array<Vec3f, 1> one{p};
-    EXPECT_NEAR(distance_to_surface(one, vertices, triangles, std::pmr::get_default_resource()).max_mm, std::sqrt(nearest), 1e-4);
+    EXPECT_NEAR(distance_to_surface(one, vertices, triangles, std::pmr::get_default_resource()).max_mm,
+                std::sqrt(nearest), 1e-4);
   }
 }
 

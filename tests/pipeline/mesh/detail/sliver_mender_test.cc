@@ -24,7 +24,8 @@ struct Sheet {
     std::uniform_real_distribution<float> shift(-push, push);
     for (std::uint32_t r = 0; r < kSide; ++r)
       for (std::uint32_t c = 0; c < kSide; ++c)
-        at.push_back({static_cast<float>(c) + shift(random), static_cast<float>(r) + shift(random), 500 + shift(random)});
+        at.push_back({static_cast<float>(c) + shift(random), static_cast<float>(r) + shift(random),
+                      500 + shift(random)});
     for (std::uint32_t r = 0; r + 1 < kSide; ++r)
       for (std::uint32_t c = 0; c + 1 < kSide; ++c) {
         const std::uint32_t a = r * kSide + c;
@@ -37,9 +38,10 @@ struct Sheet {
     if (n.z < 0) triangles.push_back(t);  // towards the camera; what is folded over is left out
   }
   std::size_t slivers() const {
-    return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(), [this](const Triangle& t) {
-      return smallest_angle_deg(at[t[0]], at[t[1]], at[t[2]]) < kSmallestAngleDeg;
-    }));
+    return static_cast<std::size_t>(
+        std::count_if(triangles.begin(), triangles.end(), [this](const Triangle& t) {
+          return smallest_angle_deg(at[t[0]], at[t[1]], at[t[2]]) < kSmallestAngleDeg;
+        }));
   }
 };
 
@@ -51,7 +53,8 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
   const std::size_t triangles = sheet.triangles.size();
   const double area = area_mm2(sheet.at, sheet.triangles);
   ASSERT_GT(before, 30U);
-  if (mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, &memory) > 0) keep_one_surface(sheet.at, sheet.triangles, {.ear_passes = 0}, &memory);
+  if (mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, &memory) > 0)
+    keep_one_surface(sheet.at, sheet.triangles, {.ear_passes = 0}, &memory);
   EXPECT_LT(sheet.slivers(), before / 10);
   EXPECT_LE(sheet.triangles.size(), triangles);
   EXPECT_NEAR(area_mm2(sheet.at, sheet.triangles), area, 0.02 * area);
@@ -60,13 +63,18 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
   mesh.triangles = sheet.triangles;
   test::expect_one_manifold_surface(mesh);
   for (const Triangle& t : sheet.triangles)
-    EXPECT_LT(mesh::cross(mesh::minus(sheet.at[t[1]], sheet.at[t[0]]), mesh::minus(sheet.at[t[2]], sheet.at[t[0]])).z, 0) << "still towards the camera";
+    EXPECT_LT(
+        mesh::cross(mesh::minus(sheet.at[t[1]], sheet.at[t[0]]), mesh::minus(sheet.at[t[2]], sheet.at[t[0]]))
+            .z,
+        0)
+        << "still towards the camera";
 }
 
 TEST(SliverMender, LeavesAGoodSurfaceAlone) {
   Sheet sheet(0.1F);
   const std::pmr::vector<Triangle> before = sheet.triangles;
-  EXPECT_EQ(mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, std::pmr::get_default_resource()), 0U);
+  EXPECT_EQ(
+      mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, std::pmr::get_default_resource()), 0U);
   EXPECT_TRUE(sheet.triangles == before);
 }
 

@@ -25,7 +25,9 @@ class FieldHead {
   static RigidTransform camera_from_head(const hal::sim::HeadPose& pose) {
     const hal::sim::Mat3 r = pose.world_from_head();
     RigidTransform t;
-    for (std::size_t i = 0; i < 3; ++i) t.rotation.m[3 * i] = r.row[i].x, t.rotation.m[3 * i + 1] = r.row[i].y, t.rotation.m[3 * i + 2] = r.row[i].z;
+    for (std::size_t i = 0; i < 3; ++i)
+      t.rotation.m[3 * i] = r.row[i].x, t.rotation.m[3 * i + 1] = r.row[i].y,
+                       t.rotation.m[3 * i + 2] = r.row[i].z;
     const hal::sim::Vec3 o = pose.origin_mm();
     t.translation_mm = {o.x, o.y, o.z};
     return t;
@@ -44,7 +46,9 @@ class FieldHead {
     std::vector<double> depth(kWidth * kHeight, 0);
     pool.for_each_band(kHeight, kHeight, [&](int begin, int end, int) {
       for (int y = begin; y < end; ++y)
-        for (int x = 0; x < kWidth; ++x) depth[static_cast<std::size_t>(y * kWidth + x)] = march(in_head, {(x - kWidth / 2) * kSlope, (y - kHeight / 2) * kSlope, 1});
+        for (int x = 0; x < kWidth; ++x)
+          depth[static_cast<std::size_t>(y * kWidth + x)] =
+              march(in_head, {(x - kWidth / 2) * kSlope, (y - kHeight / 2) * kSlope, 1});
     });
     PointCloud cloud(std::pmr::get_default_resource());
     cloud.lattice_step_px = 2;
@@ -55,15 +59,17 @@ class FieldHead {
         double z = depth[static_cast<std::size_t>(y * kWidth + x)];
         if (z <= 0) continue;
         z += noise(random);
-        cloud.points.push_back({{static_cast<float>((x - kWidth / 2) * kSlope * z), static_cast<float>((y - kHeight / 2) * kSlope * z), static_cast<float>(z)},
-                                {static_cast<float>(2 * x), static_cast<float>(2 * y)}, static_cast<float>(std::max(noise_mm, 0.02))});
+        cloud.points.push_back({{static_cast<float>((x - kWidth / 2) * kSlope * z),
+                                 static_cast<float>((y - kHeight / 2) * kSlope * z), static_cast<float>(z)},
+                                {static_cast<float>(2 * x), static_cast<float>(2 * y)},
+                                static_cast<float>(std::max(noise_mm, 0.02))});
       }
     return cloud;
   }
 
  private:
   static constexpr int kWidth = 200, kHeight = 260;
-  static constexpr double kSlope = 0.0018;  // about a millimetre on the face
+  static constexpr double kSlope = 0.0018;             // about a millimetre on the face
   static constexpr hal::sim::Vec3 kRight{138, 0, 17};  // the right camera
 
   // Depth of the face on this ray; 0 where there is none or the right camera does not see it well.
@@ -78,7 +84,8 @@ class FieldHead {
       }
       const hal::sim::Vec3 p = in_head(ray * z), n = field_.gradient(p);
       const hal::sim::Vec3 tip = field_.nose.tip();
-      const hal::sim::Vec3 to_left = normalised(in_head({0, 0, 0}) - p), to_right = normalised(in_head(kRight) - p);
+      const hal::sim::Vec3 to_left = normalised(in_head({0, 0, 0}) - p),
+                           to_right = normalised(in_head(kRight) - p);
       if (length(p - tip) > 105 || dot(n, to_left) < 0.3 || dot(n, to_right) < 0.3) return 0;
       for (double s = 2; s < 60; s += 1.5)
         if (field_.distance(p + to_right * s) < 0) return 0;

@@ -41,7 +41,9 @@ double angle_between_deg(const Rotation& a, const Rotation& b) {
 }
 
 void move(FaceMesh& mesh, const RigidTransform& motion) {
-  const auto f = [](const Vec3d& v) { return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
+  const auto f = [](const Vec3d& v) {
+    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
   for (Vec3f& v : mesh.vertices_mm) v = f(apply(motion, Vec3d{double(v.x), double(v.y), double(v.z)}));
   for (Vec3f& n : mesh.normals) n = f(apply(motion.rotation, Vec3d{double(n.x), double(n.y), double(n.z)}));
 }
@@ -104,8 +106,9 @@ void expect_follows(const FaceMesh& mesh, StageRoom& room, double yaw, double pi
   Rotation axes;
   for (int k = 0; k < 3; ++k) {
     const Vec3d unit{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-    const Vec3d seen = apply(after->head_from_camera.rotation,
-                             apply(motion.rotation, apply(transposed(before->head_from_camera.rotation), unit)));
+    const Vec3d seen =
+        apply(after->head_from_camera.rotation,
+              apply(motion.rotation, apply(transposed(before->head_from_camera.rotation), unit)));
     axes.m[k] = seen.x;
     axes.m[3 + k] = seen.y;
     axes.m[6 + k] = seen.z;
@@ -133,11 +136,17 @@ TEST(HeadFrame, OriginAtTheTipAxesLikeThePerson) {
 TEST(HeadFrame, FollowsAHeadThatTurns) {
   StageRoom room;
   const FaceMesh mesh = mesh_of(egg_head(), room);
-  for (const auto& [yaw, pitch, roll] : {std::array{20.0, 0.0, 0.0}, {-20.0, 0.0, 0.0}, {0.0, 15.0, 0.0}, {0.0, -15.0, 0.0}, {0.0, 0.0, 12.0}, {15.0, 8.0, -9.0}})
+  for (const auto& [yaw, pitch, roll] : {std::array{20.0, 0.0, 0.0},
+                                         {-20.0, 0.0, 0.0},
+                                         {0.0, 15.0, 0.0},
+                                         {0.0, -15.0, 0.0},
+                                         {0.0, 0.0, 12.0},
+                                         {15.0, 8.0, -9.0}})
     expect_follows(mesh, room, yaw, pitch, roll);
 }
 
-// Over a neck a chin stands out further than a small nose does; but a face lies above it and next to nothing below.
+// Over a neck a chin stands out further than a small nose does; but a face lies above it and next to nothing
+// below.
 TEST(HeadFrame, AChinOverANeckIsNoNose) {
   StageRoom room;
   const auto frame = frame_of(mesh_of(egg_head(14, 22, 40), room), room);
@@ -153,13 +162,16 @@ TEST(HeadFrame, RotationIsProper) {
   ASSERT_TRUE(frame);
   const Rotation& r = frame->head_from_camera.rotation;
   EXPECT_LT(angle_between_deg(r, r), 1e-4);
-  const double det = r.m[0] * (r.m[4] * r.m[8] - r.m[5] * r.m[7]) - r.m[1] * (r.m[3] * r.m[8] - r.m[5] * r.m[6]) + r.m[2] * (r.m[3] * r.m[7] - r.m[4] * r.m[6]);
+  const double det = r.m[0] * (r.m[4] * r.m[8] - r.m[5] * r.m[7]) -
+                     r.m[1] * (r.m[3] * r.m[8] - r.m[5] * r.m[6]) +
+                     r.m[2] * (r.m[3] * r.m[7] - r.m[4] * r.m[6]);
   EXPECT_NEAR(det, 1, 1e-9);
 }
 
 TEST(HeadFrame, APhotoOnPaperHasNoNose) {
   StageRoom room;
-  const auto frame = frame_of(mesh_of(test::formula_cloud(2, 400, [](double, double) { return 520.0; }), room), room);
+  const auto frame =
+      frame_of(mesh_of(test::formula_cloud(2, 400, [](double, double) { return 520.0; }), room), room);
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.error().code, Errc::PoorGeometry);
 }
@@ -207,7 +219,8 @@ TEST(HeadFrame, RenderedHeads) {
     Vec3f front{0, 0, 1e9F};
     for (const CloudPoint& p : cloud.points)
       if (p.at_mm.z < front.z) front = p.at_mm;
-    const Vec3d seen = apply(frame->head_from_camera, Vec3d{double(front.x), double(front.y), double(front.z)});
+    const Vec3d seen =
+        apply(frame->head_from_camera, Vec3d{double(front.x), double(front.y), double(front.z)});
     EXPECT_LT(std::hypot(seen.x, seen.y, seen.z), 12) << name;
     for (const double yaw : {-10.0, 8.0}) expect_follows(mesh, room, yaw, 5, -6);
   }

@@ -34,7 +34,8 @@ Look look_at(const FieldHead& head, double yaw_deg, double pitch_deg, StageRoom&
   EXPECT_TRUE(mesh);
   const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, {}, c); });
   EXPECT_TRUE(frame);
-  const auto landmarks = room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, c); });
+  const auto landmarks =
+      room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, c); });
   EXPECT_TRUE(landmarks);
   return {inverse(FieldHead::camera_from_head(pose)), frame->head_from_camera, *landmarks};
 }
@@ -49,7 +50,8 @@ void expect_same_frame(const Look& a, const Look& b) {
   EXPECT_LT(std::hypot(o.x, o.y, o.z), 0.7);
   for (const Vec3d& axis : {Vec3d{100, 0, 0}, Vec3d{0, 100, 0}, Vec3d{0, 0, 100}}) {
     const Vec3d p = in_b(axis);
-    EXPECT_LT(std::hypot(p.x - o.x - axis.x, p.y - o.y - axis.y, p.z - o.z - axis.z), 100 * 0.7 * std::numbers::pi / 180);
+    EXPECT_LT(std::hypot(p.x - o.x - axis.x, p.y - o.y - axis.y, p.z - o.z - axis.z),
+              100 * 0.7 * std::numbers::pi / 180);
   }
 }
 
@@ -59,7 +61,9 @@ TEST(Landmarks, TheFrameOfAHeadThatTurnsStaysWithin07) {
   for (const std::uint32_t seed : {3U}) {
     const FieldHead head(seed);
     std::vector<Look> looks;
-    for (const auto& [yaw, pitch] : {std::pair{0.0, 0.0}, {25.0, 0.0}, {-25.0, 0.0}, {0.0, 15.0}, {0.0, -15.0}}) looks.push_back(look_at(head, yaw, pitch, room));
+    for (const auto& [yaw, pitch] :
+         {std::pair{0.0, 0.0}, {25.0, 0.0}, {-25.0, 0.0}, {0.0, 15.0}, {0.0, -15.0}})
+      looks.push_back(look_at(head, yaw, pitch, room));
     for (std::size_t i = 0; i < looks.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         SCOPED_TRACE(std::to_string(seed) + ": " + std::to_string(i) + " " + std::to_string(j));
@@ -94,9 +98,11 @@ TEST(Landmarks, LieWhereTheSigmaSays) {
       for (std::size_t k = 0; k < kLandmarkCount; ++k) {
         if (word(static_cast<LandmarkName>(k)) != name) continue;
         const Landmark& l = look.landmarks[k];
-        if (!l.found && name.starts_with("exocanthion")) continue;  // this head has no eyeballs: a hole where they are
+        if (!l.found && name.starts_with("exocanthion"))
+          continue;  // this head has no eyeballs: a hole where they are
         ASSERT_TRUE(l.found) << name;
-        const Vec3d p = apply(look.true_head_from_camera, {double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
+        const Vec3d p =
+            apply(look.true_head_from_camera, {double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
         const double off = std::hypot(p.x - at.x, p.y - at.y, p.z - at.z);
         EXPECT_LT(off, 4 * static_cast<double>(l.sigma_mm)) << seed << " " << name;
         sum += off * off / (3 * static_cast<double>(l.sigma_mm * l.sigma_mm));

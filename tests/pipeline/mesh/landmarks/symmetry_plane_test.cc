@@ -23,11 +23,12 @@ constexpr double kDeg = std::numbers::pi / 180;
 
 double height_mm(double x, double y) {
   const auto bump = [](double u, double v) { return std::exp(-u * u - v * v); };
-  return -x * x / 160 - y * y / 260 + 24 * bump(x / 13, y / 22) - 6 * (bump((x - 30) / 12, (y - 30) / 9) + bump((x + 30) / 12, (y - 30) / 9));
+  return -x * x / 160 - y * y / 260 + 24 * bump(x / 13, y / 22) -
+         6 * (bump((x - 30) / 12, (y - 30) / 9) + bump((x + 30) / 12, (y - 30) / 9));
 }
 
-// A face seen from 60 mm on one side of the nose to `far_mm` on the other, turned about y, each point off by `rough_mm` and
-// its normal with it (a bad match).
+// A face seen from 60 mm on one side of the nose to `far_mm` on the other, turned about y, each point off by
+// `rough_mm` and its normal with it (a bad match).
 std::vector<SurfacePoint> face(double yaw_deg, double far_mm, double rough_mm, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -37,8 +38,10 @@ std::vector<SurfacePoint> face(double yaw_deg, double far_mm, double rough_mm, s
     for (double x = -60; x <= far_mm; x += 2) {
       const double noise = rough_mm * normal(random);
       const Vector3d slope{(height_mm(x + 1, y) - height_mm(x - 1, y)) / 2 + 0.3 * rough_mm * normal(random),
-                           (height_mm(x, y + 1) - height_mm(x, y - 1)) / 2 + 0.3 * rough_mm * normal(random), 0};
-      points.push_back({turn * Vector3d{x, y, height_mm(x, y) - 24 + noise}, turn * Vector3d{-slope.x(), -slope.y(), 1}.normalized()});
+                           (height_mm(x, y + 1) - height_mm(x, y - 1)) / 2 + 0.3 * rough_mm * normal(random),
+                           0};
+      points.push_back({turn * Vector3d{x, y, height_mm(x, y) - 24 + noise},
+                        turn * Vector3d{-slope.x(), -slope.y(), 1}.normalized()});
     }
   return points;
 }
@@ -59,8 +62,8 @@ TEST(SymmetryPlane, IsFoundToHalfADegreeOnASmoothFace) {
   }
 }
 
-// The descent may leave a rough surface for where hardly anything meets: what was nearer the truth before must stay,
-// or nothing be found.
+// The descent may leave a rough surface for where hardly anything meets: what was nearer the truth before
+// must stay, or nothing be found.
 TEST(SymmetryPlane, ARoughSurfaceHasNoPlaneRatherThanAWrongOne) {
   for (const double far_mm : {15.0, 25.0})
     for (const double yaw : {-25.0, 0.0, 18.0})
@@ -68,7 +71,8 @@ TEST(SymmetryPlane, ARoughSurfaceHasNoPlaneRatherThanAWrongOne) {
         StageRoom room;
         const auto points = face(yaw, far_mm, 4, seed);
         const auto plane = room.run([&](StageContext& c) { return find_symmetry_plane(points, c); });
-        EXPECT_LT(plane ? off_deg(*plane, yaw) : 0, 5) << "seen to " << far_mm << " mm, yaw " << yaw << ", seed " << seed;
+        EXPECT_LT(plane ? off_deg(*plane, yaw) : 0, 5)
+            << "seen to " << far_mm << " mm, yaw " << yaw << ", seed " << seed;
       }
 }
 

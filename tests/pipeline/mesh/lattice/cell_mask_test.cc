@@ -139,7 +139,8 @@ TEST(MaskShaper, StraightensByWhatLiesAround) {
         for (int x = 0; x < kColumns; ++x) {
           const double dx = (x - c) * static_cast<double>(kWidth) / static_cast<double>(kSigma);
           const double dy = (y - r) * static_cast<double>(kHeight) / static_cast<double>(kSigma);
-          if (before[static_cast<std::size_t>(y) * kColumns + static_cast<std::size_t>(x)]) sum += std::exp(-(dx * dx + dy * dy) / 2);
+          if (before[static_cast<std::size_t>(y) * kColumns + static_cast<std::size_t>(x)])
+            sum += std::exp(-(dx * dx + dy * dy) / 2);
         }
       const double share = sum * 0.7F * 0.4F / (2 * 3.14159265 * 1.5 * 1.5);
       if (std::abs(share - 0.4) < 0.04) ++doubtful;  // three boxes are no Gaussian, but nearly

@@ -41,7 +41,8 @@ double off_the_head(const test::FieldHead& head, const hal::sim::HeadPose& pose,
 
 double percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return values.empty() ? 0
+                        : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
@@ -58,7 +59,8 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
     EXPECT_GT(completed.size(), 300U) << "beside the nose, at least";
     EXPECT_LT(percentile(measured, 0.95), 0.35) << seed;
     EXPECT_LT(percentile(completed, 0.5), 0.5) << seed;
-    EXPECT_LT(percentile(completed, 0.8), 2.3) << seed << ", the rest is under the chin and beyond what either side shows";
+    EXPECT_LT(percentile(completed, 0.8), 2.3)
+        << seed << ", the rest is under the chin and beyond what either side shows";
     EXPECT_LT(percentile(completed, 0.95), 12.0) << seed;
   }
 }
@@ -83,7 +85,9 @@ double rms_between(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to)
   double sum = 0;
   for (const Vec3d& p : from) {
     double least = 1e9;
-    for (const Vec3d& q : to) least = std::min(least, (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
+    for (const Vec3d& q : to)
+      least =
+          std::min(least, (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
     sum += least;
   }
   return std::sqrt(sum / static_cast<double>(from.size()));
@@ -100,10 +104,13 @@ TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
       return outline(closed_face(head, pose, room), pose);
     };
     const std::vector<Vec3d> facing = cut_at(kFacing, 0);
-    for (const auto& [yaw, pitch] : {std::pair{0.0, 0.0}, {2.0, 3.0}, {15.0, 0.0}, {14.0, -3.0}, {8.0, 6.0}}) {
+    for (const auto& [yaw, pitch] :
+         {std::pair{0.0, 0.0}, {2.0, 3.0}, {15.0, 0.0}, {14.0, -3.0}, {8.0, 6.0}}) {
       const std::vector<Vec3d> other = cut_at(yaw, pitch);
-      EXPECT_LT(rms_between(other, facing), 2.0) << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
-      EXPECT_LT(rms_between(facing, other), 2.0) << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
+      EXPECT_LT(rms_between(other, facing), 2.0)
+          << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
+      EXPECT_LT(rms_between(facing, other), 2.0)
+          << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
     }
   }
 }

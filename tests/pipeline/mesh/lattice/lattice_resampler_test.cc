@@ -44,9 +44,11 @@ std::size_t measured(const PointLattice& lattice) {
 class Spacing : public testing::TestWithParam<float> {};
 
 TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
-  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {GetParam(), 1});
+  const Resampled r =
+      resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {GetParam(), 1});
   const auto expected = static_cast<double>(measured(r.from)) / static_cast<double>(GetParam() * GetParam());
-  EXPECT_NEAR(static_cast<double>(measured(r.to)), expected, 0.08 * expected) << "less the horizon, too steep to carry a surface";
+  EXPECT_NEAR(static_cast<double>(measured(r.to)), expected, 0.08 * expected)
+      << "less the horizon, too steep to carry a surface";
   double squares = 0;
   int in_front = 0;
   for (std::size_t k = 0; k < r.to.size(); ++k) {
@@ -84,8 +86,12 @@ TEST(LatticeResampler, CellsGrowTowardsTheEdgesAndNowhereElse) {
   EXPECT_NEAR(middle, even.to.cell_width_mm, 0.01F * middle);
   for (int c = 0; c + 1 < l.columns; ++c) {
     EXPECT_NEAR(width(c), width(l.columns - 2 - c), 0.02F * middle) << c;
-    if (4 * c > l.columns && 4 * c < 3 * l.columns) { EXPECT_NEAR(width(c), middle, 0.01F * middle) << c; }
-    if (c > 0 && 2 * c < l.columns) { EXPECT_LE(width(c), width(c - 1) + 0.001F) << c; }
+    if (4 * c > l.columns && 4 * c < 3 * l.columns) {
+      EXPECT_NEAR(width(c), middle, 0.01F * middle) << c;
+    }
+    if (c > 0 && 2 * c < l.columns) {
+      EXPECT_LE(width(c), width(c - 1) + 0.001F) << c;
+    }
   }
   EXPECT_NEAR(width(0), 2 * middle, 0.05F * middle);
   EXPECT_FLOAT_EQ(l.at_mm[0].x, r.from.at_mm[0].x);
@@ -117,7 +123,8 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] != Node::Measured) continue;
     const Vec3f& at = r.to.at_mm[k];
-    const double off = std::min(std::abs(static_cast<double>(at.z) - 480), std::abs(static_cast<double>(at.z) - 500));
+    const double off =
+        std::min(std::abs(static_cast<double>(at.z) - 480), std::abs(static_cast<double>(at.z) - 500));
     EXPECT_LT(off, 0.01);
     EXPECT_GE(std::hypot(static_cast<double>(at.x / at.z) + 0.05, static_cast<double>(at.y / at.z)), 0.0199);
   }

@@ -132,12 +132,15 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
   boundary_mm(*straight, &turned);
   boundary_mm(*before, &turned_before);
   EXPECT_LT(turned, 0.5 * turned_before);
-  EXPECT_GT(area_mm2(straight->vertices_mm, straight->triangles), 0.99 * area_mm2(before->vertices_mm, before->triangles)) << "what it takes it gives";
+  EXPECT_GT(area_mm2(straight->vertices_mm, straight->triangles),
+            0.99 * area_mm2(before->vertices_mm, before->triangles))
+      << "what it takes it gives";
   std::size_t given = 0;
   for (std::size_t v = 0; v < straight->vertices_mm.size(); ++v) {
     if (straight->measured[v]) continue;
     ++given;
-    EXPECT_NEAR(mesh::length(mesh::minus(straight->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.25) << "it goes on as the ball does";
+    EXPECT_NEAR(mesh::length(mesh::minus(straight->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.25)
+        << "it goes on as the ball does";
     const float cosine = -mesh::dot(straight->normals[v], mesh::unit(straight->vertices_mm[v]));
     EXPECT_GT(straight->sigma_mm[v], 0.0199F * cosine) << "no more certain than what was measured";
   }
@@ -167,7 +170,8 @@ TEST(GridMesher, TheRimThatTurnsAwayGoesAndAHoleInsideKeepsItsSurroundings) {
 }
 
 TEST(GridMesher, AHoleAtTheOutlineIsNoNickInIt) {
-  // A sheet that is round, with two holes that stay open: one 3 mm from the outside, as between strands of hair, one 20 mm.
+  // A sheet that is round, with two holes that stay open: one 3 mm from the outside, as between strands of
+  // hair, one 20 mm.
   const PointCloud cloud = cloud_of([](double sx, double sy) {
     const double x = sx * 500;
     const double y = sy * 500;
@@ -182,7 +186,8 @@ TEST(GridMesher, AHoleAtTheOutlineIsNoNickInIt) {
   test::expect_clean(*result);
   EXPECT_EQ(test::boundary_loops(*result), 2U);
   EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), 0.93 * 3.14159 * 60 * 60) << "little is lost";
-  for (const Vec3f& v : result->vertices_mm) EXPECT_FALSE(std::abs(v.x) < 5 && v.y < -55) << "the bow passes below the hole: it has no walls";
+  for (const Vec3f& v : result->vertices_mm)
+    EXPECT_FALSE(std::abs(v.x) < 5 && v.y < -55) << "the bow passes below the hole: it has no walls";
 }
 
 }  // namespace

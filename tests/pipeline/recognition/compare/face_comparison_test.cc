@@ -43,7 +43,8 @@ Seen see(std::uint32_t seed, double yaw_deg, StageRoom& room) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       both.rotation.m[3 * i + j] = 0;
-      for (int k = 0; k < 3; ++k) both.rotation.m[3 * i + j] += f.rotation.m[3 * i + k] * camera_from_model.rotation.m[3 * k + j];
+      for (int k = 0; k < 3; ++k)
+        both.rotation.m[3 * i + j] += f.rotation.m[3 * i + k] * camera_from_model.rotation.m[3 * k + j];
     }
   both.translation_mm = apply(f, camera_from_model.translation_mm);
   return {rigid_face_of(*mesh, f, heap(), heap()), both};
@@ -86,7 +87,8 @@ TEST(FaceComparison, TheSameHeadTurnedIsNearerThanAnyOther) {
   }
   // The motion found takes one frame's numbers of a place to the other's.
   for (const Vec3d& p : {Vec3d{0, -10, 115}, Vec3d{40, 20, 70}, Vec3d{-30, 60, 90}}) {
-    const Vec3d a = apply(same.b_from_a, apply(straight.head_from_model, p)), b = apply(turned.head_from_model, p);
+    const Vec3d a = apply(same.b_from_a, apply(straight.head_from_model, p)),
+                b = apply(turned.head_from_model, p);
     EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z), 0.15);
   }
 }
@@ -103,7 +105,8 @@ const RigidFace& straight_face() {
 TEST(FaceComparison, FramesThatAreOffAndTheOrderOfTheTwoDoNotMatter) {
   const RigidFace& face = straight_face();
   const double a = 0.07;
-  const RigidTransform off{{{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}}, {2, -3, 2.5}};
+  const RigidTransform off{{{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}},
+                           {2, -3, 2.5}};
   const RigidFace shifted = moved(face, off);
   const FaceDifference there = compared(face, shifted), back = compared(shifted, face);
   EXPECT_LT(there.rms_mm, 0.01);
@@ -112,7 +115,8 @@ TEST(FaceComparison, FramesThatAreOffAndTheOrderOfTheTwoDoNotMatter) {
   EXPECT_NEAR(there.b_from_a.rotation.m[3], std::sin(a), 3e-4);
 }
 
-// Noise of s along the normals of both: their difference has s * sqrt 2, of which the middle nine tenths are kept.
+// Noise of s along the normals of both: their difference has s * sqrt 2, of which the middle nine tenths are
+// kept.
 TEST(FaceComparison, TheDifferenceOfTwoNoisySurfacesIsTheirNoise) {
   const RigidFace& face = straight_face();
   std::mt19937 random(3);
@@ -122,9 +126,11 @@ TEST(FaceComparison, TheDifferenceOfTwoNoisySurfacesIsTheirNoise) {
     for (std::size_t i = 0; i < face.points_mm.size(); ++i) {
       const float s = noise(random);
       const Vec3f n = face.normals[i];
-      f->points_mm[i] = {f->points_mm[i].x + s * n.x, f->points_mm[i].y + s * n.y, f->points_mm[i].z + s * n.z};
+      f->points_mm[i] = {f->points_mm[i].x + s * n.x, f->points_mm[i].y + s * n.y,
+                         f->points_mm[i].z + s * n.z};
     }
-  // Of a normal distribution the nine tenths nearest to zero have 0.79 of its deviation (the integral of x^2 between +-1.64).
+  // Of a normal distribution the nine tenths nearest to zero have 0.79 of its deviation (the integral of x^2
+  // between +-1.64).
   EXPECT_NEAR(compared(a, b).rms_mm, 0.3 * std::sqrt(2.0) * 0.79, 0.04);
 }
 
@@ -147,7 +153,8 @@ TEST(FaceComparison, SurfaceThatDoesNotOverlapIsNoComparison) {
 TEST(RigidFace, HoldsMeasuredSurfaceOfTheRegionOnly) {
   const RigidFace& face = straight_face();
   EXPECT_GT(face.points_mm.size(), 2500u);
-  for (const Vec3f& p : face.points_mm) EXPECT_TRUE(in_rigid_region(static_cast<double>(p.x), static_cast<double>(p.y)));
+  for (const Vec3f& p : face.points_mm)
+    EXPECT_TRUE(in_rigid_region(static_cast<double>(p.x), static_cast<double>(p.y)));
   EXPECT_TRUE(in_rigid_region(0, 30)) << "root of the nose";
   EXPECT_TRUE(in_rigid_region(-45, 15)) << "cheekbone";
   EXPECT_FALSE(in_rigid_region(32, 33)) << "eye";
@@ -164,8 +171,11 @@ TEST(NearestPoints, AgreesWithLookingAtThemAll) {
   const NearestPoints tree(points);
   for (int i = 0; i < 500; ++i) {
     const Vec3f at{place(random), place(random), place(random)};
-    const auto far = [&](const Vec3f& p) { return (p.x - at.x) * (p.x - at.x) + (p.y - at.y) * (p.y - at.y) + (p.z - at.z) * (p.z - at.z); };
-    const std::uint32_t found = tree.nearest({static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
+    const auto far = [&](const Vec3f& p) {
+      return (p.x - at.x) * (p.x - at.x) + (p.y - at.y) * (p.y - at.y) + (p.z - at.z) * (p.z - at.z);
+    };
+    const std::uint32_t found =
+        tree.nearest({static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
     for (const Vec3f& p : points) ASSERT_LE(far(points[found]), far(p) + 1e-4F);
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every algorithm of every stage: chosen, its options edited and checked, rules switched; and what they make of
-// the test capture. Names of algorithms and options are those of the command line, in every language.
+// Every algorithm of every stage: chosen, its options edited and checked, rules switched; and what they make
+// of the test capture. Names of algorithms and options are those of the command line, in every language.
 #include <cstdio>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -23,7 +23,8 @@ const char* label_of(const Words& tr, std::string_view kind) {
   return tr("Texture");
 }
 
-// A sentence in which pipeline/ describes itself, in the page's language; English, where that has none, keeps its direction.
+// A sentence in which pipeline/ describes itself, in the page's language; English, where that has none, keeps
+// its direction.
 std::string_view described(BenchFrame& b, std::string_view sentence) {
   const char* english = b.page.kept(sentence);
   const char* words = b.tr(english);
@@ -45,8 +46,10 @@ void kinds(BenchFrame& b) {
     row.box.radius = b.page.px(12);
     row.box.fill = chosen ? b.page.palette.accent : b.page.palette.card;
     b.page.tree.open(row);
-    b.page.tree.leaf(b.page.text(label_of(b.tr, kind.key), type::kSmall, Weight::Medium, chosen ? b.page.palette.accent_ink : b.page.palette.ink));
-    b.page.tree.leaf(b.page.text(b.left_to_right(b.breakable(kind.value)), 17, Weight::Regular, chosen ? b.page.palette.accent_ink : b.page.palette.ink_soft));
+    b.page.tree.leaf(b.page.text(label_of(b.tr, kind.key), type::kSmall, Weight::Medium,
+                                 chosen ? b.page.palette.accent_ink : b.page.palette.ink));
+    b.page.tree.leaf(b.page.text(b.left_to_right(b.breakable(kind.value)), 17, Weight::Regular,
+                                 chosen ? b.page.palette.accent_ink : b.page.palette.ink_soft));
     b.page.tree.close();
   }
   b.page.tree.close();
@@ -59,7 +62,9 @@ void names(BenchFrame& b) {
     b.page.tree.open(b.page.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < first + across; ++i) {
       if (i >= choice.names.size()) b.page.space(1);
-      else b.choice(b.id("name", i), b.left_to_right(choice.names[i].name), choice.names[i].chosen, bench(BenchAct::ChooseName, static_cast<std::int32_t>(i)));
+      else
+        b.choice(b.id("name", i), b.left_to_right(choice.names[i].name), choice.names[i].chosen,
+                 bench(BenchAct::ChooseName, static_cast<std::int32_t>(i)));
     }
     b.page.tree.close();
   }
@@ -69,11 +74,15 @@ void rejected(BenchFrame& b) {
   const BenchResult& r = b.view.result;
   b.page.section(b.tr("In the last calculation"));
   b.page.row("accepted count", b.tr("Accepted matches"), b.page.number(static_cast<double>(r.accepted)));
-  for (std::size_t i = 0; i < r.rule_count; ++i) b.page.row(b.id("rejected", i), b.left_to_right(r.rules[i].name), b.page.number(static_cast<double>(r.rules[i].rejected)));
+  for (std::size_t i = 0; i < r.rule_count; ++i)
+    b.page.row(b.id("rejected", i), b.left_to_right(r.rules[i].name),
+               b.page.number(static_cast<double>(r.rules[i].rejected)));
 }
 
 // With the language's decimal mark, as it is typed.
-std::string_view value_of(BenchFrame& b, const BenchOption& option) { return b.left_to_right(option.text ? option.value : b.page.as_number(option.value)); }
+std::string_view value_of(BenchFrame& b, const BenchOption& option) {
+  return b.left_to_right(option.text ? option.value : b.page.as_number(option.value));
+}
 
 std::string_view as_typed(BenchFrame& b, std::string_view typed) {
   const char mark = info_of(b.tr.language()).decimal_mark;
@@ -87,13 +96,15 @@ void options(BenchFrame& b) {
   const BenchChoice& choice = b.view.choice;
   names(b);
   b.page.begin_panel("options");
-  Node said = b.page.text(described(b, choice.kinds[choice.kind].sentence), 17, Weight::Regular, b.page.palette.ink_soft);
+  Node said = b.page.text(described(b, choice.kinds[choice.kind].sentence), 17, Weight::Regular,
+                          b.page.palette.ink_soft);
   said.box.pad_y = b.page.px(6);
   b.page.tree.leaf(said);
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
     const BenchOption& option = choice.options[i];
     const Action action = option.text ? Action{} : bench(BenchAct::EditOption, static_cast<std::int32_t>(i));
-    b.page.row(b.id("option", i), b.left_to_right(option.key), value_of(b, option), option.changed ? Mood::Warn : Mood::Plain, action);
+    b.page.row(b.id("option", i), b.left_to_right(option.key), value_of(b, option),
+               option.changed ? Mood::Warn : Mood::Plain, action);
   }
   if (choice.kinds[choice.kind].several && b.view.result.there) rejected(b);
   b.page.tree.close();
@@ -106,7 +117,8 @@ void key(BenchFrame& b, std::string_view id, const char* letter, Action action) 
   node.role = Role::Key;
   node.action = action;
   node.box.grow = 1;
-  node.box.min_height = b.page.px(b.page.portrait ? 1.4F * size::kStaffTarget : size::kStaffTarget);   // upright there is room
+  node.box.min_height =
+      b.page.px(b.page.portrait ? 1.4F * size::kStaffTarget : size::kStaffTarget);  // upright there is room
   node.box.fill = b.page.palette.card;
   node.box.border = b.page.palette.card_border;
   node.box.border_px = b.page.px(1.5F);
@@ -115,7 +127,8 @@ void key(BenchFrame& b, std::string_view id, const char* letter, Action action) 
 }
 
 void keys(BenchFrame& b) {
-  constexpr const char* kKeys[4][4] = {{"1", "2", "3", "."}, {"4", "5", "6", "-"}, {"7", "8", "9", "e"}, {"0", nullptr, nullptr, nullptr}};
+  constexpr const char* kKeys[4][4] = {
+      {"1", "2", "3", "."}, {"4", "5", "6", "-"}, {"7", "8", "9", "e"}, {"0", nullptr, nullptr, nullptr}};
   const char* const decimal_mark = info_of(b.tr.language()).decimal_mark == ',' ? "," : ".";
   for (const auto& line : kKeys) {
     Node row = b.page.box(Flow::Row, 8);
@@ -123,7 +136,8 @@ void keys(BenchFrame& b) {
     b.page.tree.open(row);
     for (const char* letter : line) {
       if (letter == nullptr) continue;
-      key(b, b.id("type", static_cast<std::size_t>(*letter)), *letter == '.' ? decimal_mark : letter, bench(BenchAct::TypeDigit, *letter));
+      key(b, b.id("type", static_cast<std::size_t>(*letter)), *letter == '.' ? decimal_mark : letter,
+          bench(BenchAct::TypeDigit, *letter));
     }
     if (*line[0] == '0') {
       Node erase = b.page.grown(b.page.box(Flow::Row), 3);
@@ -153,18 +167,22 @@ void editor(BenchFrame& b) {
   b.page.tree.open(words);
   b.page.tree.leaf(b.page.text(b.left_to_right(option.key), type::kBody, Weight::Bold, b.page.palette.ink));
   if (!b.view.choice.refused.empty()) {
-    Node no = b.page.text(b.tr("This value is not possible."), type::kSmall, Weight::Bold, b.page.palette.bad);
+    Node no =
+        b.page.text(b.tr("This value is not possible."), type::kSmall, Weight::Bold, b.page.palette.bad);
     no.id = "option refused";
     no.role = Role::Status;
     b.page.tree.leaf(no);
   }
-  b.page.tree.leaf(b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  b.page.tree.leaf(
+      b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
   char text[96];
   std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
   b.page.row("option range", b.tr("Possible values"), b.left_to_right(b.page.with_numbers(text)));
   b.page.row("option value", b.tr("Now"), value_of(b, option));
   b.page.tree.close();
-  Node field = b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : as_typed(b, b.view.choice.typed), type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
+  Node field =
+      b.page.text(b.view.choice.typed.empty() ? std::string_view("_") : as_typed(b, b.view.choice.typed),
+                  type::kHeading, Weight::Bold, b.page.palette.ink, TextAlign::Centre);
   field.id = "option typed";
   field.role = Role::Field;
   field.name = b.tr("New value");
@@ -177,18 +195,26 @@ void editor(BenchFrame& b) {
   keys(b);
   const bool stacked = b.page.portrait && b.page.text_share > 1.3F;
   b.page.tree.open(b.page.box(stacked ? Flow::Column : Flow::Row, space::kXs));
-  b.page.small_button("option leave", b.tr("Cancel"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveOption), stacked ? 0.0F : 1.0F);
-  b.page.small_button("option default", b.tr("Default"), nullptr, ButtonLook::Quiet, bench(BenchAct::UseDefault), stacked ? 0.0F : 1.0F);
-  b.page.small_button("option use", b.tr("Use it"), icon::kCheck, ButtonLook::Main, bench(BenchAct::UseTyped), stacked ? 0.0F : 1.0F);
+  b.page.small_button("option leave", b.tr("Cancel"), nullptr, ButtonLook::Quiet,
+                      bench(BenchAct::LeaveOption), stacked ? 0.0F : 1.0F);
+  b.page.small_button("option default", b.tr("Default"), nullptr, ButtonLook::Quiet,
+                      bench(BenchAct::UseDefault), stacked ? 0.0F : 1.0F);
+  b.page.small_button("option use", b.tr("Use it"), icon::kCheck, ButtonLook::Main, bench(BenchAct::UseTyped),
+                      stacked ? 0.0F : 1.0F);
   b.page.tree.close();
 }
 
 void status(BenchFrame& b) {
-  if (!b.view.calibrated) return b.page.status("uncalibrated", b.tr("This device is not calibrated yet"), Mood::Warn);
+  if (!b.view.calibrated)
+    return b.page.status("uncalibrated", b.tr("This device is not calibrated yet"), Mood::Warn);
   b.problem(b.view.problem);
   const bool running = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
-  if (running) return b.page.progress("run progress", b.view.phase == BenchPhase::Running ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4 : 0);
-  if (b.view.applied) b.page.status("applied", b.tr("Visitors are measured with these algorithms now."), Mood::Good);
+  if (running)
+    return b.page.progress("run progress", b.view.phase == BenchPhase::Running
+                                               ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4
+                                               : 0);
+  if (b.view.applied)
+    b.page.status("applied", b.tr("Visitors are measured with these algorithms now."), Mood::Good);
 }
 
 }  // namespace
@@ -212,8 +238,11 @@ void bench_algorithms_page(StaffFrame& page) {
   page.tree.close();
   if (editing) return;
   const float grow = b.open_buttons();
-  page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet), grow);
-  if (b.view.calibrated) page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet, bench(BenchAct::ApplySet), grow);
+  page.small_button("reset", b.tr("All as delivered"), nullptr, ButtonLook::Quiet, bench(BenchAct::ResetSet),
+                    grow);
+  if (b.view.calibrated)
+    page.small_button("apply", b.tr("Use for visitors"), nullptr, ButtonLook::Quiet,
+                      bench(BenchAct::ApplySet), grow);
   page.tree.close();
   b.capture_buttons(true);
 }

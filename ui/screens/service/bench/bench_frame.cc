@@ -9,15 +9,23 @@ namespace relievo::ui {
 
 const char* title_of(const Words& tr, BenchStage stage) {
   switch (stage) {
-    case BenchStage::Input: return tr("Pictures");
-    case BenchStage::Processed: return tr("Processed");
-    case BenchStage::Rectified: return tr("Rectified");
-    case BenchStage::Matches: return tr("Matches");
-    case BenchStage::Disparity: return tr("Disparity");
-    case BenchStage::Cloud: return tr("Points");
-    case BenchStage::Mesh: return tr("Surface");
+    case BenchStage::Input:
+      return tr("Pictures");
+    case BenchStage::Processed:
+      return tr("Processed");
+    case BenchStage::Rectified:
+      return tr("Rectified");
+    case BenchStage::Matches:
+      return tr("Matches");
+    case BenchStage::Disparity:
+      return tr("Disparity");
+    case BenchStage::Cloud:
+      return tr("Points");
+    case BenchStage::Mesh:
+      return tr("Surface");
     case BenchStage::Texture:
-    case BenchStage::Count: break;
+    case BenchStage::Count:
+      break;
   }
   return tr("Texture");
 }
@@ -41,7 +49,8 @@ std::int32_t work_before(BenchStage stage) {
 
 std::string_view BenchFrame::id(std::string_view what, std::size_t number) const {
   char text[64];
-  const int length = std::snprintf(text, sizeof text, "%.*s %zu", static_cast<int>(what.size()), what.data(), number);
+  const int length =
+      std::snprintf(text, sizeof text, "%.*s %zu", static_cast<int>(what.size()), what.data(), number);
   return page.tree.keep({text, static_cast<std::size_t>(std::clamp(length, 0, 63))});
 }
 
@@ -53,11 +62,13 @@ std::string_view BenchFrame::left_to_right(std::string_view text) const {
 std::string_view BenchFrame::joined(std::string_view a, std::string_view between, std::string_view b) const {
   const std::string_view first = page.tree.keep(isolate::kLeft);
   std::size_t length = first.size();
-  for (const std::string_view part : {a, between, b, std::string_view(isolate::kEnd)}) length += page.tree.keep(part).size();
+  for (const std::string_view part : {a, between, b, std::string_view(isolate::kEnd)})
+    length += page.tree.keep(part).size();
   return {first.data(), length};
 }
 
-std::string_view BenchFrame::several(std::initializer_list<double> values, int decimals, const char* unit_name) const {
+std::string_view BenchFrame::several(std::initializer_list<double> values, int decimals,
+                                     const char* unit_name) const {
   const char* between = info_of(tr.language()).decimal_mark == ',' ? ";\u00a0" : ",\u00a0";
   std::string_view all;
   for (const double* value = values.begin(); value != values.end(); ++value) {
@@ -93,12 +104,16 @@ float BenchFrame::open_buttons() const {
 }
 
 void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow) {
-  page.small_button(id, label, chosen ? icon::kCheck : nullptr, chosen ? ButtonLook::Main : ButtonLook::Quiet, action, grow);
+  page.small_button(id, label, chosen ? icon::kCheck : nullptr, chosen ? ButtonLook::Main : ButtonLook::Quiet,
+                    action, grow);
 }
 
-void BenchFrame::open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture, PictureSlot slot, Action action) {
+void BenchFrame::open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture,
+                              PictureSlot slot, Action action) {
   Node frame = page.grown(page.box(Flow::Stack));
-  frame.aspect = picture.pixels.empty() ? 1.0F : static_cast<float>(picture.pixels.width_px) / static_cast<float>(picture.pixels.height_px);
+  frame.aspect = picture.pixels.empty() ? 1.0F
+                                        : static_cast<float>(picture.pixels.width_px) /
+                                              static_cast<float>(picture.pixels.height_px);
   frame.box.fill = page.palette.stage;
   frame.box.radius = page.px(12);
   page.tree.open(frame);
@@ -149,7 +164,9 @@ bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& vis
   list.face_version = 0;
   if (page == StaffPage::Stages) show(view.shown[0], view.shown[1]);
   if (page == StaffPage::Compare) show(view.compared[0], view.compared[1]);
-  if (page == StaffPage::Cameras) show(view.cameras.camera[0].picture, view.cameras.relief_shown ? view.cameras.relief : view.cameras.camera[1].picture);
+  if (page == StaffPage::Cameras)
+    show(view.cameras.camera[0].picture,
+         view.cameras.relief_shown ? view.cameras.relief : view.cameras.camera[1].picture);
   if (page == StaffPage::Calibrate) show(view.calibration.pictures[0], view.calibration.pictures[1]);
   if (page == StaffPage::Model && view.model != nullptr) {
     list.face = view.model;
@@ -166,7 +183,8 @@ void BenchFrame::problem(std::string_view words) {
 
 void BenchFrame::failure() {
   const BenchResult& r = view.result;
-  if (!r.failure.empty()) alert(page.filled(tr("{}: {}"), {work_of(tr, r.failed_at), page.said(r.failure, false)}));
+  if (!r.failure.empty())
+    alert(page.filled(tr("{}: {}"), {work_of(tr, r.failed_at), page.said(r.failure, false)}));
 }
 
 void BenchFrame::alert(std::string_view words) {
@@ -189,8 +207,12 @@ void BenchFrame::uncalibrated() {
   room.box.across = Across::Centre;
   page.tree.open(room);
   page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
-  page.body("uncalibrated words", tr("Nothing can be captured, compared or measured before. Visitors are told that a technician is needed."), TextAlign::Centre);
-  page.small_button("to calibration", tr("To the calibration"), icon::kWrench, ButtonLook::Main, {ActionKind::StaffOpen, static_cast<int>(StaffPage::Calibrate)});
+  page.body(
+      "uncalibrated words",
+      tr("Nothing can be captured, compared or measured before. Visitors are told that a technician is needed."),
+      TextAlign::Centre);
+  page.small_button("to calibration", tr("To the calibration"), icon::kWrench, ButtonLook::Main,
+                    {ActionKind::StaffOpen, static_cast<int>(StaffPage::Calibrate)});
   page.tree.close();
 }
 
@@ -206,10 +228,16 @@ bool BenchFrame::capture_state() {
   page.tree.open(room);
   if (view.phase == BenchPhase::Empty || view.phase == BenchPhase::Failed) {
     page.heading("nothing", tr("No test capture yet"), type::kHeading, TextAlign::Centre);
-    page.body("nothing words", tr("It is looked at stage by stage and belongs to nobody: when you leave, it is wiped."), TextAlign::Centre);
+    page.body("nothing words",
+              tr("It is looked at stage by stage and belongs to nobody: when you leave, it is wiped."),
+              TextAlign::Centre);
   } else {
-    page.heading("working", view.phase == BenchPhase::Capturing ? tr("The picture is being taken") : work_of(tr, view.working_on), type::kHeading, TextAlign::Centre);
-    const float done = view.phase == BenchPhase::Capturing ? 0 : (static_cast<float>(view.working_on) + view.progress) / 4;
+    page.heading(
+        "working",
+        view.phase == BenchPhase::Capturing ? tr("The picture is being taken") : work_of(tr, view.working_on),
+        type::kHeading, TextAlign::Centre);
+    const float done =
+        view.phase == BenchPhase::Capturing ? 0 : (static_cast<float>(view.working_on) + view.progress) / 4;
     page.progress("run progress", done);
   }
   page.tree.close();
@@ -219,11 +247,17 @@ bool BenchFrame::capture_state() {
 void BenchFrame::stick_buttons() {
   const float grow = open_buttons();
   if (view.recording.running) {
-    page.small_button("stop recording", view.recording.reading ? tr("Stop") : tr("Stop recording"), icon::kClose, ButtonLook::Main, bench(BenchAct::StopRecording), grow);
+    page.small_button("stop recording", view.recording.reading ? tr("Stop") : tr("Stop recording"),
+                      icon::kClose, ButtonLook::Main, bench(BenchAct::StopRecording), grow);
   } else {
-    if (view.can_record) page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Record), grow);
-    if (view.can_record) page.small_button("save", tr("Save on the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::Save), grow);
-    page.small_button("list saved", tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet, bench(BenchAct::ListSaved), grow);
+    if (view.can_record)
+      page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet,
+                        bench(BenchAct::Record), grow);
+    if (view.can_record)
+      page.small_button("save", tr("Save on the stick"), icon::kDisk, ButtonLook::Quiet,
+                        bench(BenchAct::Save), grow);
+    page.small_button("list saved", tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
+                      bench(BenchAct::ListSaved), grow);
   }
   page.tree.close();
 }
@@ -237,9 +271,14 @@ void BenchFrame::capture_buttons(bool with_run, bool with_stick) {
     page.small_button("stop", tr("Stop"), icon::kClose, ButtonLook::Main, bench(BenchAct::Stop), grow);
   } else {
     const bool there = view.result.there;
-    page.small_button("capture", tr("New test capture"), icon::kCamera, there ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::Capture), grow);
-    if (with_run && there) page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, bench(BenchAct::Run), grow);
-    if (with_stick && there) page.small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet, bench(BenchAct::Run, work_before(view.stage)), grow);
+    page.small_button("capture", tr("New test capture"), icon::kCamera,
+                      there ? ButtonLook::Quiet : ButtonLook::Main, bench(BenchAct::Capture), grow);
+    if (with_run && there)
+      page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, bench(BenchAct::Run),
+                        grow);
+    if (with_stick && there)
+      page.small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet,
+                        bench(BenchAct::Run, work_before(view.stage)), grow);
   }
   page.tree.close();
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// BenchFrame: what the technician's picture pages share on top of StaffFrame: pictures that can be touched and
-// marked, rows of choices, the state of the test capture with the buttons that lead on. Lengths in dp.
+// BenchFrame: what the technician's picture pages share on top of StaffFrame: pictures that can be touched
+// and marked, rows of choices, the state of the test capture with the buttons that lead on. Lengths in dp.
 // Thread: main. Errors: none.
 #pragma once
 
@@ -15,7 +15,9 @@
 
 namespace relievo::ui {
 
-inline Action bench(BenchAct act, std::int32_t argument = 0) { return {ActionKind::StaffDo, static_cast<std::int32_t>(act), argument}; }
+inline Action bench(BenchAct act, std::int32_t argument = 0) {
+  return {ActionKind::StaffDo, static_cast<std::int32_t>(act), argument};
+}
 
 class BenchFrame {
  public:
@@ -30,24 +32,31 @@ class BenchFrame {
   std::string_view left_to_right(std::string_view text) const;
   // Parts that stand on one line, kept for the frame.
   std::string_view joined(std::string_view a, std::string_view between, std::string_view b) const;
-  // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands between them.
+  // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands
+  // between them.
   std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name) const;
   // What a rule for matches is called (pipeline/algorithms); a name nobody knows, as it is.
   std::string_view rule_name(std::string_view key) const;
   // Names of algorithms and options, which may be divided where their parts meet.
   std::string_view breakable(std::string_view names) const;
-  // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows by.
+  // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows
+  // by.
   float open_buttons() const;
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
-  std::size_t across(std::size_t most) const { return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most; }
+  std::size_t across(std::size_t most) const {
+    return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most;
+  }
   // How much wider than the figures beside them pictures are: large words take room from them.
-  float picture_share(float usual) const { return page.portrait ? 1.0F : page.text_share > 1.2F ? usual * 0.65F : usual; }
+  float picture_share(float usual) const {
+    return page.portrait ? 1.0F : page.text_share > 1.2F ? usual * 0.65F : usual;
+  }
 
   // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
   // to it (Node::pinned). Touched, `action` says where.
-  void open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture, PictureSlot slot, Action action = {});
+  void open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture,
+                    PictureSlot slot, Action action = {});
   void close_picture();
   // On the open picture: a line over its whole width, a ring; shares of the picture.
   void pin_line(float y, Colour colour, float thick_dp);
@@ -61,8 +70,8 @@ class BenchFrame {
   // The buttons under the pages of the test capture.
   // `with_stick`: also those between the reconstruction and the stick.
   void capture_buttons(bool with_run, bool with_stick = false);
-  void problem(std::string_view words);   // packed (hal/base/sentence.h); empty: nothing is shown
-  void failure();                         // of the present result's stages
+  void problem(std::string_view words);  // packed (hal/base/sentence.h); empty: nothing is shown
+  void failure();                        // of the present result's stages
 
  private:
   void alert(std::string_view words);

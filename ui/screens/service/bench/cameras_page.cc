@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Both cameras, live, side by side, or the left one and its relief: light, focus, and whether they expose at the same instant.
+// Both cameras, live, side by side, or the left one and its relief: light, focus, and whether they expose at
+// the same instant.
 #include <cstdlib>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -11,7 +12,8 @@ namespace {
 
 constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 
-void live(BenchFrame& b, std::string_view id, const char* title, const BenchPicture& picture, PictureSlot slot) {
+void live(BenchFrame& b, std::string_view id, const char* title, const BenchPicture& picture,
+          PictureSlot slot) {
   Node column = b.page.grown(b.page.box(Flow::Column, 6));
   column.box.along = Along::Centre;
   b.page.tree.open(column);
@@ -22,7 +24,8 @@ void live(BenchFrame& b, std::string_view id, const char* title, const BenchPict
 }
 
 // A label, and the figure of the left and of the right camera, on their sides in every language.
-void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string_view left, std::string_view right, Mood left_mood, Mood right_mood) {
+void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string_view left,
+              std::string_view right, Mood left_mood, Mood right_mood) {
   Node row = b.page.box(Flow::Row, space::kS, 0, 6);
   row.id = id;
   row.box.across = Across::Centre;
@@ -40,7 +43,8 @@ void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string
     cell.box.across = Across::Centre;
     b.page.tree.open(cell);
     if (const char* letter = b.page.sign_of(mood)) b.page.sign(letter, 22, b.page.ink_of(mood));
-    b.page.tree.leaf(b.page.text(side == 0 ? left : right, type::kSmall, Weight::Regular, mood == Mood::Plain ? b.page.palette.ink_soft : b.page.ink_of(mood)));
+    b.page.tree.leaf(b.page.text(side == 0 ? left : right, type::kSmall, Weight::Regular,
+                                 mood == Mood::Plain ? b.page.palette.ink_soft : b.page.ink_of(mood)));
     b.page.tree.close();
   }
   b.page.tree.close();
@@ -49,21 +53,35 @@ void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string
 
 void figures(BenchFrame& b) {
   const BenchCameras& c = b.view.cameras;
-  const auto both = [&](std::string_view id, const char* label, auto value, int decimals, const char* unit_name, auto mood) {
-    pair_row(b, id, label, b.page.number(static_cast<double>(value(c.camera[0])), decimals, unit_name), b.page.number(static_cast<double>(value(c.camera[1])), decimals, unit_name),
-             mood(c.camera[0]), mood(c.camera[1]));
+  const auto both = [&](std::string_view id, const char* label, auto value, int decimals,
+                        const char* unit_name, auto mood) {
+    pair_row(b, id, label, b.page.number(static_cast<double>(value(c.camera[0])), decimals, unit_name),
+             b.page.number(static_cast<double>(value(c.camera[1])), decimals, unit_name), mood(c.camera[0]),
+             mood(c.camera[1]));
   };
   const auto plain = [](const BenchCamera&) { return Mood::Plain; };
-  both("brightness", b.tr("Brightness of the middle"), [](const BenchCamera& x) { return 100 * x.mean; }, 0, "%", [](const BenchCamera& x) { return x.mean < kTooDark ? Mood::Warn : Mood::Good; });
-  both("clipped", b.tr("Overexposed"), [](const BenchCamera& x) { return 100 * x.clipped; }, 1, "%", [](const BenchCamera& x) { return x.clipped > kBurntOut ? Mood::Warn : Mood::Good; });
-  both("focus", b.tr("Focus, of the best so far"), [](const BenchCamera& x) { return 100 * x.focus; }, 0, "%", [](const BenchCamera& x) { return x.focus < kSharpEnough ? Mood::Warn : Mood::Good; });
-  both("frames", b.tr("Pictures"), [](const BenchCamera& x) { return x.frames; }, 0, "", plain);
-  both("lost", b.tr("Lost"), [](const BenchCamera& x) { return x.lost; }, 0, "", [](const BenchCamera& x) { return x.lost > 0 ? Mood::Warn : Mood::Good; });
-  both("damaged", b.tr("Damaged"), [](const BenchCamera& x) { return x.damaged; }, 0, "", [](const BenchCamera& x) { return x.damaged > 0 ? Mood::Warn : Mood::Good; });
+  both(
+      "brightness", b.tr("Brightness of the middle"), [](const BenchCamera& x) { return 100 * x.mean; }, 0,
+      "%", [](const BenchCamera& x) { return x.mean < kTooDark ? Mood::Warn : Mood::Good; });
+  both(
+      "clipped", b.tr("Overexposed"), [](const BenchCamera& x) { return 100 * x.clipped; }, 1, "%",
+      [](const BenchCamera& x) { return x.clipped > kBurntOut ? Mood::Warn : Mood::Good; });
+  both(
+      "focus", b.tr("Focus, of the best so far"), [](const BenchCamera& x) { return 100 * x.focus; }, 0, "%",
+      [](const BenchCamera& x) { return x.focus < kSharpEnough ? Mood::Warn : Mood::Good; });
+  both(
+      "frames", b.tr("Pictures"), [](const BenchCamera& x) { return x.frames; }, 0, "", plain);
+  both(
+      "lost", b.tr("Lost"), [](const BenchCamera& x) { return x.lost; }, 0, "",
+      [](const BenchCamera& x) { return x.lost > 0 ? Mood::Warn : Mood::Good; });
+  both(
+      "damaged", b.tr("Damaged"), [](const BenchCamera& x) { return x.damaged; }, 0, "",
+      [](const BenchCamera& x) { return x.damaged > 0 ? Mood::Warn : Mood::Good; });
   b.page.section(b.tr("Together"));
   b.page.row("skew", b.tr("Apart in time"), b.page.number(static_cast<double>(c.skew_us), 0, "µs"));
   b.page.row("pairs", b.tr("Pairs"), b.page.number(static_cast<double>(c.pairs)));
-  b.page.row("apart", b.tr("Refused: too far apart"), b.page.number(static_cast<double>(c.apart)), c.apart > 0 ? Mood::Warn : Mood::Good);
+  b.page.row("apart", b.tr("Refused: too far apart"), b.page.number(static_cast<double>(c.apart)),
+             c.apart > 0 ? Mood::Warn : Mood::Good);
   b.page.row("rate", b.tr("Pairs a second"), b.page.number(static_cast<double>(c.pairs_per_second), 1));
   b.page.row("exposure", b.tr("Exposure"), b.page.number(static_cast<double>(c.exposure_us) / 1000, 2, "ms"));
   if (!c.can_be_set) b.page.row("fixed", b.tr("The exposure of these cameras cannot be set."), {});
@@ -81,7 +99,8 @@ void bench_cameras_page(StaffFrame& page) {
   page.tree.open(pair);
   const BenchCameras& cameras = b.view.cameras;
   live(b, "left live", b.tr("Left camera"), cameras.camera[0].picture, PictureSlot::BenchLeft);
-  if (cameras.relief_shown) live(b, "relief", b.tr("Relief: near is bright"), cameras.relief, PictureSlot::BenchRight);
+  if (cameras.relief_shown)
+    live(b, "relief", b.tr("Relief: near is bright"), cameras.relief, PictureSlot::BenchRight);
   else live(b, "right live", b.tr("Right camera"), cameras.camera[1].picture, PictureSlot::BenchRight);
   page.tree.close();
   page.tree.open(page.grown(page.box(Flow::Column)));
@@ -93,12 +112,17 @@ void bench_cameras_page(StaffFrame& page) {
   page.tree.close();
   const float grow = b.open_buttons();
   if (b.view.cameras.can_be_set) {
-    page.small_button("darker", b.tr("Darker"), icon::kDark, ButtonLook::Quiet, bench(BenchAct::DarkerShot), grow);
-    page.small_button("brighter", b.tr("Brighter"), icon::kSun, ButtonLook::Quiet, bench(BenchAct::BrighterShot), grow);
-    if (page.portrait) page.tree.close(), b.open_buttons();   // two and two
+    page.small_button("darker", b.tr("Darker"), icon::kDark, ButtonLook::Quiet, bench(BenchAct::DarkerShot),
+                      grow);
+    page.small_button("brighter", b.tr("Brighter"), icon::kSun, ButtonLook::Quiet,
+                      bench(BenchAct::BrighterShot), grow);
+    if (page.portrait) page.tree.close(), b.open_buttons();  // two and two
   }
-  if (b.view.cameras.watched) b.choice("show relief", b.tr("Relief"), b.view.cameras.relief_shown, bench(BenchAct::ShowRelief), grow);
-  page.small_button("watch", b.view.cameras.watched ? b.tr("Stop") : b.tr("Watch"), b.view.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main, bench(BenchAct::WatchCameras), grow);
+  if (b.view.cameras.watched)
+    b.choice("show relief", b.tr("Relief"), b.view.cameras.relief_shown, bench(BenchAct::ShowRelief), grow);
+  page.small_button("watch", b.view.cameras.watched ? b.tr("Stop") : b.tr("Watch"),
+                    b.view.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,
+                    bench(BenchAct::WatchCameras), grow);
   page.tree.close();
 }
 

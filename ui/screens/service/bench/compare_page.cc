@@ -18,8 +18,10 @@ void pictures(BenchFrame& b) {
     Node column = b.page.grown(b.page.box(Flow::Column, 6));
     column.box.along = Along::Centre;
     b.page.tree.open(column);
-    b.page.tree.leaf(b.page.text(titles[i], type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
-    b.open_picture(i == 0 ? "kept picture" : "present picture", titles[i], b.view.compared[i], i == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
+    b.page.tree.leaf(
+        b.page.text(titles[i], type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
+    b.open_picture(i == 0 ? "kept picture" : "present picture", titles[i], b.view.compared[i],
+                   i == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
     b.close_picture();
     b.page.tree.close();
   }
@@ -51,12 +53,15 @@ void figures(BenchFrame& b, const Row& row, bool heading = false) {
   b.page.tree.close();
 }
 
-// What a result was made with, over the width of both columns of figures: a line for each option that was changed.
+// What a result was made with, over the width of both columns of figures: a line for each option that was
+// changed.
 void algorithms(BenchFrame& b, std::string_view id, const char* title, const BenchResult& r) {
   Node line = b.page.box(Flow::Row, space::kXs, 0, 5);
   line.id = id;
   b.page.tree.open(line);
-  const auto said = [&](std::string_view text, Weight weight) { b.page.tree.leaf(b.page.text(text, 18, weight, b.page.palette.ink)); };
+  const auto said = [&](std::string_view text, Weight weight) {
+    b.page.tree.leaf(b.page.text(text, 18, weight, b.page.palette.ink));
+  };
   b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
   said(title, Weight::Medium);
   b.page.tree.close();
@@ -74,7 +79,8 @@ void algorithms(BenchFrame& b, std::string_view id, const char* title, const Ben
 
 void table(BenchFrame& b) {
   const BenchResult &k = b.view.kept, &n = b.view.result;
-  const auto figure = [&](const BenchResult& r, double value, int decimals, const char* unit_name, bool known = true) {
+  const auto figure = [&](const BenchResult& r, double value, int decimals, const char* unit_name,
+                          bool known = true) {
     return r.there && known ? b.page.number(value, decimals, unit_name) : std::string_view("–");
   };
   b.page.begin_panel("figures");
@@ -84,20 +90,35 @@ void table(BenchFrame& b) {
   b.page.rule();
   figures(b, {"head", "", b.tr("Put aside"), b.tr("Now")}, true);
   for (std::size_t i = 0; i < k.seconds.size(); ++i)
-    figures(b, {b.id("seconds", i), work_of(b.tr, i), figure(k, static_cast<double>(k.seconds[i]), 2, "s"), figure(n, static_cast<double>(n.seconds[i]), 2, "s")});
-  figures(b, {"all matches", b.tr("Matches"), figure(k, static_cast<double>(k.matches), 0, ""), figure(n, static_cast<double>(n.matches), 0, "")});
+    figures(b, {b.id("seconds", i), work_of(b.tr, i), figure(k, static_cast<double>(k.seconds[i]), 2, "s"),
+                figure(n, static_cast<double>(n.seconds[i]), 2, "s")});
+  figures(b, {"all matches", b.tr("Matches"), figure(k, static_cast<double>(k.matches), 0, ""),
+              figure(n, static_cast<double>(n.matches), 0, "")});
   const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
   for (std::size_t i = 0; i < k.made.size(); ++i)
-    figures(b, {b.id("count", i), made[i], figure(k, static_cast<double>(k.made[i]), 0, ""), figure(n, static_cast<double>(n.made[i]), 0, "")});
-  const auto two = [&](std::string_view id, const char* label, auto value, int decimals, const char* unit_name, auto known) {
-    figures(b, {id, label, figure(k, static_cast<double>(value(k)), decimals, unit_name, known(k)), figure(n, static_cast<double>(value(n)), decimals, unit_name, known(n))});
+    figures(b, {b.id("count", i), made[i], figure(k, static_cast<double>(k.made[i]), 0, ""),
+                figure(n, static_cast<double>(n.made[i]), 0, "")});
+  const auto two = [&](std::string_view id, const char* label, auto value, int decimals,
+                       const char* unit_name, auto known) {
+    figures(b, {id, label, figure(k, static_cast<double>(value(k)), decimals, unit_name, known(k)),
+                figure(n, static_cast<double>(value(n)), decimals, unit_name, known(n))});
   };
   const auto model = [](const BenchResult& r) { return r.coverage > 0; };
-  two("sigma", b.tr("Median uncertainty"), [](const BenchResult& r) { return r.median_sigma_mm; }, 3, "mm", model);
-  two("coverage", b.tr("Face covered"), [](const BenchResult& r) { return 100 * r.coverage; }, 1, "%", model);
-  two("photo", b.tr("Likeness of the predicted right view"), [](const BenchResult& r) { return r.photo_correlation; }, 3, "", [](const BenchResult& r) { return r.photo_correlation > -1; });
-  two("rows", b.tr("Disagreement of the rows"), [](const BenchResult& r) { return r.epipolar_px; }, 3, "px", [](const BenchResult& r) { return r.epipolar_px >= 0; });
-  two("memory", b.tr("Memory"), [](const BenchResult& r) { return r.arena_peak_mib; }, 0, "MiB", [](const BenchResult&) { return true; });
+  two(
+      "sigma", b.tr("Median uncertainty"), [](const BenchResult& r) { return r.median_sigma_mm; }, 3, "mm",
+      model);
+  two(
+      "coverage", b.tr("Face covered"), [](const BenchResult& r) { return 100 * r.coverage; }, 1, "%", model);
+  two(
+      "photo", b.tr("Likeness of the predicted right view"),
+      [](const BenchResult& r) { return r.photo_correlation; }, 3, "",
+      [](const BenchResult& r) { return r.photo_correlation > -1; });
+  two(
+      "rows", b.tr("Disagreement of the rows"), [](const BenchResult& r) { return r.epipolar_px; }, 3, "px",
+      [](const BenchResult& r) { return r.epipolar_px >= 0; });
+  two(
+      "memory", b.tr("Memory"), [](const BenchResult& r) { return r.arena_peak_mib; }, 0, "MiB",
+      [](const BenchResult&) { return true; });
   b.page.tree.close();
 }
 
@@ -108,7 +129,10 @@ void bench_compare_page(StaffFrame& page) {
   BenchFrame b(page);
   if (b.capture_state()) {
     b.failure();
-    if (!b.view.kept.there) page.body("how", b.tr("Put this result aside, choose other algorithms, calculate again: then both stand here."));
+    if (!b.view.kept.there)
+      page.body(
+          "how",
+          b.tr("Put this result aside, choose other algorithms, calculate again: then both stand here."));
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
     pictures(b);
     page.tree.open(page.grown(page.box(Flow::Column)));
@@ -116,9 +140,11 @@ void bench_compare_page(StaffFrame& page) {
     page.tree.close();
     page.tree.close();
     const float grow = b.open_buttons();
-    page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet, bench(BenchAct::KeepResult), grow);
+    page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
+                      bench(BenchAct::KeepResult), grow);
     const auto next = static_cast<std::int32_t>((static_cast<std::size_t>(b.view.stage) + 1) % kBenchStages);
-    page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet, bench(BenchAct::ShowStage, next), grow);
+    page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet,
+                      bench(BenchAct::ShowStage, next), grow);
     page.tree.close();
   }
   b.capture_buttons(true);

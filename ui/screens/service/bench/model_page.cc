@@ -46,7 +46,7 @@ void body(BenchFrame& b) {
   face.name = b.tr("The model: turn it with a finger");
   face.role = Role::Picture;
   face.mark = b.view.model != nullptr ? Mark::Face : Mark::Shape;
-  face.covered_px = b.page.px(size::kTarget + 2 * space::kXs);   // by the tools
+  face.covered_px = b.page.px(size::kTarget + 2 * space::kXs);  // by the tools
   face.box.radius = b.page.px(size::kRadius);
   face.action = {ActionKind::TurnFace, 0};
   b.page.tree.leaf(face);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every stage of the test capture as a picture: the pair with its epipolar lines, where a touch shows a point's
-// partner; the matches in the colours of the rules; depth, points, surface, texture.
+// Every stage of the test capture as a picture: the pair with its epipolar lines, where a touch shows a
+// point's partner; the matches in the colours of the rules; depth, points, surface, texture.
 #include <cstdio>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -13,7 +13,9 @@ namespace {
 constexpr int kLines = 8;
 constexpr Colour kFaint{255, 255, 255, 70}, kTouched{255, 170, 40, 255};
 
-bool is_pair(BenchStage stage) { return stage == BenchStage::Input || stage == BenchStage::Processed || stage == BenchStage::Rectified; }
+bool is_pair(BenchStage stage) {
+  return stage == BenchStage::Input || stage == BenchStage::Processed || stage == BenchStage::Rectified;
+}
 
 void tabs(BenchFrame& b) {
   const std::size_t across = b.across(kBenchStages);
@@ -35,7 +37,9 @@ void tabs(BenchFrame& b) {
       tab.box.border = chosen ? b.page.palette.accent : b.page.palette.quiet_border;
       tab.box.border_px = b.page.px(2);
       b.page.tree.open(tab);
-      b.page.tree.leaf(b.page.text(title_of(b.tr, stage), b.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium, chosen ? b.page.palette.accent_ink : b.page.palette.link, TextAlign::Centre));
+      b.page.tree.leaf(b.page.text(
+          title_of(b.tr, stage), b.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,
+          chosen ? b.page.palette.accent_ink : b.page.palette.link, TextAlign::Centre));
       b.page.tree.close();
     }
     b.page.tree.close();
@@ -50,7 +54,8 @@ void pair_pictures(BenchFrame& b) {
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{};
     if (touchable) action = bench(side == 0 ? BenchAct::Point : BenchAct::PointRight);
-    b.open_picture(side == 0 ? "left" : "right", side == 0 ? b.tr("Left camera") : b.tr("Right camera"), b.view.shown[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight, action);
+    b.open_picture(side == 0 ? "left" : "right", side == 0 ? b.tr("Left camera") : b.tr("Right camera"),
+                   b.view.shown[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight, action);
     if (b.view.stage != BenchStage::Input) {
       for (int i = 1; i < kLines; ++i) b.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
     }
@@ -82,14 +87,16 @@ std::string_view plus_minus(BenchFrame& b, double value, double sigma, int decim
 void point_rows(BenchFrame& b) {
   const BenchPoint& point = b.view.point;
   if (!point.touched) {
-    b.page.tree.leaf(b.page.text(b.view.by_hand ? b.tr("Touch a point in the left picture, then its partner on the orange line.")
-                                                : b.tr("Touch the left picture: the line and the match of that point are shown."),
-                                 type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+    b.page.tree.leaf(b.page.text(
+        b.view.by_hand ? b.tr("Touch a point in the left picture, then its partner on the orange line.")
+                       : b.tr("Touch the left picture: the line and the match of that point are shown."),
+        type::kSmall, Weight::Regular, b.page.palette.ink_soft));
     return;
   }
   b.page.row("point left", b.tr("Left"), coordinates(b, point.left_px));
   if (point.waits_for_right) {
-    b.page.tree.leaf(b.page.text(b.tr("Now touch its partner on the orange line in the right picture."), type::kSmall, Weight::Medium, b.page.palette.ink));
+    b.page.tree.leaf(b.page.text(b.tr("Now touch its partner on the orange line in the right picture."),
+                                 type::kSmall, Weight::Medium, b.page.palette.ink));
     return;
   }
   if (!point.matched) {
@@ -97,12 +104,19 @@ void point_rows(BenchFrame& b) {
     return;
   }
   b.page.row("point right", b.tr("Right"), coordinates(b, point.right_px));
-  b.page.row("point disparity", b.tr("Disparity"), plus_minus(b, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
+  b.page.row(
+      "point disparity", b.tr("Disparity"),
+      plus_minus(b, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
   b.page.row("point likeness", b.tr("Likeness"), b.page.number(1 - static_cast<double>(point.cost), 3));
-  if (!point.rejected_by.empty()) b.page.row("point rejected", b.tr("Rejected by"), b.rule_name(point.rejected_by), Mood::Bad);
+  if (!point.rejected_by.empty())
+    b.page.row("point rejected", b.tr("Rejected by"), b.rule_name(point.rejected_by), Mood::Bad);
   else if (!point.by_hand) b.page.row("point accepted", b.tr("Accepted"), b.tr("yes"), Mood::Good);
-  b.page.row("point space", b.tr("In space"), b.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y), static_cast<double>(point.at_mm.z)}, 1, "mm"));
-  b.page.row("point sigma", b.tr("Depth uncertainty"), b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+  b.page.row("point space", b.tr("In space"),
+             b.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y),
+                        static_cast<double>(point.at_mm.z)},
+                       1, "mm"));
+  b.page.row("point sigma", b.tr("Depth uncertainty"),
+             b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
 }
 
 void rule_rows(BenchFrame& b) {
@@ -123,7 +137,8 @@ void rule_rows(BenchFrame& b) {
     b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
     b.page.tree.leaf(b.page.text(b.rule_name(rule.name), type::kSmall, Weight::Medium, b.page.palette.ink));
     b.page.tree.close();
-    b.page.tree.leaf(b.page.text(b.page.number(static_cast<double>(rule.rejected)), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+    b.page.tree.leaf(b.page.text(b.page.number(static_cast<double>(rule.rejected)), type::kSmall,
+                                 Weight::Regular, b.page.palette.ink_soft));
     b.page.tree.close();
   }
 }
@@ -144,7 +159,10 @@ void recording_state(BenchFrame& b) {
   if (b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running) return;
   if (r.running) return b.page.progress("record progress", r.progress);
   if (r.outcome == Outcome::Done) {
-    return b.page.status("recorded", b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)), Mood::Good);
+    return b.page.status(
+        "recorded",
+        b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)),
+        Mood::Good);
   }
   b.page.outcome();
 }
@@ -159,12 +177,14 @@ void saved_list(BenchFrame& b) {
     b.page.section(b.tr("Saved on the stick, the newest first"));
     b.page.tree.open(b.page.box(Flow::Column, space::kS, 0, space::kXs));
     for (std::size_t i = 0; i < b.view.saved.names.size(); ++i)
-      b.page.small_button(b.id("saved", i), b.left_to_right(b.breakable(b.view.saved.names[i])), icon::kShape, ButtonLook::Quiet, bench(BenchAct::Load, static_cast<std::int32_t>(i)));
+      b.page.small_button(b.id("saved", i), b.left_to_right(b.breakable(b.view.saved.names[i])), icon::kShape,
+                          ButtonLook::Quiet, bench(BenchAct::Load, static_cast<std::int32_t>(i)));
     b.page.tree.close();
     b.page.tree.close();
   }
   const float grow = b.open_buttons();
-  b.page.small_button("leave saved", b.tr("Back"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveSaved), grow);
+  b.page.small_button("leave saved", b.tr("Back"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveSaved),
+                      grow);
   b.page.tree.close();
 }
 
@@ -192,7 +212,8 @@ void bench_stages_page(StaffFrame& page) {
     page.begin_panel("facts");
     side_rows(b);
     page.tree.close();
-    if (b.view.stage == BenchStage::Rectified) b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
+    if (b.view.stage == BenchStage::Rectified)
+      b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
     page.tree.close();
     page.tree.close();
   }

@@ -9,24 +9,28 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kGap = 6;   // between columns
+constexpr float kGap = 6;  // between columns
 constexpr std::int32_t kFarPages = 100;
 
 const char* name_of_table(const Words& tr, BenchTable table) {
   switch (table) {
-    case BenchTable::Matches: return tr("Matches");
-    case BenchTable::Points: return tr("Points");
-    case BenchTable::Model: return tr("Model");
+    case BenchTable::Matches:
+      return tr("Matches");
+    case BenchTable::Points:
+      return tr("Points");
+    case BenchTable::Model:
+      return tr("Model");
     case BenchTable::Calibration:
-    case BenchTable::Count: break;
+    case BenchTable::Count:
+      break;
   }
   return tr("Calibration");
 }
 
-struct Wide {   // a column of words, and how much wider than one of numbers
+struct Wide {  // a column of words, and how much wider than one of numbers
   std::size_t column = ~std::size_t{0};
   float share = 1;
-  float number = 4.95F;   // sizes of its letters that a column of numbers is wide: "−108.114"
+  float number = 4.95F;  // sizes of its letters that a column of numbers is wide: "−108.114"
 };
 
 // A number, several of them, or the rule that judged.
@@ -44,19 +48,23 @@ struct Shape {
 float letters_dp(const StaffFrame& page) { return page.portrait ? 15.0F : 18.0F; }
 
 Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
-  constexpr float kMargins = 112;   // of page, card and row
+  constexpr float kMargins = 112;  // of page, card and row
   Shape shape{columns, columns, wide};
   const float all = static_cast<float>(columns) - 1 + (wide.column < columns ? wide.share : 1);
   const float gaps = kGap * (static_cast<float>(columns) - 1);
-  if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins) shape.abreast = (columns + 1) / 2;
+  if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins)
+    shape.abreast = (columns + 1) / 2;
   return shape;
 }
 
 void cell(BenchFrame& b, std::string_view words, bool heading) {
   if (words.empty()) return;
-  Node node = b.page.text(b.left_to_right(heading ? words : said(b, words)), letters_dp(b.page), heading ? Weight::Bold : Weight::Regular, heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
+  Node node = b.page.text(b.left_to_right(heading ? words : said(b, words)), letters_dp(b.page),
+                          heading ? Weight::Bold : Weight::Regular,
+                          heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
   node.style.tabular = true;
-  node.style.size_px = b.page.px(letters_dp(b.page) * b.page.text_share);   // figures are as wide in every language
+  node.style.size_px =
+      b.page.px(letters_dp(b.page) * b.page.text_share);  // figures are as wide in every language
   b.page.tree.leaf(node);
 }
 
@@ -70,7 +78,8 @@ void record(BenchFrame& b, std::span<const std::string_view> texts, bool heading
     row.box.across = Across::Centre;
     b.page.tree.open(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
-      b.page.tree.open(b.page.grown(b.page.box(Flow::Column), !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
+      b.page.tree.open(b.page.grown(b.page.box(Flow::Column),
+                                    !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
       if (i < shape.columns) cell(b, texts[i], heading);
       b.page.tree.close();
     }
@@ -88,7 +97,9 @@ void pager(BenchFrame& b) {
   row.box.left_to_right = true;
   b.page.tree.open(row);
   const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
-    Node node = b.page.sized(b.page.box(Flow::Row), std::min(96 * b.page.text_share, b.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
+    Node node =
+        b.page.sized(b.page.box(Flow::Row),
+                     std::min(96 * b.page.text_share, b.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
     node.id = id;
     node.name = spoken;
     node.role = Role::Button;
@@ -100,14 +111,16 @@ void pager(BenchFrame& b) {
     node.box.border = b.page.palette.quiet_border;
     node.box.border_px = b.page.px(2);
     b.page.tree.open(node);
-    Node sign = b.page.text(b.left_to_right(label), type::kSmall, Weight::Bold, b.page.palette.link, TextAlign::Centre);
+    Node sign = b.page.text(b.left_to_right(label), type::kSmall, Weight::Bold, b.page.palette.link,
+                            TextAlign::Centre);
     b.page.tree.leaf(sign);
     b.page.tree.close();
   };
   turn("far back", b.tr("A hundred pages back"), "− 100", -kFarPages);
   turn("page back", b.tr("One page back"), "−", -1);
   const auto number = [&](std::size_t value) { return b.page.number(static_cast<double>(value)); };
-  Node where = b.page.text(b.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall, Weight::Medium, b.page.palette.ink, TextAlign::Centre);
+  Node where = b.page.text(b.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall,
+                           Weight::Medium, b.page.palette.ink, TextAlign::Centre);
   where.id = "page number";
   b.page.tree.leaf(where);
   turn("page on", b.tr("One page on"), "+", 1);
@@ -126,7 +139,8 @@ void bench_tables_page(StaffFrame& page) {
     page.tree.open(page.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < first + across; ++i) {
       const auto table = static_cast<BenchTable>(i);
-      b.choice(b.id("table", i), name_of_table(b.tr, table), rows.table == table, bench(BenchAct::ShowTable, static_cast<std::int32_t>(i)));
+      b.choice(b.id("table", i), name_of_table(b.tr, table), rows.table == table,
+               bench(BenchAct::ShowTable, static_cast<std::int32_t>(i)));
     }
     page.tree.close();
   }
@@ -138,11 +152,16 @@ void bench_tables_page(StaffFrame& page) {
   }
   const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
-  const Wide wide = rows.table == BenchTable::Calibration ? Wide{3, page.portrait && page.text_share > 1.2F ? 2.0F : 3.0F} : rows.table == BenchTable::Matches ? Wide{columns - 1, 1.8F, 4.4F} : Wide{};
+  const Wide wide = rows.table == BenchTable::Calibration
+                        ? Wide{3, page.portrait && page.text_share > 1.2F ? 2.0F : 3.0F}
+                    : rows.table == BenchTable::Matches ? Wide{columns - 1, 1.8F, 4.4F}
+                                                        : Wide{};
   page.begin_list("table");
-  const Shape shape = rows.table == BenchTable::Calibration ? Shape{columns, columns, wide} : shape_of(page, columns, wide);
+  const Shape shape =
+      rows.table == BenchTable::Calibration ? Shape{columns, columns, wide} : shape_of(page, columns, wide);
   record(b, rows.heads, true, shape);
-  for (std::size_t at = 0; at + columns <= places; at += columns) record(b, rows.cells.subspan(at, columns), false, shape);
+  for (std::size_t at = 0; at + columns <= places; at += columns)
+    record(b, rows.cells.subspan(at, columns), false, shape);
   page.tree.close();
   pager(b);
 }

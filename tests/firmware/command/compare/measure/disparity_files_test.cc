@@ -84,14 +84,16 @@ TEST(Pfm, RefusesWhatIsNoWholeMap) {
 TEST(DisparityTruthFile, APicturesGreyValuesAreScaledAndNoughtIsUnknown) {
   const test::TemporaryFolder here;
   const std::array<std::uint8_t, 4> grey{0, 40, 80, 120};
-  ASSERT_TRUE(hal::write_picture(here / "truth.png", {reinterpret_cast<const std::byte*>(grey.data()), 4, 1, 4, PixelFormat::Grey8}));
+  ASSERT_TRUE(hal::write_picture(
+      here / "truth.png", {reinterpret_cast<const std::byte*>(grey.data()), 4, 1, 4, PixelFormat::Grey8}));
   const auto truth = read_disparity_truth(here / "truth.png", 4);
   ASSERT_TRUE(truth);
   EXPECT_FALSE(truth->map.known(0, 0));
   EXPECT_EQ(truth->map.at(1, 0), 10);
   EXPECT_EQ(truth->map.at(3, 0), 30);
   const std::array<std::uint8_t, 4> nothing{};
-  ASSERT_TRUE(hal::write_picture(here / "black.png", {reinterpret_cast<const std::byte*>(nothing.data()), 4, 1, 4, PixelFormat::Grey8}));
+  ASSERT_TRUE(hal::write_picture(
+      here / "black.png", {reinterpret_cast<const std::byte*>(nothing.data()), 4, 1, 4, PixelFormat::Grey8}));
   EXPECT_EQ(read_disparity_truth(here / "black.png", 1).error().code, Errc::InvalidInput);
 }
 

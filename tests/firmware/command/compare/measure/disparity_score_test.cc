@@ -100,7 +100,8 @@ pipeline::MatchSet matches_on_lattice(int step, float disparity, int first_x = 0
   set.lattice_step_px = step;
   for (int y = first_y; y < kHeight; y += step)
     for (int x = first_x; x < kWidth; x += step)
-      set.matches.push_back({.left_px = {static_cast<float>(x), static_cast<float>(y)}, .disparity_px = disparity + 0.1F * static_cast<float>(x)});
+      set.matches.push_back({.left_px = {static_cast<float>(x), static_cast<float>(y)},
+                             .disparity_px = disparity + 0.1F * static_cast<float>(x)});
   return set;
 }
 
@@ -137,14 +138,15 @@ TEST(RuleFigures, EveryMatchIsCountedWithTheFirstRuleThatRejectedIt) {
   const auto add = [&set](float x, float disparity, std::uint16_t rejected) {
     set.matches.push_back({.left_px = {x, 3}, .disparity_px = disparity, .rejected_by = rejected});
   };
-  add(20, 10, 0);   // good, kept
-  add(21, 14, 0);   // bad, kept
-  add(22, 14, 1);   // bad, the first rule's
-  add(23, 14, 6);   // bad, the second's (and the third's)
-  add(24, 10, 4);   // good, the third's
+  add(20, 10, 0);  // good, kept
+  add(21, 14, 0);  // bad, kept
+  add(22, 14, 1);  // bad, the first rule's
+  add(23, 14, 6);  // bad, the second's (and the third's)
+  add(24, 10, 4);  // good, the third's
   NamedSet chosen;
   ASSERT_TRUE(chosen.set.set("constraints", "similarity+uniqueness+continuity"));
-  const MatchFigures f = figures_of(chosen, pipeline::Keypoints(std::pmr::get_default_resource()), set, truth, 1);
+  const MatchFigures f =
+      figures_of(chosen, pipeline::Keypoints(std::pmr::get_default_resource()), set, truth, 1);
   EXPECT_EQ(f.matches, 5U);
   EXPECT_EQ(f.bad, 3U);
   EXPECT_EQ(f.accepted, 2U);

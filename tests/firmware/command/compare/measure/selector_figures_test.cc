@@ -17,7 +17,8 @@ DisparityTruth truth_of(const test::BumpScene& scene) {
   truth.map = DisparityMap(scene.width_px, scene.height_px);
   for (int y = 0; y < scene.height_px; ++y)
     for (int x = 0; x < scene.width_px; ++x)
-      if (scene.judged(x, y)) truth.map.values[truth.map.index(x, y)] = static_cast<float>(scene.disparity(x, y));
+      if (scene.judged(x, y))
+        truth.map.values[truth.map.index(x, y)] = static_cast<float>(scene.disparity(x, y));
   truth.seen = seen_by_both(truth.map);
   return truth;
 }
@@ -59,8 +60,9 @@ TEST(SelectorFigures, SpreadIsTheShareOfTheRegionsCells) {
   const test::BumpScene scene{.width_px = 320, .height_px = 256};
   auto pair = scene.render(std::pmr::get_default_resource());
   pipeline::Keypoints places(std::pmr::get_default_resource());
-  for (int i = 0; i < 8; ++i) places.points.push_back({{static_cast<float>(20 * i + 5), 7}, 1});  // eight cells of the first row
-  places.points.push_back({{6, 8}, 1});                                                            // and one of them twice
+  for (int i = 0; i < 8; ++i)
+    places.points.push_back({{static_cast<float>(20 * i + 5), 7}, 1});  // eight cells of the first row
+  places.points.push_back({{6, 8}, 1});                                 // and one of them twice
   const pipeline::Keypoints none(std::pmr::get_default_resource());
   const pipeline::MatchSet matches(std::pmr::get_default_resource());
   const SelectorFigures whole = selector_figures(pair, places, none, matches, std::nullopt);
@@ -75,12 +77,14 @@ TEST(SelectorFigures, SpreadIsTheShareOfTheRegionsCells) {
 class Witness final : public pipeline::KeypointSelector {
  public:
   std::string_view name() const override { return "witness"; }
-  Result<pipeline::Keypoints> select(const pipeline::RectifiedPair& pair, pipeline::StageContext& context) const override {
+  Result<pipeline::Keypoints> select(const pipeline::RectifiedPair& pair,
+                                     pipeline::StageContext& context) const override {
     shown = pair.left.grey[100 * static_cast<std::size_t>(pair.width_px) + 100];
     pipeline::Keypoints all(&context.output);
     for (int y = 0; y < pair.height_px; ++y)
       for (int x = 0; x < pair.width_px; ++x)
-        if (pair.region[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x)] != 0)
+        if (pair.region[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+                        static_cast<std::size_t>(x)] != 0)
           all.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
     return all;
   }

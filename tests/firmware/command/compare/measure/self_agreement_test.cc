@@ -21,7 +21,8 @@ using test::StageBench;
 DisparityMap truth_of(const BumpScene& scene, const RectifiedPair& pair, float off_px) {
   DisparityMap map(pair.width_px, pair.height_px);
   for (int y = 0; y < pair.height_px; ++y)
-    for (int x = 0; x < pair.width_px; ++x) map.values[map.index(x, y)] = static_cast<float>(scene.disparity(x, y)) + off_px;
+    for (int x = 0; x < pair.width_px; ++x)
+      map.values[map.index(x, y)] = static_cast<float>(scene.disparity(x, y)) + off_px;
   return map;
 }
 
@@ -44,7 +45,8 @@ TEST(SelfAgreement, LeftAndRightAgreeOnATrueMapAndNotOnAWrongOne) {
   const BumpScene scene{.contrast = 30, .noise = 1, .seed = 5};
   const RectifiedPair pair = scene.render(&bench.output);
   const auto figures = [&](float off_px) {
-    auto found = left_right_figures(pair, pipeline::AlgorithmSet{}, truth_of(scene, pair, off_px), std::nullopt, bench.context);
+    auto found = left_right_figures(pair, pipeline::AlgorithmSet{}, truth_of(scene, pair, off_px),
+                                    std::nullopt, bench.context);
     EXPECT_TRUE(found) << (found ? "" : found.error().what.view());
     return found ? *found : LeftRightFigures{};
   };
@@ -78,7 +80,8 @@ TEST(SelfAgreement, TheModelsViewIsItsNearestSurface) {
   const auto square = [&](double half_px, double z_mm) {
     const auto half_mm = static_cast<float>(half_px * z_mm / pair.focal_px);
     const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-    for (const auto& [x, y] : {std::pair{-half_mm, -half_mm}, {half_mm, -half_mm}, {half_mm, half_mm}, {-half_mm, half_mm}})
+    for (const auto& [x, y] :
+         {std::pair{-half_mm, -half_mm}, {half_mm, -half_mm}, {half_mm, half_mm}, {-half_mm, half_mm}})
       mesh.vertices_mm.push_back({x, y, static_cast<float>(z_mm)});
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangles.push_back({first, first + 2, first + 3});

@@ -74,7 +74,8 @@ TEST(TruthOfView, DisparitiesOfATiltedPlaneAreThoseOfGeometry) {
       if (!truth.map.known(x, y)) continue;
       ++known;
       // Where the ray of this rectified pixel meets the plane n . p = 500, in the left camera's frame.
-      const pipeline::Vec3d ray{(x - pair->left_centre_px.x) / pair->focal_px, (y - pair->left_centre_px.y) / pair->focal_px, 1};
+      const pipeline::Vec3d ray{(x - pair->left_centre_px.x) / pair->focal_px,
+                                (y - pair->left_centre_px.y) / pair->focal_px, 1};
       const pipeline::Vec3d in_left = pipeline::apply(pipeline::transposed(pair->rectified_from_left), ray);
       const double z_rectified = 500 / (in_left.z - kTilt * in_left.x);
       ASSERT_NEAR(truth.map.at(x, y), pair->disparity_px(z_rectified), 0.01) << x << ", " << y;
