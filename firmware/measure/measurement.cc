@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/measure/rigid_fit.h"
+#include "hal/base/statistics.h"
 
 namespace relievo::firmware::measure {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 constexpr double kTruthReachMm = 20;
 constexpr double kModelReachMm = 10;
 constexpr std::size_t kSamples = 100'000;
-
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto k =
-      std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
-}
 
 double share_within(const std::vector<double>& values, double limit) {
   const auto n = std::count_if(values.begin(), values.end(), [&](double v) { return v <= limit; });
@@ -87,9 +80,9 @@ void measure_surface(const Surface& model, const TruthView& truth, const Triangl
     }
     if (d > 3) ++far;
   }
-  m.accuracy_median_mm = percentile(accuracy, 0.5);
+  m.accuracy_median_mm = median(accuracy);
   m.accuracy_p95_mm = percentile(accuracy, 0.95);
-  m.interior_median_mm = percentile(interior, 0.5);
+  m.interior_median_mm = median(interior);
   m.interior_p95_mm = percentile(interior, 0.95);
   m.outliers_3mm = samples.empty() ? 0 : static_cast<double>(far) / static_cast<double>(samples.size());
 }

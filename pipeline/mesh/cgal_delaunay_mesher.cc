@@ -10,6 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/catalogue/base_sheet.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
@@ -54,10 +55,7 @@ float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Tr
   std::pmr::vector<float> lengths(&scratch);
   lengths.reserve(triangles.size());
   for (const Triangle& t : triangles) lengths.push_back(mesh::length(mesh::minus(at[t[1]], at[t[0]])));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
 }
 
 bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
@@ -114,7 +112,7 @@ template <typename Longest>
 Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& options, StageContext& context,
                       Longest&& longest_mm) {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(options.check());
+  RELIEVO_TRY(check_options(options, "delaunay"));
   if (context.stop()) return stopped;
   if (cloud.points.size() < 3) return no_surface();
   std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
@@ -143,21 +141,6 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& opti
 }
 
 }  // namespace
-
-Result<void> DelaunayMesherOptions::check() const {
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.delaunay");
-  if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
-    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
-        "mesher.delaunay");
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.delaunay");
-  if (ear_passes < 0 || ear_passes > 16 || normal_passes < 0 || normal_passes > 16 ||
-      !(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "ear_passes and normal_passes 0 .. 16, min_area_mm2 0 .. 1000000"}.at(
-        "mesher.delaunay");
-  return {};
-}
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   return join(cloud, options_, context, [&](const auto& at, const auto& triangles) {

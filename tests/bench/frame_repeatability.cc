@@ -30,9 +30,8 @@ Result<Photograph> look_at(const std::filesystem::path& folder, test::StageBench
   RELIEVO_TRY_ASSIGN(photo.true_surface, firmware::measure::read_true_surface(folder / "head.ply"));
   RELIEVO_TRY_ASSIGN(const SeenSurface seen, surface_of(folder, room));
   photo.across = seen.across;
-  auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) {
-    return find_head_frame(seen.mesh, {}, c, photo.across);
-  });
+  auto frame = pipeline::run_stage(
+      room.context, [&](pipeline::StageContext& c) { return find_head_frame(seen.mesh, c, photo.across); });
   if (!frame) return frame.error();
   photo.frame = *frame;
   return photo;

@@ -29,6 +29,7 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
 
 TEST(Algorithms, EachSaysWhatItIsAndWhereItComesFrom) {
   for (const OptionDescription& kind : describe_algorithms()) {
+    if (kind.is_option()) continue;
     ASSERT_EQ(kind.algorithms.size(), kind.names.size()) << kind.key;
     for (std::size_t k = 0; k < kind.names.size(); ++k) {
       EXPECT_EQ(kind.algorithms[k].name, kind.names[k]);
@@ -42,7 +43,7 @@ TEST(Algorithms, EachSaysWhatItIsAndWhereItComesFrom) {
 TEST(Algorithms, OptionsBearTheNameOfTheirAlgorithm) {
   const auto all = describe_algorithms();
   for (const OptionDescription& option : all) {
-    if (!option.names.empty()) continue;
+    if (!option.is_option()) continue;
     const std::string section = option.key.substr(0, option.key.find('.'));
     const bool named = std::any_of(all.begin(), all.end(), [&](const OptionDescription& kind) {
       return std::find(kind.names.begin(), kind.names.end(), section) != kind.names.end();
@@ -70,7 +71,7 @@ TEST(Algorithms, DefaultsLieInTheirOwnRange) {
 TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
   for (const OptionDescription& option : describe_algorithms()) {
     if (!option.names.empty() || option.text) continue;
-    for (const double value : {option.least, option.most}) {
+    for (const double value : {option.range.least, option.range.most}) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, std::to_string(value))) << option.key;
       EXPECT_TRUE(make_preprocessor(set)) << option.key << " = " << value;
@@ -105,7 +106,7 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   ASSERT_FALSE(unknown_option);
   EXPECT_NE(unknown_option.error().where().find("window_px"), std::string_view::npos);
   for (const OptionDescription& option : describe_algorithms()) {
-    if (!option.names.empty()) continue;
+    if (!option.is_option()) continue;
     const std::string misspelt = option.key.substr(0, option.key.find('.')) + ".misspelt";
     const auto refused = set.set(misspelt, "1");
     ASSERT_FALSE(refused);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -20,12 +22,9 @@ struct Spread {
 
 // Changes the order of the values.
 Spread spread_of(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const float median = *middle;
-  for (float& v : values) v = std::abs(v - median);
-  std::nth_element(values.begin(), middle, values.end());
-  return {median, kMadToSigma * *middle};
+  const auto middle = static_cast<float>(median(values));
+  for (float& v : values) v = std::abs(v - middle);
+  return {middle, kMadToSigma * static_cast<float>(median(values))};
 }
 
 // Accepted matches in square cells of one radius.
@@ -97,14 +96,6 @@ bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& ce
 }
 
 }  // namespace
-
-Result<void> StatisticalConstraintOptions::check() const {
-  if (!(global_sigmas >= 0 && local_sigmas >= 0))
-    return Error{Errc::InvalidInput, "statistical: sigmas must not be negative"};
-  if (!(radius_px >= 1 && floor_px > 0))
-    return Error{Errc::InvalidInput, "statistical: radius_px must be at least 1 and floor_px positive"};
-  return {};
-}
 
 void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                   StageContext& context) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/catalogue/nearest_vertex.h"
 #include "pipeline/mesh/detail/corner_index.h"
 #include "pipeline/mesh/detail/edge_collapser.h"
@@ -75,10 +76,7 @@ float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory) {
   lengths.reserve(base.triangles.size());
   for (const Triangle& t : base.triangles)
     lengths.push_back(mesh::length(mesh::minus(base.vertices_mm[t[1]], base.vertices_mm[t[0]])));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
 }
 
 FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resource* memory) {
@@ -110,18 +108,6 @@ FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resour
     dense.sigma_mm.push_back(std::max({base.sigma_mm[t[0]], base.sigma_mm[t[1]], base.sigma_mm[t[2]]}));
   });
   return dense;
-}
-
-Result<void> FinishOptions::check(const char* place) const {
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at(place);
-  if (!(max_gap_mm >= 0.1 && max_gap_mm <= 50))
-    return Error{Errc::InvalidInput, "max_gap_mm must lie in 0.1 .. 50"}.at(place);
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at(place);
-  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at(place);
-  return {};
 }
 
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices,

@@ -46,16 +46,6 @@ void add_row(const FaceMesh& base, const DepthSamples& samples, const NearestVer
 
 }  // namespace
 
-Result<void> SheetOptions::check(const char* place) const {
-  if (!(step_mm >= 0.2 && step_mm <= 10))
-    return Error{Errc::InvalidInput, "step_mm must lie in 0.2 .. 10"}.at(place);
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at(place);
-  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at(place);
-  return {};
-}
-
 DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memory) {
   DepthSamples samples(memory);
   const std::size_t n = base.vertices_mm.size();

@@ -47,16 +47,8 @@ void fill_field(const FaceMesh& base, const FaceMesh& between, float radius, Ban
 
 }  // namespace
 
-Result<void> MarchingCubesMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.marching-cubes");
-  if (!(voxel_mm >= 0.3 && voxel_mm <= 10) || !(band_voxels >= 1.8 && band_voxels <= 5))
-    return Error{Errc::InvalidInput, "voxel_mm 0.3 .. 10, band_voxels 1.8 .. 5"}.at("mesher.marching-cubes");
-  return finish.check("mesher.marching-cubes");
-}
-
 Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "marching-cubes"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.

@@ -138,7 +138,7 @@ Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_m
                                const std::function<SewingRules(UnrolledHead&)>& propose,
                                StageContext& context) {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
+  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
   if (!frame) {
     if (frame.error().code == Errc::PoorGeometry) return mesh;
     return frame.error();

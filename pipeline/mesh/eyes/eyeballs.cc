@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/eyes/lid_finder.h"
 #include "pipeline/mesh/vector_math.h"
 
@@ -123,9 +124,7 @@ void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_h
     depths.push_back(p.z);
   }
   eye.middle /= static_cast<double>(eye.seen.size());
-  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
-                   depths.end());
-  eye.middle.z() = depths[depths.size() / 2];
+  eye.middle.z() = median(depths);
 }
 
 // What spans from lid to lid: every vertex lies as high as its neighbours do in the mean, the nearer the

@@ -225,13 +225,13 @@ TEST(GridMesher, NoSlivers) {
 }
 
 TEST(GridMesher, OptionsHaveLimits) {
-  EXPECT_TRUE(GridMesherOptions{}.check());
+  EXPECT_TRUE(check_options(GridMesherOptions{}, "grid"));
   GridMesherOptions options;
   options.max_incidence_deg = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "grid"));
   options = {};
   options.max_triangles = 0;
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "grid"));
 }
 
 // Slow and obvious: each vertex against the truth it was made from; only the cut along the outline makes new
