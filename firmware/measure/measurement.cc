@@ -35,8 +35,7 @@ Surface measured_part(const pipeline::FaceMesh& mesh) {
 std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
   const auto corner = [&](const auto& t, std::size_t k) { return wide(surface.vertices_mm[t[k]]); };
   const auto area = [&](const auto& t) {
-    return 0.5 *
-           length(cross(difference(corner(t, 1), corner(t, 0)), difference(corner(t, 2), corner(t, 0))));
+    return 0.5 * length(cross(minus(corner(t, 1), corner(t, 0)), minus(corner(t, 2), corner(t, 0))));
   };
   double total = 0;
   for (const auto& t : surface.triangles) total += area(t);
@@ -58,7 +57,7 @@ std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
       const double u = fold ? 1 - a : a;
       const double v = fold ? 1 - b : b;
       points.push_back(
-          sum(scaled(corner(t, 0), 1 - u - v), sum(scaled(corner(t, 1), u), scaled(corner(t, 2), v))));
+          plus(times(corner(t, 0), 1 - u - v), plus(times(corner(t, 1), u), times(corner(t, 2), v))));
     }
   }
   return points;

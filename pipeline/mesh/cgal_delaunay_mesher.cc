@@ -14,7 +14,7 @@
 #include "pipeline/mesh/catalogue/base_sheet.h"
 #include "pipeline/mesh/delaunay_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -54,14 +54,14 @@ float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Tr
                     Arena& scratch) {
   std::pmr::vector<float> lengths(&scratch);
   lengths.reserve(triangles.size());
-  for (const Triangle& t : triangles) lengths.push_back(mesh::length(mesh::minus(at[t[1]], at[t[0]])));
+  for (const Triangle& t : triangles) lengths.push_back(length(minus(at[t[1]], at[t[0]])));
   return lengths.empty() ? 0 : static_cast<float>(median(lengths));
 }
 
 bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
   const float longest = longest_mm * longest_mm;
-  return mesh::squared_distance(a, b) <= longest && mesh::squared_distance(b, c) <= longest &&
-         mesh::squared_distance(c, a) <= longest;
+  return squared_distance(a, b) <= longest && squared_distance(b, c) <= longest &&
+         squared_distance(c, a) <= longest;
 }
 
 // How far the points would lie from one another, spread evenly over the surface as the camera sees it: a
@@ -74,9 +74,8 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
   for (const Triangle& t : triangles) {
     const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
     if (!shorter(a, b, c, longest_mm)) continue;
-    area += static_cast<double>(std::abs(mesh::dot(mesh::cross(mesh::minus(b, a), mesh::minus(c, a)),
-                                                   mesh::unit(mesh::plus(mesh::plus(a, b), c))))) /
-            2;
+    area +=
+        static_cast<double>(std::abs(dot(cross(minus(b, a), minus(c, a)), unit(plus(plus(a, b), c))))) / 2;
     ++count;
   }
   return count > 0 ? std::sqrt(2 * area / static_cast<double>(count)) : 0;  // there are two triangles a point
@@ -84,11 +83,10 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
 
 bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
   if (!shorter(a, b, c, longest_mm)) return false;
-  const Vec3f n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
-  const Vec3f sight = mesh::plus(mesh::plus(a, b), c);
-  const float towards = -mesh::dot(n, sight);
-  return towards > 0 &&
-         towards * towards >= min_cosine * min_cosine * mesh::dot(n, n) * mesh::dot(sight, sight);
+  const Vec3f n = cross(minus(b, a), minus(c, a));
+  const Vec3f sight = plus(plus(a, b), c);
+  const float towards = -dot(n, sight);
+  return towards > 0 && towards * towards >= min_cosine * min_cosine * dot(n, n) * dot(sight, sight);
 }
 
 // All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs

@@ -16,7 +16,7 @@
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -50,7 +50,7 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
 void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
   const Vec3f centre{static_cast<float>(centre_mm.x), static_cast<float>(centre_mm.y),
                      static_cast<float>(centre_mm.z)};
-  for (Vec3f& v : cut.at_mm) v = mesh::plus(v, centre);
+  for (Vec3f& v : cut.at_mm) v = plus(v, centre);
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
 

@@ -65,8 +65,8 @@ struct HeldAxes {
   Vec3d right, down, out;
   explicit HeldAxes(const HeadSight& head) : right(head.right) {
     const double pitch = head.pitch_deg * std::numbers::pi / 180;
-    down = along(scaled(head.down, std::cos(pitch)), std::sin(pitch), head.away);
-    out = along(scaled(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
+    down = along(times(head.down, std::cos(pitch)), std::sin(pitch), head.away);
+    out = along(times(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
   }
   NosePoint of(const Vec3d& d) const { return {dot(d, right), dot(d, down), dot(d, out)}; }
 };

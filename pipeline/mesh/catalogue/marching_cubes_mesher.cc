@@ -8,7 +8,7 @@
 #include <span>
 
 #include "pipeline/mesh/catalogue/band_volume.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -25,10 +25,10 @@ void splat(const FaceMesh& points, float share, float radius, BandVolume& volume
     const float sigma = std::max(points.sigma_mm[i], kLeastSigmaMm);
     const float sure = share * kLeastSigmaMm * kLeastSigmaMm / (sigma * sigma);
     for_each_voxel_near(volume, p, radius, [&](int x, int y, int z) {
-      const Vec3f from = mesh::minus(volume.at(x, y, z), p);
-      const float w = sure * std::exp(-narrow * mesh::dot(from, from));
+      const Vec3f from = minus(volume.at(x, y, z), p);
+      const float w = sure * std::exp(-narrow * dot(from, from));
       const std::size_t k = volume.index(x, y, z);
-      volume.value[k] += w * mesh::dot(from, points.normals[i]);
+      volume.value[k] += w * dot(from, points.normals[i]);
       weight[k] += w;
     });
   }

@@ -14,7 +14,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/eyes/lid_finder.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -163,13 +163,13 @@ void turn_normals(FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& moved) {
     if (moved[v] != 0) mesh.normals[v] = {};
   for (const auto& t : mesh.triangles) {
     if ((moved[t[0]] | moved[t[1]] | moved[t[2]]) == 0) continue;
-    const Vec3f across = mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], mesh.vertices_mm[t[0]]),
-                                     mesh::minus(mesh.vertices_mm[t[2]], mesh.vertices_mm[t[0]]));
+    const Vec3f across = cross(minus(mesh.vertices_mm[t[1]], mesh.vertices_mm[t[0]]),
+                               minus(mesh.vertices_mm[t[2]], mesh.vertices_mm[t[0]]));
     for (const std::uint32_t v : t)
-      if (moved[v] != 0) mesh.normals[v] = mesh::plus(mesh.normals[v], across);
+      if (moved[v] != 0) mesh.normals[v] = plus(mesh.normals[v], across);
   }
   for (std::uint32_t v = 0; v < moved.size(); ++v)
-    if (moved[v] != 0) mesh.normals[v] = mesh::unit(mesh.normals[v]);
+    if (moved[v] != 0) mesh.normals[v] = unit(mesh.normals[v]);
 }
 
 }  // namespace

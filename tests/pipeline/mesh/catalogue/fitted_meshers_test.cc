@@ -83,9 +83,9 @@ TEST(NearestVertex, IsTheNearestOfAll) {
   for (int i = 0; i < 300; ++i) {
     const Vec3f p{1.5F * at(random), at(random), 300 + at(random)};
     float least = 900;
-    for (const Vec3f& q : points) least = std::min(least, mesh::squared_distance(p, q));
+    for (const Vec3f& q : points) least = std::min(least, squared_distance(p, q));
     const auto hit = nearest.find(p, 30);
-    if (least < 900) EXPECT_NEAR(mesh::squared_distance(points[hit.vertex], p), least, 1e-3F);
+    if (least < 900) EXPECT_NEAR(squared_distance(points[hit.vertex], p), least, 1e-3F);
     else EXPECT_EQ(hit.vertex, NearestVertex::kNone);
   }
 }
@@ -123,8 +123,7 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
       const Vec3f& p = result->vertices_mm[v];
       const auto hit = nearest.find(p, 3);
       if (hit.vertex == NearestVertex::kNone || !result->measured[v]) continue;
-      off.push_back(
-          std::abs(static_cast<double>(mesh::dot(mesh::minus(p, truth[hit.vertex]), result->normals[v]))));
+      off.push_back(std::abs(static_cast<double>(dot(minus(p, truth[hit.vertex]), result->normals[v]))));
     }
     const double half = median(off);
     std::cout << name << ": median " << half << " mm, " << result->triangles.size() << " triangles\n";
