@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
 #include "pipeline/match/match_constraint.h"
 #include "pipeline/match/matcher.h"
 #include "pipeline/match/preprocessor.h"
 #include "pipeline/mesh/completion/completion.h"
 #include "pipeline/mesh/mesher.h"
-#include "pipeline/options.h"
 #include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/outlier_filter.h"
 #include "pipeline/reconstruct/triangulator.h"

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/cells.h"
+#include "pipeline/base/cells.h"
 #include "pipeline/model/point_cloud.h"
 
 namespace relievo::pipeline {

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "pipeline/match/window/ssd_matcher.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -82,6 +85,32 @@ TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
       EXPECT_TRUE(make_constraints(set)) << option.key << " = " << value;
     }
   }
+}
+
+TEST(Algorithms, WhatIsOutOfRangeIsNamedWithItsValueAndItsRange) {
+  EXPECT_TRUE(check_options(SsdMatcherOptions{}, "ssd"));
+  const auto even = check_options(SsdMatcherOptions{.window_px = 10}, "ssd");
+  ASSERT_FALSE(even);
+  EXPECT_EQ(even.error().code, Errc::InvalidInput);
+  EXPECT_EQ(even.error().where(), "ssd.window_px = 10 (3 to 63 in steps of 2)");
+  EXPECT_FALSE(check_options(SsdMatcherOptions{.max_difference = NAN}, "ssd"));
+  const auto set = AlgorithmSet{}.set("ssd.window_px", "10");
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().where(), even.error().where()) << "one range, wherever it is asked";
+}
+
+TEST(Algorithms, ModesAreChosenByName) {
+  AlgorithmSet set;
+  EXPECT_EQ(set.get("opencv-sgbm.mode"), "3way");
+  ASSERT_TRUE(set.set("opencv-sgbm.mode", "hh"));
+  ASSERT_TRUE(set.set("matcher", "opencv-sgbm"));
+  EXPECT_TRUE(make_matcher(set));
+  for (const char* number : {"1", "2", "", "HH"}) {
+    const auto refused = set.set("opencv-sgbm.mode", number);
+    ASSERT_FALSE(refused) << number;
+    EXPECT_NE(refused.error().where().find("3way or hh"), std::string_view::npos) << number;
+  }
+  EXPECT_EQ(set.get("opencv-sgbm.mode"), "hh");
 }
 
 TEST(Algorithms, ConstraintsAreJoinedAndKeepTheirOrder) {

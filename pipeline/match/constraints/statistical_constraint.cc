@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/cells.h"
+#include "pipeline/base/cells.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/bending/bending_system.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "pipeline/cells.h"
+#include "pipeline/base/cells.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {

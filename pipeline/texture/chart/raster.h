@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "hal/base/groups.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/triangle_raster.h"
-#include "pipeline/stage.h"
 #include "pipeline/texture/chart/chart.h"
 
 namespace relievo::pipeline {

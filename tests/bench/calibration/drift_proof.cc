@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/drift.h"
