@@ -90,7 +90,7 @@ pipeline::AlgorithmSet set_for(const std::vector<pipeline::OptionDescription>& a
 
 std::vector<std::string> values_of(const pipeline::OptionDescription& option) {
   if (option.text) return {"?"};
-  const double least = option.least, most = option.most;
+  const double least = option.range.least, most = option.range.most;
   std::vector<std::string> values;
   for (const double value : {least, most, (least + most) / 2, least + 1, most - 1,
                              std::floor(std::sqrt(std::max(0.0, least * most)))})
@@ -126,18 +126,18 @@ TEST(OptionWords, WhatIsRefusedBesideTheOthersIsSaidInEveryLanguage) {
   const auto all = pipeline::describe_algorithms();
   std::set<std::string> refusals;
   for (const auto& one : all) {
-    if (!one.names.empty()) continue;
+    if (!one.is_option()) continue;
     pipeline::AlgorithmSet chosen = set_for(all, section_of(one.key));
     for (const std::string& value : values_of(one)) {
       pipeline::AlgorithmSet set = chosen;
       if (set.set(one.key, value)) ask(set, refusals);
     }
-    if (one.text || !chosen.set(one.key, std::to_string(one.least))) continue;
+    if (one.text || !one.names.empty() || !chosen.set(one.key, std::to_string(one.range.least))) continue;
     for (const auto& other : all) {
       pipeline::AlgorithmSet set = chosen;
       const bool beside = other.names.empty() && !other.text && other.key != one.key &&
                           section_of(other.key) == section_of(one.key);
-      if (beside && set.set(other.key, std::to_string(other.most))) ask(set, refusals);
+      if (beside && set.set(other.key, std::to_string(other.range.most))) ask(set, refusals);
     }
   }
   pipeline::AlgorithmSet scattered;
