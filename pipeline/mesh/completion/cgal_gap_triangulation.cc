@@ -76,7 +76,6 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
   for (const std::uint32_t v : added) insert(v), is_added[v] = 1;
   for (const auto& [from, to] : border)
     if (at[from] != at[to]) cdt.insert_constraint(at[from], at[to]);
-  const std::set<std::array<std::uint32_t, 2>> taken(border.begin(), border.end());
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles(memory);
   for (const auto face : outside(cdt, border, at, far_point.has_value())) {
     std::array<std::uint32_t, 3> t{};
@@ -92,8 +91,6 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
       fresh = fresh || (known && is_added[v] != 0);
       t[static_cast<std::size_t>(k)] = v;
     }
-    // Where the border folds in the plane, its wrong side was reached.
-    for (std::size_t k = 0; k < 3; ++k) known = known && taken.count({t[k], t[(k + 1) % 3]}) == 0;
     if (!known || !fresh) continue;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     triangles.push_back(t);

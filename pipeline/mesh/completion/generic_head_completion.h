@@ -8,8 +8,8 @@
 // those of Completion. Thread: any.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/mesh/completion/completion.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

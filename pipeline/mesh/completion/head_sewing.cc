@@ -39,12 +39,24 @@ std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
   return border;
 }
 
-// What the gap's triangles may be: short edges, seen from outside, and no edge that the surface has already.
-bool fits(const FaceMesh& mesh, const Triangle& t, float longest_mm) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (mesh::squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) >
-        longest_mm * longest_mm)
-      return false;
+std::pmr::vector<Edge> directed_edges(const FaceMesh& mesh, Arena& scratch) {
+  std::pmr::vector<Edge> edges(&scratch);
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// What the gap's triangles may be: of short edges, none of which the surface has already; where the border
+// folds in the plane, its wrong side was reached.
+bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, double longest_mm) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Edge edge{t[k], t[(k + 1) % 3]};
+    const float squared = mesh::squared_distance(mesh.vertices_mm[edge[0]], mesh.vertices_mm[edge[1]]);
+    if (static_cast<double>(squared) > longest_mm * longest_mm) return false;
+    if (std::binary_search(own.begin(), own.end(), edge)) return false;
+  }
   return true;
 }
 
@@ -95,9 +107,10 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
   std::optional<std::uint32_t> far_point;
   if (rules.far_point) far_point = add(*rules.far_point);
   const auto border = border_of(mesh, context.scratch);
+  const auto own = directed_edges(mesh, context.scratch);
   const auto gap = triangulate_gap(places, border, fresh, far_point, &context.scratch);
   for (const Triangle& t : gap)
-    if (fits(whole, t, static_cast<float>(rules.longest_edge_mm))) whole.triangles.push_back(t);
+    if (fits(whole, own, t, rules.longest_edge_mm)) whole.triangles.push_back(t);
   keep_one_surface(whole.vertices_mm, whole.triangles, {0}, &context.scratch);
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)

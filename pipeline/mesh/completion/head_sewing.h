@@ -9,9 +9,9 @@
 #include <optional>
 #include <span>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

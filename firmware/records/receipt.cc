@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/records/receipt.h"
+
+#include <charconv>
+#include <cstdio>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::size_t kDrawnDigits = 12, kCheckDigits = 2;
+
+int check_digits(std::int64_t number) { return static_cast<int>(98 - (number % 97 * 100) % 97); }
+
+std::optional<std::int64_t> number_in(std::string_view digits) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool all = error == std::errc() && end == digits.data() + digits.size() && !digits.starts_with('-');
+  return all && number > 0 ? std::optional(number) : std::nullopt;
+}
+
+std::optional<std::int64_t> checked(std::string_view number, std::string_view check) {
+  const auto value = number_in(number), digits = number_in(check);
+  return value && digits && *digits == check_digits(*value) ? value : std::nullopt;
+}
+
+std::optional<std::int64_t> read(std::string_view code) {
+  const auto between = [](char c) { return c == '-' || c == ' '; };
+  if (code.empty() || between(code.front()) || between(code.back())) return std::nullopt;
+  std::string digits;
+  for (const char c : code)
+    if (!between(c)) digits += c;
+  if (digits.size() != kDrawnDigits + kCheckDigits) return std::nullopt;
+  return checked(std::string_view(digits).substr(0, kDrawnDigits),
+                 std::string_view(digits).substr(kDrawnDigits));
+}
+
+}  // namespace
+
+std::string receipt_of(const storage::Subject& subject) {
+  char text[40];
+  const auto part = [&](std::int64_t unit) { return static_cast<int>(subject.receipt / unit % 10'000); };
+  std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1),
+                check_digits(subject.receipt));
+  return text;
+}
+
+bool is_receipt(std::string_view code) { return read(code).has_value(); }
+
+Result<storage::Subject> find_by_receipt(storage::Store& store, std::string_view code) {
+  const Error none{Errc::NotFound, "this is nobody's code"};
+  const auto number = read(code);
+  if (!number) return none;
+  RELIEVO_TRY_ASSIGN(auto found, store.subjects({.limit = 1, .receipt = *number}));
+  return found.empty() ? Result<storage::Subject>(none) : Result<storage::Subject>(std::move(found.front()));
+}
+
+}  // namespace relievo::firmware
