@@ -15,9 +15,9 @@
 #include <memory>
 
 #include "firmware/bench/show/hand_change.h"
-#include "firmware/session.h"
+#include "firmware/session/session.h"
 #include "pipeline/algorithms.h"
-#include "pipeline/stage.h"
+#include "pipeline/base/stage.h"
 #include "ui/bench/bench_result.h"
 
 namespace relievo::firmware {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "firmware/command/compare/measure/self_agreement.h"
+#include "firmware/measure/self_agreement.h"
 
 namespace relievo::firmware {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware/command/compare/measure/disparity_map.h"
-#include "firmware/session.h"
+#include "firmware/measure/disparity_map.h"
+#include "firmware/session/session.h"
 #include "firmware/work/session_document.h"
 #include "ui/bench/bench_result.h"
 

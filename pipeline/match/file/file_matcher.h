@@ -9,9 +9,9 @@
 
 #include <string>
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/file/match_file.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "firmware/command/compare/measure/self_agreement.h"
+#include "firmware/measure/self_agreement.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {
