@@ -88,7 +88,11 @@ void Bench::act(ui::BenchOrder order) {
       return;
     case BenchAct::Point:
     case BenchAct::PointRight:
+    case BenchAct::Drag:
+    case BenchAct::DragRight:
       return point(order);
+    case BenchAct::RemovePair:
+      return pairs_.remove();
     case BenchAct::ByHand:
       by_hand_ = !by_hand_;
       point_ = {};
@@ -191,6 +195,8 @@ void Bench::begin_next() {
   const Next what = std::exchange(next_, Next::None);
   problem_.clear();
   point_ = {};
+  pairs_.forget();
+  run_.change().forget();
   recording_.capture_gone();
   tables_.forget();
   run_.pictures().wipe();
@@ -233,11 +239,12 @@ const pipeline::StereoCalibration* Bench::calibration() const {
 void Bench::run(std::int64_t latest) {
   if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated()))
     return;
-  const State changed = first_change(run_.making().set, algorithms_.set());
+  State changed = first_change(run_.making().set, algorithms_.set());
+  if (pairs_.changed()) changed = std::min(changed, State::Reconstruct);
   State first = changed == State::Review ? State::Match : changed;
   if (latest >= 1 && latest <= 4)
     first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
-  run_.order(algorithms_.set(), *calibration(), first, loaded_ && run_.making().whole_view);
+  run_.order(algorithms_.set(), *calibration(), first, pairs_.matches(), loaded_ && run_.making().whole_view);
   send_run();
 }
 
@@ -295,6 +302,10 @@ void Bench::run_done(const std::optional<Error>& error) {
   phase_ = error ? BenchPhase::Failed : BenchPhase::Ready;
   ++model_number_;
   if (error) say(*error);
+  if (const Products* made = products(); made != nullptr && made->pair) {
+    pairs_.show(*made->pair, run_.making().by_hand);
+    run_.change().tell(pairs_.points());
+  }
   tables_.show(tables_.view().table, source());
 }
 
@@ -304,9 +315,11 @@ void Bench::point(ui::BenchOrder order) {
   const Share at = place_of(order.argument);
   if (!by_hand_ && order.act == BenchAct::Point && made->matches)
     point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
-  if (by_hand_ && order.act == BenchAct::Point) point_ = hand_point(*made->pair, at.x, at.y);
-  if (by_hand_ && order.act == BenchAct::PointRight && point_.touched)
-    match_by_hand(*made->pair, at.x, point_);
+  if (!by_hand_) return;
+  const bool left = order.act == BenchAct::Point || order.act == BenchAct::Drag;
+  if (order.act == BenchAct::Point || order.act == BenchAct::PointRight)
+    pairs_.touch(*made->pair, left, at.x, at.y);
+  else pairs_.drag(*made->pair, left, at.x, at.y);
 }
 
 // The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
@@ -364,6 +377,8 @@ void Bench::leave() {
   calibrations_.forget();
   recording_.forget();
   point_ = {};
+  pairs_.forget();
+  run_.change().forget();
   phase_ = BenchPhase::Empty;
   problem_.clear();
   algorithms_.begin(parts_.stages.algorithms());

@@ -16,10 +16,10 @@ namespace relievo::firmware {
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   Reconstruction reconstruction;
   const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
-  RELIEVO_TRY(args.load.empty()
-                  ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms,
-                                       services.console, when_moved)
-                  : reconstruction.load(args.load, args.from, args.algorithms, services.console, when_moved));
+  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms,
+                                                     args.by_hand, services.console, when_moved)
+                                : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand,
+                                                      services.console, when_moved));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, reconstruction.draw_images());
@@ -43,6 +43,8 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   for (const StageRecord& stage : reconstruction.report().stages)
     services.console.say(line_of(stage) +
                          (number++ < static_cast<int>(reconstruction.begun_with()) ? "  (as saved)" : ""));
+  if (const std::size_t count = reconstruction.report().by_hand; count > 0)
+    services.console.say(std::to_string(count) + " of the matches made by hand");
   services.console.say(line_of(*reconstruction.report().drift));
   for (const std::string& advice :
        {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})

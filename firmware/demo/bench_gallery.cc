@@ -109,6 +109,20 @@ ui::BenchPoint touched() {
   return p;
 }
 
+// The first is the chosen one.
+std::vector<ui::BenchPoint> by_hand() {
+  std::vector<ui::BenchPoint> pairs(3, touched());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    ui::BenchPoint& p = pairs[i];
+    p.by_hand = true;
+    p.moved_mm = -1.84F;
+    p.left_x += 0.05F * static_cast<float>(i);
+    p.right_x += 0.05F * static_cast<float>(i);
+    p.y -= 0.12F * static_cast<float>(i);
+  }
+  return pairs;
+}
+
 AlgorithmDesk edited(bool typing) {
   AlgorithmDesk desk;
   desk.act({BenchAct::ChooseKind, 2});
@@ -216,6 +230,17 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view = ready(review);
   view.point = touched();
   all.add("bench_rectified", StaffPage::Stages, view);
+  static const std::vector<ui::BenchPoint> pairs = by_hand();
+  view.by_hand = view.pairs_changed = true;
+  view.pairs = pairs;
+  view.point = pairs[0];
+  view.change = {true, 143, 21, -1.84F, 1.84F};
+  all.add("bench_by_hand", StaffPage::Stages, view);
+  lend(review, BenchStage::Mesh, view);
+  view.shown[1] = view.shown[0];
+  all.add("bench_change", StaffPage::Stages, view);
+  view = ready(review);
+  view.point = touched();
   view.can_record = true;
   view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
   all.add("bench_recording", StaffPage::Stages, view);

@@ -109,7 +109,7 @@ void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen
 }
 
 void BenchFrame::open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture,
-                              PictureSlot slot, Action action) {
+                              PictureSlot slot, Action action, Action dragged) {
   Node frame = page.grown(page.box(Flow::Stack));
   frame.aspect = picture.pixels.empty() ? 1.0F
                                         : static_cast<float>(picture.pixels.width_px) /
@@ -127,6 +127,7 @@ void BenchFrame::open_picture(std::string_view id, std::string_view spoken, cons
   }
   image.box.radius = page.px(12);
   image.action = action;
+  image.dragged = dragged;
   image.tells_place = action.kind != ActionKind::None;
   page.tree.leaf(image);
 }
