@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// What went wrong, as far as anyone can act on it. Logs keep the numbers: new ones stand at the end.
+// What went wrong, as far as anyone can act on it.
 enum class Errc : std::uint8_t {
   InvalidInput,  // a file, a picture, a number or a name that cannot be used
   NotFound,      // it is not there

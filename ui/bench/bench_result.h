@@ -12,7 +12,7 @@
 
 #include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
-#include "ui/fault.h"
+#include "ui/view/fault.h"
 
 namespace relievo::ui {
 

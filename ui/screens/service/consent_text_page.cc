@@ -5,8 +5,8 @@
 // step of the first start.
 #include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/pin_verbs.h"
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "hal/base/result.h"
 #include "ui/language/language.h"
-#include "ui/log_event.h"
+#include "ui/view/log_event.h"
 
 namespace relievo::ui {
 

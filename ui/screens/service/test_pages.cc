@@ -3,8 +3,8 @@
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/compare/set_choice.h"
+#include "firmware/compare/set_choice.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/compare/suites.h"
+#include "firmware/compare/suites.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::compare {

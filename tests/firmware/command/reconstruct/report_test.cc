@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/reconstruct/report.h"
+#include "firmware/report/report.h"
 
 #include <gtest/gtest.h>
 

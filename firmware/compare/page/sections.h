@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of the comparison's page, each in a file of its own. Each gives valid HTML, or nothing where
+// there is nothing to say. Inside page/ only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware/measure/comparison.h"
+#include "hal/base/result.h"
+
+namespace relievo::firmware::compare::sections {
+
+std::string figures(const Comparison& c, std::size_t pair);       // one row a set: what matters
+std::string surfaces(const Comparison& c, std::size_t pair);      // every model, and what its mesh took
+Result<std::string> maps(const Comparison& c, std::size_t pair);  // disparities, errors, rejected matches
+std::string histograms(const Comparison& c, std::size_t pair);
+std::string shared_pixels(const Comparison& c, std::size_t pair);  // every two sets where both give one
+std::string costs(const Comparison& c, std::size_t pair);          // times by step, memory
+std::string rules(const Comparison& c, std::size_t pair);          // what constraints took away
+Result<std::string> selectors(const Comparison& c, std::size_t pair);
+std::string settings(const Comparison& c);
+
+// The runs of one pair, in the order of the sets.
+std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair);
+const std::string& name_of(const Comparison& c, const Run& run);
+std::string cell(const std::string& html);  // a number's
+std::string best_cell(const std::string& html, bool best);
+std::string row_head(const std::string& name);  // escapes
+std::string table_head(const std::vector<std::string>& columns,
+                       std::size_t words = 1);  // the first are words, not numbers
+
+}  // namespace relievo::firmware::compare::sections
