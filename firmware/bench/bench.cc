@@ -8,7 +8,6 @@
 
 #include "firmware/bench/show/touched_point.h"
 #include "firmware/work/first_change.h"
-#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 namespace {
@@ -56,7 +55,7 @@ bool Bench::is_calibrated() {
   return false;
 }
 
-void Bench::say(const Error& error) { problem_ = Sentence(error).packed(); }
+void Bench::say(const Error& error) { problem_ = ui::fault_of(error); }
 
 void Bench::opened(ui::BenchPage page) {
   if (page == ui::BenchPage::Cameras) watch_cameras(true);
@@ -137,7 +136,7 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Save:
       return save();
     case BenchAct::ListSaved:
-      problem_.clear();
+      problem_ = {};
       return recording_.list();
     case BenchAct::LeaveSaved:
       return recording_.hide();
@@ -193,7 +192,7 @@ void Bench::begin_next() {
   if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker))
     return;
   const Next what = std::exchange(next_, Next::None);
-  problem_.clear();
+  problem_ = {};
   point_ = {};
   pairs_.forget();
   run_.change().forget();
@@ -249,7 +248,7 @@ void Bench::run(std::int64_t latest) {
 }
 
 void Bench::send_run() {
-  problem_.clear();
+  problem_ = {};
   point_ = {};
   tables_.forget();
   changed_ = false;
@@ -339,7 +338,7 @@ void Bench::apply_set() {
         if (error) return say(*error);
         parts_.stages.replace(*std::move(*made));
         applied_ = true;
-        problem_.clear();
+        problem_ = {};
       });
 }
 
@@ -348,7 +347,7 @@ void Bench::watch_cameras(bool on) {
   if (!on) return parts_.errands.stop(JobPlace::Capture);
   if (parts_.errands.busy(JobPlace::Capture) || phase_ == BenchPhase::Capturing) return;
   if (!session_.is_open() && !session_.open("")) return;
-  problem_.clear();
+  problem_ = {};
   watch_.prepare(parts_.stages.calibration());
   watching_ = true;
   parts_.errands.send(
@@ -380,7 +379,7 @@ void Bench::leave() {
   pairs_.forget();
   run_.change().forget();
   phase_ = BenchPhase::Empty;
-  problem_.clear();
+  problem_ = {};
   algorithms_.begin(parts_.stages.algorithms());
 }
 

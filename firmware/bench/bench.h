@@ -110,7 +110,7 @@ class Bench {
   bool loaded_ = false;  // what is in the session was, with a calibration of its own
   bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
        left_ = true;
-  std::string problem_;
+  ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::BenchView view_;
 };

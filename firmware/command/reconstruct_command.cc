@@ -8,7 +8,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/light_model.h"
 #include "firmware/reconstruct/reconstruction.h"
-#include "hal/base/sentence.h"
+#include "hal/base/words.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -55,7 +55,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
                 q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
   services.console.say(line);
   if (reconstruction.model().unjudged)
-    services.console.say("not judged to be a face: " + Sentence(*reconstruction.model().unjudged).text());
+    services.console.say("not judged to be a face: " + detail_of(*reconstruction.model().unjudged));
   if (!light.empty()) services.console.say(light);
   services.console.say("model and report: " + args.output.string());
   if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());

@@ -13,6 +13,7 @@
 
 #include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
+#include "ui/view/fault.h"
 
 namespace relievo::ui {
 
@@ -48,7 +49,7 @@ struct BenchRule {
 struct BenchResult {
   bool there = false;
   std::string_view algorithms;          // what differs from the default, one "key = value" a line
-  std::string_view failure;             // of a stage, packed (hal/base/sentence.h); empty: all four are done
+  Fault failure;                        // of a stage; empty: all four are done
   std::size_t failed_at = 0;            // Match, Reconstruct, Mesh, Texture
   std::array<float, 4> seconds{};       // Match, Reconstruct, Mesh, Texture
   std::array<std::uint64_t, 4> made{};  // accepted matches, points, triangles, texels

@@ -35,13 +35,13 @@ class BenchTest : public testing::Test {
     if (rig().now().phase == BenchPhase::Ready && rig().now().result.algorithms.empty()) return;
     rig().tap("capture");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
-    ASSERT_EQ(rig().now().result.failure, "");
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
+    ASSERT_EQ(rig().now().result.failure.detail, "");
   }
   static void again() {
     rig().tap("run");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
   }
   static Products& products() { return rig().appliance->session().products(); }
   // The places of an identifier in the choice.
@@ -275,7 +275,7 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   rig().open(StaffPage::Algorithms);
   EXPECT_EQ(rig().stages->algorithms().get("matcher"), "refined") << "visitors' are another choice";
   rig().tap("apply");
-  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem.detail;
   EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
   const auto kept = pipeline::AlgorithmSet::from_text(*rig().store->setting("algorithms"));
   ASSERT_TRUE(kept.has_value());
@@ -318,7 +318,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
   ASSERT_TRUE(rig().until(finished));
-  ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+  ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
   EXPECT_EQ(model(), as_saved);
   EXPECT_EQ(rig().now().result.algorithms, "") << "its algorithms came with it";
   EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "grid");
@@ -333,7 +333,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
     rig().tap("stage " + std::to_string(stage));
     rig().tap("run from");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().result.failure, "");
+    ASSERT_EQ(rig().now().result.failure.detail, "");
     EXPECT_EQ(model(), as_saved) << stage;
   }
 
@@ -343,7 +343,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return !rig().now().problem.empty(); }));
-  EXPECT_NE(rig().now().problem.find("damaged"), std::string_view::npos);
+  EXPECT_NE(rig().now().problem.detail.find("damaged"), std::string_view::npos);
   EXPECT_EQ(rig().now().phase, BenchPhase::Ready);
   EXPECT_EQ(model(), as_saved);
 }
@@ -351,7 +351,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
   rig().open(StaffPage::Cameras);
   ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; }))
-      << rig().now().problem;
+      << rig().now().problem.detail;
   for (const ui::BenchCamera& camera : rig().now().cameras.camera) {
     EXPECT_FALSE(camera.picture.pixels.empty());
     EXPECT_GT(camera.mean, 0.05F);
@@ -367,11 +367,11 @@ TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
 TEST_F(BenchTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
   rig().open(StaffPage::Cameras);
   ASSERT_TRUE(rig().until([] { return rig().shows("show relief"); }))
-      << rig().now().problem;  // with the first pair
+      << rig().now().problem.detail;  // with the first pair
   EXPECT_FALSE(rig().shows("relief"));
   rig().tap("show relief");
   ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); }))
-      << rig().now().cameras.problem;
+      << rig().now().cameras.problem.detail;
   rig().turn();
   EXPECT_TRUE(rig().shows("relief") && rig().shows("left live"));
   EXPECT_FALSE(rig().shows("right live"));
@@ -410,7 +410,8 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(
       rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
   if (rig().now().calibration.running) rig().tap("calibration finish");
-  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
+      << rig().now().calibration.problem.detail;
   const ui::BenchCalibration made = rig().now().calibration;
   ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << (made.reasons.empty() ? "" : made.reasons.front());
   ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
@@ -420,13 +421,13 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
 
   rig().tap("calibration store");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; }))
-      << rig().now().calibration.problem;
+      << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().revision, 2U);
   EXPECT_EQ(rig().stages->calibration()->revision, 2U) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, 2U);
   // The one before it comes back by a touch.
   rig().tap("calibration 1");
-  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem;
+  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().stages->calibration()->revision, 1U);
 }
 

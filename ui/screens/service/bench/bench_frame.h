@@ -70,11 +70,11 @@ class BenchFrame {
   // The buttons under the pages of the test capture.
   // `with_stick`: also those between the reconstruction and the stick.
   void capture_buttons(bool with_run, bool with_stick = false);
-  void problem(std::string_view words);  // packed (hal/base/sentence.h); empty: nothing is shown
-  void failure();                        // of the present result's stages
+  void problem(const Fault& fault);  // empty: nothing is shown
+  void failure();                    // of the present result's stages
 
  private:
-  void alert(std::string_view words);
+  void alert(std::string_view words, std::string_view detail);
   void stick_buttons();
 };
 
