@@ -8,6 +8,7 @@
 
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/match/diagnose/pair_diagnosis.h"
+#include "pipeline/match/hand/hand_matches.h"
 #include "pipeline/mesh/eyes/eyeballs.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
@@ -121,11 +122,17 @@ Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) con
 }
 
 Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchSet& matches,
-                                         StageContext& context) const {
+                                         StageContext& context, std::span<const Match> by_hand) const {
   return run_stage(context, [&](StageContext& c) -> Result<PointCloud> {
-    RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_->triangulate(pair, matches, c));
+    std::optional<MatchSet> joined;
+    if (!by_hand.empty()) {
+      RELIEVO_TRY_ASSIGN(joined, join_by_hand(pair, matches, by_hand, c));
+    }
+    RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_->triangulate(pair, joined ? *joined : matches, c));
     RELIEVO_TRY(crop_to_face(cloud, pair, crop_, c));
+    const PointsByHand kept(cloud, by_hand, &c.scratch);
     if (outliers_ != nullptr) RELIEVO_TRY(outliers_->reject(cloud, c));
+    kept.put_back(cloud);
     return cloud;
   });
 }

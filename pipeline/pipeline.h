@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/algorithms.h"
@@ -41,8 +42,9 @@ class Pipeline {
   // The pair's grey values are then what the preprocessor made of them. Errors: TooFewMatches, NoFace,
   // Cancelled, OutOfMemory.
   Result<MatchSet> match(RectifiedPair& pair, StageContext& context) const;
-  Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches,
-                                 StageContext& context) const;
+  // `by_hand`: matches beside those (match/hand/hand_matches.h).
+  Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
+                                 std::span<const Match> by_hand = {}) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
   // Takes the mesh over into the model, which says where it could not be told whether that is a face

@@ -59,9 +59,9 @@ void Ui::feed(const Input& input, const ViewState& view) {
   }
   switch (input.kind) {
     case Input::Kind::Down:
-      return down(input);
+      return down(input, view);
     case Input::Kind::Move:
-      return move(input);
+      return move(input, view);
     case Input::Kind::Up:
       return up(input, view);
     case Input::Kind::Next:
@@ -78,7 +78,7 @@ void Ui::feed(const Input& input, const ViewState& view) {
   }
 }
 
-void Ui::down(const Input& input) {
+void Ui::down(const Input& input, const ViewState& view) {
   hands_.show_focus = false;
   for (Finger& finger : fingers_) {
     if (finger.down) continue;
@@ -87,9 +87,11 @@ void Ui::down(const Input& input) {
   }
   const Node* node = tree_.at(input.x, input.y);
   hands_.pressed = node != nullptr && !fingers_[1].down ? node->id : std::string_view{};
+  if (node != nullptr && !hands_.pressed.empty() && node->dragged.kind != ActionKind::None)
+    touch(*node, node->action, input, view);
 }
 
-void Ui::move(const Input& input) {
+void Ui::move(const Input& input, const ViewState& view) {
   for (std::size_t i = 0; i < fingers_.size(); ++i) {
     Finger& finger = fingers_[i];
     if (!finger.down || finger.id != input.finger) continue;
@@ -103,6 +105,8 @@ void Ui::move(const Input& input) {
       hands_.pressed.clear();  // it slid off: that is no holding
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
     if (fingers_[0].down && fingers_[1].down) return pinch(finger, old_x, old_y, fingers_[1 - i]);
+    if (node != nullptr && node->dragged.kind != ActionKind::None)
+      return touch(*node, node->dragged, input, view);
     if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);
     if (const Node* scroller = tree_.scroller_at(finger.start_x, finger.start_y)) {
       if (hands_.scrolled != scroller->id) {
@@ -122,13 +126,18 @@ void Ui::up(const Input& input, const ViewState& view) {
     if (!finger.down || finger.id != input.finger) continue;
     finger.down = false;
     const Node* node = tree_.at(input.x, input.y);
-    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold) {
-      Node touched = *node;
-      if (node->tells_place) touched.action.detail = place_in(node->rect, input.x, input.y);
-      activate(touched, view);
-    }
+    if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold &&
+        node->dragged.kind == ActionKind::None)
+      touch(*node, node->action, input, view);
     hands_.pressed.clear();
   }
+}
+
+void Ui::touch(const Node& node, Action action, const Input& input, const ViewState& view) {
+  Node touched = node;
+  touched.action = action;
+  if (node.tells_place) touched.action.detail = place_in(node.rect, input.x, input.y);
+  activate(touched, view);
 }
 
 void Ui::activate(const Node& node, const ViewState& view) {

@@ -64,8 +64,8 @@ class Ui {
   void draw(const ViewState& view);
   void follow_staff(const ViewState& view);
   void ask(std::optional<Intent> intent);
-  void down(const Input& input);
-  void move(const Input& input);
+  void down(const Input& input, const ViewState& view);
+  void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
   float scrolled_px(const Node& scroller) const {
@@ -74,6 +74,7 @@ class Ui {
   bool scroll(const Node& scroller, float to_px);  // false: it is there
   void bring_into_view(const Node& node);
   void activate(const Node& node, const ViewState& view);
+  void touch(const Node& node, Action action, const Input& input, const ViewState& view);
   void activate_focus(const ViewState& view);
   void drag_face(float dx, float dy);
   void pinch(const Finger& moved, float old_x, float old_y, const Finger& other);

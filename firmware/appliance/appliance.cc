@@ -127,7 +127,7 @@ void Appliance::note(const pipeline::DriftJudgement& drift) {
   if (drift.verdict == pipeline::DriftVerdict::Refuse) ++moved_in_a_row_;
   else if (drift.verdict != pipeline::DriftVerdict::Unknown) moved_in_a_row_ = 0;
   if (drift.verdict == pipeline::DriftVerdict::Warn || drift.verdict == pipeline::DriftVerdict::Refuse)
-    calibration_note_ = pipeline::sentence(drift).packed();
+    calibration_note_ = pipeline::sentence(drift);
 }
 
 void Appliance::calibrated_anew() {

@@ -71,8 +71,8 @@ class Appliance {
   }
   // Another calibration is in use: what was said against the one before counts no more.
   void calibrated_anew();
-  // For the technician: what the last face that could tell said against the calibration, packed
-  // (hal/base/sentence.h); else empty.
+  // For the technician: what the last face that could tell said against the calibration, in English;
+  // else empty.
   std::string_view calibration_note() const { return calibration_note_; }
   // Is a camera away, and being tried again?
   CameraWatch cameras() const { return grabber_.watch(); }

@@ -119,13 +119,10 @@ ui::ViewState view_of(Appliance& appliance) {
   view.progress = appliance.progress();
   view.attempt = appliance.attempt();
   if (appliance.problem()) {
-    view.problem = appliance.problem()->what.view();
     view.trouble = trouble_of(*appliance.problem(), appliance.state());
     if (appliance.problem()->code == Errc::NoFace) view.advice = pipeline::Advice::NoFace;
   }
-  // What was wrong first counts less than what is wrong now.
-  if (const std::string_view gone = sentence_of(appliance.cameras()); !gone.empty()) view.problem = gone;
-  view.calibration_note = appliance.calibration_note();
+  view.calibration_note = {Errc::NotCalibrated, std::string(appliance.calibration_note())};
   if (!appliance.session().is_open()) return view;
   view.subject = appliance.session().subject();
   view.live = live_of(appliance.live().newest());

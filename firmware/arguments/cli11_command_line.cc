@@ -184,6 +184,11 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
           "--save", args.save,
           "save all of it in one file: pictures, calibration, settings, every stage. It holds the person's face: keep it as you keep that")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--by-hand", args.by_hand,
+          "matches made by hand, beside the matcher's: a line each, x y disparity [sigma], pixels of the rectified views; with --load in place of those that were saved")
+      ->type_name("FILE");
   command->add_option("-o,--output", args.output, "folder for the model and the report")
       ->required()
       ->type_name("DIR");

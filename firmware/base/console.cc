@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <string>
 
 #include <unistd.h>
+
+#include "hal/base/words.h"
 
 namespace relievo::firmware {
 
@@ -38,17 +40,7 @@ void Console::clear_progress() {
 
 void Console::fail(const Error& error) {
   clear_progress();
-  std::fprintf(stderr, "%s\n", one_line(error).c_str());
-}
-
-std::string one_line(const Error& error) {
-  std::string line = "relievo: ";
-  if (!error.where().empty()) line.append(error.where()).append(": ");
-  line.append(error.what.view());
-  if (error.sys_errno != 0) line.append(" (").append(std::strerror(error.sys_errno)).append(")");
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  return line;
+  std::fprintf(stderr, "relievo: %s\n", detail_of(error).c_str());
 }
 
 }  // namespace relievo::firmware

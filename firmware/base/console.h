@@ -6,7 +6,6 @@
 // Thread: main.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "hal/base/result.h"
@@ -29,8 +28,5 @@ class Console {
   bool terminal_ = false;
   bool shown_ = false;
 };
-
-// One line, whatever a file name holds: control characters become '?'.
-std::string one_line(const Error& error);
 
 }  // namespace relievo::firmware

@@ -8,7 +8,6 @@
 
 #include "firmware/bench/show/touched_point.h"
 #include "firmware/work/first_change.h"
-#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 namespace {
@@ -56,7 +55,7 @@ bool Bench::is_calibrated() {
   return false;
 }
 
-void Bench::say(const Error& error) { problem_ = Sentence(error).packed(); }
+void Bench::say(const Error& error) { problem_ = ui::fault_of(error); }
 
 void Bench::opened(ui::BenchPage page) {
   if (page == ui::BenchPage::Cameras) watch_cameras(true);
@@ -88,7 +87,11 @@ void Bench::act(ui::BenchOrder order) {
       return;
     case BenchAct::Point:
     case BenchAct::PointRight:
+    case BenchAct::Drag:
+    case BenchAct::DragRight:
       return point(order);
+    case BenchAct::RemovePair:
+      return pairs_.remove();
     case BenchAct::ByHand:
       by_hand_ = !by_hand_;
       point_ = {};
@@ -133,7 +136,7 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::Save:
       return save();
     case BenchAct::ListSaved:
-      problem_.clear();
+      problem_ = {};
       return recording_.list();
     case BenchAct::LeaveSaved:
       return recording_.hide();
@@ -189,8 +192,10 @@ void Bench::begin_next() {
   if (next_ == Next::None || parts_.errands.busy(JobPlace::Capture) || parts_.errands.busy(JobPlace::Worker))
     return;
   const Next what = std::exchange(next_, Next::None);
-  problem_.clear();
+  problem_ = {};
   point_ = {};
+  pairs_.forget();
+  run_.change().forget();
   recording_.capture_gone();
   tables_.forget();
   run_.pictures().wipe();
@@ -233,16 +238,17 @@ const pipeline::StereoCalibration* Bench::calibration() const {
 void Bench::run(std::int64_t latest) {
   if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated()))
     return;
-  const State changed = first_change(run_.making().set, algorithms_.set());
+  State changed = first_change(run_.making().set, algorithms_.set());
+  if (pairs_.changed()) changed = std::min(changed, State::Reconstruct);
   State first = changed == State::Review ? State::Match : changed;
   if (latest >= 1 && latest <= 4)
     first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
-  run_.order(algorithms_.set(), *calibration(), first, loaded_ && run_.making().whole_view);
+  run_.order(algorithms_.set(), *calibration(), first, pairs_.matches(), loaded_ && run_.making().whole_view);
   send_run();
 }
 
 void Bench::send_run() {
-  problem_.clear();
+  problem_ = {};
   point_ = {};
   tables_.forget();
   changed_ = false;
@@ -295,6 +301,10 @@ void Bench::run_done(const std::optional<Error>& error) {
   phase_ = error ? BenchPhase::Failed : BenchPhase::Ready;
   ++model_number_;
   if (error) say(*error);
+  if (const Products* made = products(); made != nullptr && made->pair) {
+    pairs_.show(*made->pair, run_.making().by_hand);
+    run_.change().tell(pairs_.points());
+  }
   tables_.show(tables_.view().table, source());
 }
 
@@ -304,9 +314,11 @@ void Bench::point(ui::BenchOrder order) {
   const Share at = place_of(order.argument);
   if (!by_hand_ && order.act == BenchAct::Point && made->matches)
     point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
-  if (by_hand_ && order.act == BenchAct::Point) point_ = hand_point(*made->pair, at.x, at.y);
-  if (by_hand_ && order.act == BenchAct::PointRight && point_.touched)
-    match_by_hand(*made->pair, at.x, point_);
+  if (!by_hand_) return;
+  const bool left = order.act == BenchAct::Point || order.act == BenchAct::Drag;
+  if (order.act == BenchAct::Point || order.act == BenchAct::PointRight)
+    pairs_.touch(*made->pair, left, at.x, at.y);
+  else pairs_.drag(*made->pair, left, at.x, at.y);
 }
 
 // The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
@@ -326,7 +338,7 @@ void Bench::apply_set() {
         if (error) return say(*error);
         parts_.stages.replace(*std::move(*made));
         applied_ = true;
-        problem_.clear();
+        problem_ = {};
       });
 }
 
@@ -335,7 +347,7 @@ void Bench::watch_cameras(bool on) {
   if (!on) return parts_.errands.stop(JobPlace::Capture);
   if (parts_.errands.busy(JobPlace::Capture) || phase_ == BenchPhase::Capturing) return;
   if (!session_.is_open() && !session_.open("")) return;
-  problem_.clear();
+  problem_ = {};
   watch_.prepare(parts_.stages.calibration());
   watching_ = true;
   parts_.errands.send(
@@ -364,8 +376,10 @@ void Bench::leave() {
   calibrations_.forget();
   recording_.forget();
   point_ = {};
+  pairs_.forget();
+  run_.change().forget();
   phase_ = BenchPhase::Empty;
-  problem_.clear();
+  problem_ = {};
   algorithms_.begin(parts_.stages.algorithms());
 }
 

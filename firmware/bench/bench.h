@@ -26,6 +26,7 @@
 #include "firmware/bench/recording_desk.h"
 #include "firmware/bench/run_job.h"
 #include "firmware/bench/show/bench_tables.h"
+#include "firmware/bench/show/hand_pairs.h"
 #include "firmware/service/errands.h"
 #include "ui/bench/bench_view.h"
 
@@ -102,13 +103,14 @@ class Bench {
   ui::BenchPhase phase_ = ui::BenchPhase::Empty;
   ui::BenchStage stage_ = ui::BenchStage::Rectified;
   ui::BenchPoint point_;
+  HandPairs pairs_;
   Next next_ = Next::None;
   std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
   std::optional<Making> saved_making_;
   bool loaded_ = false;  // what is in the session was, with a calibration of its own
   bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
        left_ = true;
-  std::string problem_;
+  ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::BenchView view_;
 };

@@ -16,7 +16,7 @@ void Bench::look() {
   view_.calibrated = calibration() != nullptr;
   view_.problem = problem_;
   view_.stage = stage_;
-  view_.point = point_;
+  view_.point = by_hand_ ? pairs_.chosen() : point_;
   view_.by_hand = by_hand_;
   view_.recording = recording_.view();
   view_.saved = recording_.saved();
@@ -42,6 +42,9 @@ void Bench::look() {
   if (made->model) view_.model = &*made->model;
   if (made->cloud) view_.cloud = &*made->cloud;
   view_.model_number = model_number_;
+  view_.pairs = pairs_.points();
+  view_.pairs_changed = pairs_.changed();
+  view_.change = run_.change().figures();
 }
 
 const ui::BenchView& Bench::view() {

@@ -9,7 +9,6 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/bench/calibration_stick.h"
 #include "firmware/calibrate/calibration_history.h"
-#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 namespace {
@@ -60,19 +59,19 @@ void CalibrationDesk::begun() {
   running_ = true;
   ended_ = stored_ = false;
   reasons_.clear();
-  problem_.clear();
+  problem_ = {};
 }
 
 void CalibrationDesk::ended() {
   running_ = false;
   const Result<void>& outcome = parts_.job.outcome();
   if (!outcome) {
-    if (outcome.error().code != Errc::Cancelled) problem_ = Sentence(outcome.error()).packed();
+    if (outcome.error().code != Errc::Cancelled) problem_ = ui::fault_of(outcome.error());
     return;
   }
   ended_ = parts_.job.result().has_value();
   if (!ended_) return;
-  for (const Sentence& reason : parts_.job.result()->quality.reasons) reasons_.push_back(reason.packed());
+  reasons_ = parts_.job.result()->quality.reasons;
 }
 
 void CalibrationDesk::load_history() {
@@ -89,7 +88,7 @@ void CalibrationDesk::load_history() {
         return {};
       },
       [this, rows](const std::optional<Error>& error) {
-        if (error) problem_ = Sentence(*error).packed();
+        if (error) problem_ = ui::fault_of(*error);
         else history_.swap(*rows);
       });
 }
@@ -112,7 +111,7 @@ void CalibrationDesk::adopt(std::function<Result<std::uint32_t>()> first) {
       },
       [this, made](const std::optional<Error>& error) {
         busy_ = false;
-        problem_ = error ? Sentence(*error).packed() : "";
+        problem_ = error ? ui::fault_of(*error) : ui::Fault{};
         if (error) return;
         parts_.stages.replace(*std::move(made->pipeline));
         parts_.in_use(*parts_.stages.calibration());
@@ -157,7 +156,7 @@ void CalibrationDesk::export_in_use() {
       },
       [this, folder](const std::optional<Error>& error) {
         busy_ = false;
-        problem_ = error ? Sentence(*error).packed() : "";
+        problem_ = error ? ui::fault_of(*error) : ui::Fault{};
         if (!error) exported_ = std::string(kCalibrationsFolder) + "/" + folder;
       });
 }

@@ -61,7 +61,8 @@ class CalibrationDesk {
   Parts parts_;
   BoardArgs board_{10, 7, 20};
   bool running_ = false, ended_ = false, stored_ = false;
-  std::string problem_, exported_;  // the folder on the stick
+  ui::Fault problem_;
+  std::string exported_;  // the folder on the stick
   std::vector<std::string> reasons_;
   std::vector<Row> history_;
   bool busy_ = false;  // the keeper is at it

@@ -69,7 +69,7 @@ bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl&
   if (!now.relief_shown) return false;
   const Result<ImageView> relief = relief_.look(frame, control);
   if (relief) (void)feeds_[2].fill(*relief);
-  else if (relief.error().code != Errc::Cancelled) now.problem = relief.error().what.view();
+  else if (relief.error().code != Errc::Cancelled) now.problem = ui::fault_of(relief.error());
   return relief.has_value();
 }
 

@@ -13,10 +13,11 @@
 namespace relievo::firmware {
 
 void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration,
-                   State first, bool whole_view) {
+                   State first, std::vector<pipeline::Match> by_hand, bool whole_view) {
   making_.set = set;
   making_.calibration = calibration;
   making_.whole_view = whole_view;
+  making_.by_hand = std::move(by_hand);
   making_.records.resize(std::min(making_.records.size(),
                                   static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
   first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
@@ -45,6 +46,7 @@ Result<void> RunJob::work(JobControl& control) {
                                         making_.set, making_.calibration, {},
                                         making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
   PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
+  stages.add_by_hand(making_.by_hand);
   StageJob job(stages, session_, pool_, clock_);
   for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
     if (stage < first_) continue;
@@ -94,7 +96,8 @@ Result<void> RunJob::finish(JobControl& control) {
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
   RELIEVO_TRY(figures_.measure(session_.products(), context));
-  pictures_.draw(session_.products());
+  change_.measure(making_, session_.products());
+  pictures_.draw(session_.products(), change_);
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "firmware/bench/saved_reconstruction.h"
 #include "firmware/bench/show/bench_figures.h"
@@ -27,8 +28,9 @@ class RunJob final : public Job {
   RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
       : session_(session), pool_(pool), clock_(clock) {}
   // The stages from `first` on; those before it are done, and stay.
+  // `by_hand`: matches beside the matcher's.
   void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first,
-             bool whole_view = false);
+             std::vector<pipeline::Match> by_hand, bool whole_view = false);
   // No stage, but what was saved of all of them; `making` is making_of(it).
   void order(std::shared_ptr<const SavedBytes> document, Making making);
   Result<void> run(JobControl& control) override;
@@ -37,6 +39,7 @@ class RunJob final : public Job {
   const Result<void>& outcome() const { return outcome_; }
   BenchPictures& pictures() { return pictures_; }
   BenchFigures& figures() { return figures_; }
+  HandChange& change() { return change_; }
   // Of what is in the session.
   const Making& making() const { return making_; }
 
@@ -53,6 +56,7 @@ class RunJob final : public Job {
   std::shared_ptr<const SavedBytes> document_;  // to be loaded
   BenchPictures pictures_;
   BenchFigures figures_;
+  HandChange change_;
   std::atomic<State> now_{State::Match};
   Result<void> outcome_;
 };

@@ -136,7 +136,7 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
     out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
   const char* const words[] = {"pass", "usable", "refuse"};
   out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
-  for (const Sentence& reason : q.reasons) out << "  " << reason.text() << '\n';
+  for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
   out.flush();
 }
 

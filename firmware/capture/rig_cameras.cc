@@ -41,7 +41,7 @@ Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found
   const bool left = another(calibrated.left, found.left), right = another(calibrated.right, found.right);
   if (!left && !right) return {};
   const std::string at_left = calibrated.left + " → " + found.left,
-                    at_right = calibrated.right + " → " + found.right;  // read in every language
+                    at_right = calibrated.right + " → " + found.right;
   if (left && right && calibrated.left == found.right && calibrated.right == found.left)
     return Error{Errc::NotCalibrated,
                  "the left and the right camera have changed places: swap their plugs, or calibrate again"}

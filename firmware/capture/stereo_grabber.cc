@@ -11,20 +11,6 @@ namespace relievo::firmware {
 
 using pipeline::StereoFrame;
 
-std::string_view sentence_of(CameraWatch watch) {
-  switch (watch) {
-    case CameraWatch::Well:
-      break;
-    case CameraWatch::LeftGone:
-      return "The left camera does not answer: check its plug. It is tried again by itself.";
-    case CameraWatch::RightGone:
-      return "The right camera does not answer: check its plug. It is tried again by itself.";
-    case CameraWatch::BothGone:
-      return "Neither camera answers: check their plugs and hub. They are tried again by themselves.";
-  }
-  return {};
-}
-
 GrabberOptions grabber_options(const hal::Board& board) {
   GrabberOptions options;
   options.together = board.exposes_together();

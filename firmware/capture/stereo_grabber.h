@@ -38,7 +38,6 @@ namespace relievo::firmware {
 
 // What a screen may say of the cameras.
 enum class CameraWatch : std::uint8_t { Well, LeftGone, RightGone, BothGone };
-std::string_view sentence_of(CameraWatch watch);  // empty when all is well
 
 struct GrabberOptions {
   // Do both cameras expose at the pulse?

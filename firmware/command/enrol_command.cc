@@ -134,7 +134,7 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
   using pipeline::DriftVerdict;
   const auto& drift = appliance.drift();
   if (!drift || (drift->verdict != DriftVerdict::Warn && drift->verdict != DriftVerdict::Refuse)) return {};
-  return store.append_audit({"calibration.drift", {}, calibrated.note + ": " + sentence(*drift).text()});
+  return store.append_audit({"calibration.drift", {}, calibrated.note + ": " + sentence(*drift)});
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/light_model.h"
 #include "firmware/reconstruct/reconstruction.h"
-#include "hal/base/sentence.h"
+#include "hal/base/words.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -16,10 +16,10 @@ namespace relievo::firmware {
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   Reconstruction reconstruction;
   const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
-  RELIEVO_TRY(args.load.empty()
-                  ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms,
-                                       services.console, when_moved)
-                  : reconstruction.load(args.load, args.from, args.algorithms, services.console, when_moved));
+  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms,
+                                                     args.by_hand, services.console, when_moved)
+                                : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand,
+                                                      services.console, when_moved));
 
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, reconstruction.draw_images());
@@ -43,6 +43,8 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   for (const StageRecord& stage : reconstruction.report().stages)
     services.console.say(line_of(stage) +
                          (number++ < static_cast<int>(reconstruction.begun_with()) ? "  (as saved)" : ""));
+  if (const std::size_t count = reconstruction.report().by_hand; count > 0)
+    services.console.say(std::to_string(count) + " of the matches made by hand");
   services.console.say(line_of(*reconstruction.report().drift));
   for (const std::string& advice :
        {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
@@ -53,7 +55,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
                 q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
   services.console.say(line);
   if (reconstruction.model().unjudged)
-    services.console.say("not judged to be a face: " + Sentence(*reconstruction.model().unjudged).text());
+    services.console.say("not judged to be a face: " + detail_of(*reconstruction.model().unjudged));
   if (!light.empty()) services.console.say(light);
   services.console.say("model and report: " + args.output.string());
   if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());

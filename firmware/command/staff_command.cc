@@ -15,7 +15,7 @@ namespace {
 
 // Both logs: the store's, which shows every edit, and the one the technician reads.
 Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& clock, const char* event,
-                  const char* whose, Literal line) {
+                  const char* whose, ui::LogEvent line) {
   RELIEVO_TRY(store.append_audit({event, {}, whose}));
   EventLog log(clock, folder / kLogFile);
   log.say(line);
@@ -29,8 +29,7 @@ Result<void> run_staff(const StaffArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   if (args.verb == StaffArgs::Verb::PlainTouch) {
     RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));
-    RELIEVO_TRY(note(*store, folder, services.clock, "staff.plain_touch", "",
-                     Literal("the touch screen is taken as it is, by the command line")));
+    RELIEVO_TRY(note(*store, folder, services.clock, "staff.plain_touch", "", ui::LogEvent::TouchPlain));
     services.console.say("the touch screen is taken as it is");
     return {};
   }
@@ -39,9 +38,9 @@ Result<void> run_staff(const StaffArgs& args, Services& services) {
                               .forget(args.technician ? ui::StaffRole::Technician : ui::StaffRole::Operator);
       !forgot)
     return forgot.error().at(role);
-  RELIEVO_TRY(note(*store, folder, services.clock, "staff.pin_forgotten", role,
-                   args.technician ? Literal("the technician's PIN was forgotten, by the command line")
-                                   : Literal("the operator's PIN was forgotten, by the command line")));
+  RELIEVO_TRY(
+      note(*store, folder, services.clock, "staff.pin_forgotten", role,
+           args.technician ? ui::LogEvent::TechnicianPinForgotten : ui::LogEvent::OperatorPinForgotten));
   services.console.say(
       "the " + std::string(role) +
       "'s PIN is forgotten: start the kiosk and choose a new one at its screen, before anybody else does");

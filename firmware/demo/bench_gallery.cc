@@ -109,6 +109,20 @@ ui::BenchPoint touched() {
   return p;
 }
 
+// The first is the chosen one.
+std::vector<ui::BenchPoint> by_hand() {
+  std::vector<ui::BenchPoint> pairs(3, touched());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    ui::BenchPoint& p = pairs[i];
+    p.by_hand = true;
+    p.moved_mm = -1.84F;
+    p.left_x += 0.05F * static_cast<float>(i);
+    p.right_x += 0.05F * static_cast<float>(i);
+    p.y -= 0.12F * static_cast<float>(i);
+  }
+  return pairs;
+}
+
 AlgorithmDesk edited(bool typing) {
   AlgorithmDesk desk;
   desk.act({BenchAct::ChooseKind, 2});
@@ -161,8 +175,8 @@ ui::BenchCalibration calibrated(const ui::ViewState& review, bool running) {
   c.rms_px = 0.021F;
   c.baseline_mm = 108.63F;
   static const std::vector<std::string> kGood{
-      "all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm depth is uncertain by {} mm and was found within {} mm of "
-      "where the known squares put it; lengths are uncertain by {} %\t0.021\t0.018\t560\t0.094\t0.061\t0.0113"};
+      "all figures are good: reprojection error 0.021 px; epipolar error 0.018 px on views not used; at 560 mm depth is uncertain by 0.094 mm and was found within 0.061 mm of "
+      "where the known squares put it; lengths are uncertain by 0.0113 %"};
   if (!running) c.reasons = kGood;
   c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
   c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
@@ -173,9 +187,9 @@ ui::BenchCalibration calibrated(const ui::ViewState& review, bool running) {
 // Refused, for more than one reason.
 ui::BenchCalibration refused(const ui::ViewState& review) {
   static const std::vector<std::string> kReasons{
-      "left and right do not hold still relative to each other: they disagree {} times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant\t4.2",
-      "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of the board again: it would have to be {} of what was said\t102.11\t-6.0\t108.63\t1.064",
-      "only {} of {} pairs agree with each other\t5\t14"};
+      "left and right do not hold still relative to each other: they disagree 4.2 times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant",
+      "the cameras come out 102.11 mm apart, -6.0 % from the 108.63 mm they are known to be; measure a square of the board again: it would have to be 1.064 of what was said",
+      "only 5 of 14 pairs agree with each other"};
   ui::BenchCalibration c = calibrated(review, false);
   c.end = ui::BoardEnd::Plateau;
   c.verdict = ui::BenchVerdict::Refuse;
@@ -191,7 +205,7 @@ struct Lent {
   StaffPage page;
   BenchView view;
   ui::ServiceView staff;
-  std::string_view note;  // said against the calibration
+  ui::Fault note;  // said against the calibration
   bool edges = false;
 };
 
@@ -216,6 +230,17 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view = ready(review);
   view.point = touched();
   all.add("bench_rectified", StaffPage::Stages, view);
+  static const std::vector<ui::BenchPoint> pairs = by_hand();
+  view.by_hand = view.pairs_changed = true;
+  view.pairs = pairs;
+  view.point = pairs[0];
+  view.change = {true, 143, 21, -1.84F, 1.84F};
+  all.add("bench_by_hand", StaffPage::Stages, view);
+  lend(review, BenchStage::Mesh, view);
+  view.shown[1] = view.shown[0];
+  all.add("bench_change", StaffPage::Stages, view);
+  view = ready(review);
+  view.point = touched();
   view.can_record = true;
   view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
   all.add("bench_recording", StaffPage::Stages, view);
@@ -280,19 +305,22 @@ void add_calibrations(Lender& all, const ui::ViewState& review) {
   view.calibration = calibrated(review, false);
   view.calibration.ended = false;
   all.add("bench_moved", StaffPage::Calibrate, view);
-  all.lent.back().note =
-      "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
+  all.lent.back().note = {
+      Errc::NotCalibrated,
+      "the rows of both views disagree by 2.47 px (more than 1.5 px is refused): a camera has moved, calibrate again"};
   all.add("bench_exchanged", StaffPage::Calibrate, view);
-  all.lent.back().note =
-      "the left camera is not the one that was calibrated: put that one back, or calibrate again\tserial 4061 → serial 4088";
+  all.lent.back().note = {
+      Errc::NotCalibrated,
+      "serial 4061 → serial 4088: the left camera is not the one that was calibrated: put that one back, or calibrate again"};
 }
 
 void add_failures(Lender& all, const ui::ViewState& review) {
   BenchView view = ready(review);
   lend(review, BenchStage::Rectified, view);
   view.result.failed_at = 3;
-  view.result.failure =
-      "that looks like a picture of a face: please look into the cameras yourself\t1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5";
+  view.result.failure = {
+      Errc::PoorGeometry,
+      "1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5: that looks like a picture of a face: please look into the cameras yourself"};
   view.result.made = {};
   all.add("bench_failed", StaffPage::Stages, view);
   view.model = nullptr;

@@ -28,8 +28,8 @@ constexpr std::array kGauges{
 };
 constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself",
                            kSlow = "took longer than its limit: try again";
-constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
-                             ui::LogLine{"2026-03-14 09:02:44", true, kSlow, kSlow, {}}};
+constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
+                             ui::LogLine{"2026-03-14 09:02:44", true, kSlow, Errc::Timeout, {}, {}}};
 constexpr ui::HealthView kHealth{kGauges, kFaults};
 
 constexpr std::array kPeople{
@@ -46,19 +46,19 @@ constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 
 constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
                                  false,   true,  0,    0};
 
-constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad,
-                                    ui::CheckState::Running, ui::CheckState::NotTested},
-                                   {"", "", "the store holds no calibration: calibrate first", "", ""}};
+const ui::SelfTestView kTested{
+    {ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running,
+     ui::CheckState::NotTested},
+    {{{}, {}, {Errc::NotFound, "the store holds no calibration: calibrate first"}, {}, {}}}};
 constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
 constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
 constexpr std::array kLines{
-    ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
-    ui::LogLine{
-        "2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}},
-    ui::LogLine{"2026-03-14 10:20:31", false, "technician signed in", "technician signed in", {}},
-    ui::LogLine{"2026-03-14 10:20:20", false, "a wrong PIN was typed", "a wrong PIN was typed", {}},
-    ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}},
-    ui::LogLine{"2026-03-13 07:58:02", false, "started", "started", {}}};
+    ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
+    ui::LogLine{"2026-03-14 10:20:44", false, "", {}, ui::LogEvent::SettingChanged, {"patience_s", "30"}},
+    ui::LogLine{"2026-03-14 10:20:31", false, "", {}, ui::LogEvent::TechnicianSignedIn, {}},
+    ui::LogLine{"2026-03-14 10:20:20", false, "", {}, ui::LogEvent::WrongPin, {}},
+    ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}, {}},
+    ui::LogLine{"2026-03-13 07:58:02", false, "", {}, ui::LogEvent::Started, {}}};
 constexpr ui::LogView kLog{kLines};
 
 ui::Settings kept_for_a_year() {
@@ -139,10 +139,10 @@ void add_door(std::deque<Shown>& all) {
   all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
   all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
   fresh.access.clock_right = true;
-  static const ui::ConsentShelfView kUntouched{},
-      kWrong{
-          false, ui::Outcome::Refused, "zh.txt",
-          "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
+  static const ui::Fault kNoLanguage{
+      Errc::InvalidInput,
+      "zh.txt: is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
+  static const ui::ConsentShelfView kUntouched{}, kWrong{false, ui::Outcome::Refused, &kNoLanguage};
   fresh.consent = &kUntouched;
   all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
   fresh.consent = &kWrong;
@@ -169,7 +169,7 @@ void add_records(std::deque<Shown>& all) {
   all.push_back({"staff_records", StaffPage::Records, 0, records});
   all.push_back({"staff_search", StaffPage::Records, 1, records});
   add_sticks(all, records);
-  records.work = {true, 0.6F, ui::Outcome::None, {}};
+  records.work = {true, 0.6F, ui::Outcome::None};
   all.push_back({"staff_export", StaffPage::Records, 0, records});
   records.work = {};
   records.records = &kNobody;
@@ -212,7 +212,7 @@ void add_settings(std::deque<Shown>& all) {
   settings.settings = &kJumped;
   settings.work.outcome = ui::Outcome::Done;
   all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
-  static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, {}, {}};
+  static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, nullptr};
   settings.consent = &kInForce;
   all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
 }

@@ -237,7 +237,7 @@ void Kiosk::look() {
     view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = found_.load(std::memory_order_acquire);
   const Result<void> cameras = appliance_->grabber().check_cameras();
-  exchanged_ = cameras ? "" : Sentence(cameras.error()).packed();
+  exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
   view_.out_of_order = out_of_order();
   if (showpiece_) view_.showpiece = &showpiece_->model();

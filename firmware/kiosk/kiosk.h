@@ -86,7 +86,7 @@ class Kiosk {
   // the keeper looks up: then Asking is to be seen, and found_ is written last.
   std::string claimed_, quoted_;
   std::unique_ptr<CameraLook> camera_look_;
-  std::string exchanged_;  // which cameras are not the calibrated ones, in a sentence; empty: they are
+  ui::Fault exchanged_;  // which cameras are not the calibrated ones; empty: they are
   storage::SubjectId record_{};
   std::atomic<ui::Known> found_{ui::Known::NotAsked};
   bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;

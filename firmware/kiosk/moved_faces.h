@@ -3,7 +3,7 @@
 //
 // MovedFaces: how many faces on end have said that the cameras have moved since they were calibrated, kept in
 // the store's setting "moved_faces" with the calibration it was said of, and what the last of them said for
-// the technician (packed, hal/base/sentence.h): who switches the device off and on makes no calibration true.
+// the technician, in English: who switches the device off and on makes no calibration true.
 // What was said of another calibration is no more. Thread: main; the store is written on the keeper. Errors
 // of read(): the store's.
 #pragma once

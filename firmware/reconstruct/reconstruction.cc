@@ -14,6 +14,8 @@
 #include "firmware/work/reconstruct_job.h"
 #include "hal/monotonic_clock.h"
 #include "hal/whole_file.h"
+#include "pipeline/match/file/match_file.h"
+#include "pipeline/match/rectify/rectified_geometry.h"
 #include "pipeline/recognition/recognition_images.h"
 
 namespace relievo::firmware {
@@ -26,9 +28,7 @@ State stage_named(std::string_view word) {
   return word == "mesh" ? State::Mesh : State::Texture;
 }
 
-Result<State> first_stage(std::string_view from, const pipeline::AlgorithmSet& saved,
-                          const pipeline::AlgorithmSet& wanted) {
-  const State changed = first_change(saved, wanted);
+Result<State> first_stage(std::string_view from, State changed) {
   if (from.empty()) return changed;
   const State named = stage_named(from);
   if (changed >= named) return named;
@@ -37,14 +37,28 @@ Result<State> first_stage(std::string_view from, const pipeline::AlgorithmSet& s
       .at("--from " + std::string(from));
 }
 
+Result<std::vector<pipeline::Match>> read_by_hand(const Path& file,
+                                                  const pipeline::StereoCalibration& calibration) {
+  pipeline::RectifiedPair windows(std::pmr::get_default_resource());
+  RELIEVO_TRY(pipeline::lay_windows(calibration, {}, windows));
+  RELIEVO_TRY_ASSIGN(const auto matches,
+                     pipeline::read_match_file(file.string(), windows, pipeline::kHandSigmaPx,
+                                               std::pmr::get_default_resource()));
+  return std::vector<pipeline::Match>(matches.begin(), matches.end());
+}
+
 }  // namespace
 
 Result<void> Reconstruction::run(const Path& left, const Path& right, const Path& calibration_file,
-                                 const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
+                                 const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
+                                 WhenMoved when_moved) {
   RELIEVO_TRY_ASSIGN(PicturePair pictures, read_pair(left, right));
   RELIEVO_TRY_ASSIGN(making_.calibration, read_calibration_for(pictures, calibration_file, left));
   RELIEVO_TRY_ASSIGN(making_.set, choose_algorithms(algorithms));
   making_.whole_view = algorithms.whole_view;
+  if (!by_hand.empty()) {
+    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
+  }
   RELIEVO_TRY(session_.open(""));
   session_.products().frame = pictures.frame();
   left_ = std::move(pictures.left.bytes);  // what the frame looks at stays where it is
@@ -55,7 +69,8 @@ Result<void> Reconstruction::run(const Path& left, const Path& right, const Path
 }
 
 Result<void> Reconstruction::load(const Path& document, std::string_view from,
-                                  const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
+                                  const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
+                                  WhenMoved when_moved) {
   const auto placed = [&document](const Error& error) {
     return error.where().empty() ? error.at(document.string()) : error;
   };
@@ -65,7 +80,12 @@ Result<void> Reconstruction::load(const Path& document, std::string_view from,
   if (!saved) return placed(saved.error());
   RELIEVO_TRY_ASSIGN(making_, making_of(*saved));
   RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet wanted, choose_algorithms(algorithms, making_.set));
-  RELIEVO_TRY_ASSIGN(const State first, first_stage(from, making_.set, wanted));
+  State changed = first_change(making_.set, wanted);
+  if (!by_hand.empty()) {
+    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
+    changed = std::min(changed, State::Reconstruct);
+  }
+  RELIEVO_TRY_ASSIGN(const State first, first_stage(from, changed));
   making_.set = wanted;
   RELIEVO_TRY(session_.open(""));
   pipeline::StereoFrame frame;
@@ -99,6 +119,7 @@ Result<void> Reconstruction::work(State first, Console& console, const Path& nam
     ThreadPool pool(pool_size());
     const hal::MonotonicClock clock;
     PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
+    stages.add_by_hand(making_.by_hand);
     ReconstructJob job(stages, session_, pool, clock);
     job.begin_with(first);
     const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
@@ -114,6 +135,7 @@ Result<void> Reconstruction::work(State first, Console& console, const Path& nam
   const Products& made = session_.products();
   report_.algorithms = making_.set.to_text();
   report_.stages = making_.records;
+  report_.by_hand = making_.by_hand.size();
   report_.peak_rss_bytes = peak_rss_bytes();
   report_.quality = model().quality;
   report_.drift = made.drift;

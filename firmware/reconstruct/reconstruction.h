@@ -23,15 +23,16 @@ namespace relievo::firmware {
 class Reconstruction {
  public:
   Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
-  // Errors: those of the files, of the settings and of the stages; each names its place.
+  // `by_hand`: a file of matches (pipeline/match/file/match_file.h), checked before anything is matched;
+  // empty: none. Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const Path& left, const Path& right, const Path& calibration,
-                   const AlgorithmArgs& algorithms, Console& console,
+                   const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
                    WhenMoved when_moved = WhenMoved::Refuse);
   // A saved reconstruction; done again are the stages from `from` on ("match" ... "texture"; empty: from the
-  // first that the settings change, or that is missing). Errors: also the document's; InvalidInput for
-  // settings of a stage before `from`.
+  // first that the settings or `by_hand` change, or that is missing). `by_hand`: in place of the saved ones;
+  // empty: those stay. Errors: also the document's; InvalidInput for what changes a stage before `from`.
   Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms,
-                    Console& console, WhenMoved when_moved);
+                    const Path& by_hand, Console& console, WhenMoved when_moved);
   // All of it, whole or not at all. Errors: the file's.
   Result<void> save(const Path& document) const;
   // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.

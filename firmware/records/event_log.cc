@@ -3,15 +3,19 @@
 #include "firmware/records/event_log.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <span>
 
 #include "firmware/base/wall_time.h"
+#include "hal/base/words.h"
 #include "hal/whole_file.h"
+#include "ui/screens/service/fault_words.h"
 
 namespace relievo::firmware {
 namespace {
 
+constexpr int kLastCode = static_cast<int>(Errc::Unsupported);
 constexpr std::string_view kGap = "  ", kFault = "  fault: ";
 
 // Up to the next tab, and what is behind it.
@@ -20,6 +24,15 @@ std::string_view cut(std::string_view& text) {
   const std::string_view first = text.substr(0, tab);
   text.remove_prefix(std::min(tab + 1, text.size()));
   return first;
+}
+
+// The number in "f7"; nothing where another letter stands, or a number above `last`.
+std::optional<int> number_behind(std::string_view text, char letter, int last) {
+  if (!text.starts_with(letter)) return std::nullopt;
+  int number = -1;
+  const auto [end, wrong] = std::from_chars(text.data() + 1, text.data() + text.size(), number);
+  const bool whole = wrong == std::errc() && end == text.data() + text.size();
+  return whole && number >= 0 && number <= last ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -33,8 +46,11 @@ LogEntry entry_of(std::string_view line) {
     entry.fault = text.substr(gap).starts_with(kFault);
     text.remove_prefix(gap + (entry.fault ? kFault : kGap).size());
   }
-  entry.sentence = text;
-  entry.key = cut(rest);
+  entry.text = text;
+  const std::string_view what = cut(rest);
+  if (const auto number = number_behind(what, 'f', kLastCode)) entry.code = static_cast<Errc>(*number);
+  if (const auto number = number_behind(what, 'e', static_cast<int>(ui::LogEvent::Count) - 1))
+    entry.event = static_cast<ui::LogEvent>(*number);
   while (!rest.empty()) entry.values.emplace_back(cut(rest));
   return entry;
 }
@@ -51,18 +67,23 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file)
   }
 }
 
-void EventLog::say(Literal key, std::initializer_list<std::string_view> values) {
-  put(Sentence(key, values), false);
+void EventLog::say(ui::LogEvent event, std::initializer_list<std::string_view> values) {
+  const ui::LogWords words = ui::words_of(ui::Words(ui::Language::English), event);
+  std::string behind = "\te" + std::to_string(static_cast<int>(event));
+  for (const std::string_view value : values) behind.append(1, '\t').append(value);
+  put(words.role != nullptr ? filled(words.pattern, {words.role}) : filled(words.pattern, values), behind,
+      false);
 }
 
-void EventLog::fault(const Error& error) { put(Sentence(error.what), true); }
+void EventLog::fault(const Error& error) {
+  put(std::string(error.what.view()), "\tf" + std::to_string(static_cast<int>(error.code)), true);
+}
 
-void EventLog::put(const Sentence& sentence, bool fault) {
-  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) +
-                     std::string(fault ? kFault : kGap) + sentence.text();
-  const std::string apart = '\t' + sentence.packed();
+void EventLog::put(std::string text, const std::string& behind, bool fault) {
+  text.insert(0, text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) +
+                     std::string(fault ? kFault : kGap));
   if (text.size() > kTextBytes) text.resize(kTextBytes);
-  if (text.size() + apart.size() <= kLineBytes) text += apart;
+  if (text.size() + behind.size() <= kLineBytes) text += behind;
   const std::lock_guard lock(mutex_);
   Line& next = ring_[(first_ + count_) % kLines];
   next.fault = fault;

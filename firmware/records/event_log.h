@@ -5,8 +5,9 @@
 // and a file that keeps the newest lines over a restart. Nobody's name goes into it: of an error only
 // its sentence is written, never the place, which may be somebody's.
 //
-// A line is noted as a Sentence, so that the page can say it in the reader's language. In the file, behind
-// the English text and a tab: the sentence packed. Thread: any. Errors of save(): MediaFull, IoFailed.
+// In the file, behind the English text and a tab: the number of the event or of the error's code ("e3",
+// "f7"), then the event's values, so that the page can say it in the reader's language. Thread: any. Errors
+// of save(): MediaFull, IoFailed.
 #pragma once
 
 #include <array>
@@ -15,25 +16,26 @@
 #include <filesystem>
 #include <initializer_list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
-#include "hal/base/sentence.h"
 #include "hal/clock.h"
+#include "ui/view/log_event.h"
 
 namespace relievo::firmware {
 
 inline constexpr const char* kLogFile = "relievo.log";  // in the folder of the store
 
-// A line, taken apart. A text that no key is known of (an older file's) has none: then `sentence` is all
-// there is.
+// A line, taken apart. Of one that another version wrote `text` may be all there is.
 struct LogEntry {
   std::string at;  // date and time
   bool fault = false;
-  std::string sentence;  // English
-  std::string key;       // of the catalogues, with {} for each value
+  std::string text;  // English
+  std::optional<Errc> code;
+  std::optional<ui::LogEvent> event;
   std::vector<std::string> values;
 };
 LogEntry entry_of(std::string_view line);
@@ -45,8 +47,7 @@ class EventLog {
   // `file` is read where it is there; empty: nothing is kept.
   EventLog(const hal::Clock& clock, std::filesystem::path file);
 
-  // Both as a Sentence has them.
-  void say(Literal key, std::initializer_list<std::string_view> values = {});
+  void say(ui::LogEvent event, std::initializer_list<std::string_view> values = {});
   void fault(const Error& error);
 
   std::vector<LogEntry> entries() const;  // oldest first
@@ -60,7 +61,7 @@ class EventLog {
     std::size_t length = 0;
     bool fault = false;
   };
-  void put(const Sentence& sentence, bool fault);
+  void put(std::string text, const std::string& behind, bool fault);
 
   const hal::Clock& clock_;
   std::filesystem::path file_;

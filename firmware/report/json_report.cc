@@ -67,6 +67,7 @@ std::string report_json(const Report& report) {
       {"calibration", report.calibration},
       {"algorithms", algorithms},
       {"stages", stages},
+      {"matches_by_hand", report.by_hand},
       {"total_ms", milliseconds_of(report.total)},
       {"peak_rss_bytes", report.peak_rss_bytes},
       {"quality",

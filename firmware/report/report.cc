@@ -25,7 +25,7 @@ std::string line_of(const StageRecord& stage) {
 }
 
 std::string line_of(const pipeline::DriftJudgement& drift) {
-  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift).text();
+  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
 }
 
 std::string line_of_motion(double motion_px) {

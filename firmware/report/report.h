@@ -30,6 +30,7 @@ struct Report {
   pipeline::Landmarks landmarks{};                // the left camera's frame
   pipeline::RigidTransform head_from_camera{};
   std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
+  std::size_t by_hand = 0;                        // matches, of those that Reconstruct took
 };
 
 std::string line_of(const StageRecord& stage);  // for a terminal

@@ -62,7 +62,6 @@ Result<void> ConsentShelf::look() {
 
 void ConsentShelf::opened() {
   outcome_ = ui::Outcome::None;
-  file_.clear();
   fault_ = {};
 }
 
@@ -85,7 +84,7 @@ void ConsentShelf::take() {
       },
       [this, taken](const std::optional<Error>& error) {
         if (!error && *taken) {
-          log_.say("consent text {} was taken over", {(*taken)->version});
+          log_.say(ui::LogEvent::ConsentTaken, {(*taken)->version});
           next_ = std::move(*taken);
         }
         ended(error);
@@ -97,8 +96,8 @@ void ConsentShelf::ended(const std::optional<Error>& error) {
   taking_ = false;
   outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
   if (!error) return;
-  file_ = fs::path(error->where()).filename().string();
-  fault_ = error->what.view();
+  // A file is known to the operator by its name, wherever the stick is mounted.
+  fault_ = ui::fault_of(error->at(fs::path(error->where()).filename().string()));
   if (error->code != Errc::MediaMissing) log_.fault(*error);
 }
 
@@ -108,6 +107,8 @@ void ConsentShelf::adopt() {
   next_.reset();
 }
 
-void ConsentShelf::show(ui::ConsentShelfView& view) const { view = {taking_, outcome_, file_, fault_}; }
+void ConsentShelf::show(ui::ConsentShelfView& view) const {
+  view = {taking_, outcome_, fault_.empty() ? nullptr : &fault_};
+}
 
 }  // namespace relievo::firmware

@@ -53,8 +53,7 @@ class ConsentShelf {
   std::optional<ui::ConsentTexts> now_, next_;
   bool taking_ = false;
   ui::Outcome outcome_ = ui::Outcome::None;
-  std::string file_;        // that is wrong, its name alone
-  std::string_view fault_;  // what is wrong with it; a literal, the key of its words
+  ui::Fault fault_;  // why the last try failed
 };
 
 }  // namespace relievo::firmware

@@ -13,8 +13,7 @@ Result<void> DeviceSettings::look() {
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   std::vector<std::string> complaints;
   now_ = wanted_ = settings_of(kept ? *kept : std::string(), complaints);
-  for (const std::string& complaint : complaints)
-    log_.say("the setting \"{}\" is not one: what is usual holds", {complaint});
+  for (const std::string& complaint : complaints) log_.say(ui::LogEvent::SettingUnknown, {complaint});
   return {};
 }
 
@@ -36,7 +35,7 @@ bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
           log_.fault(*error);
         } else {
           now_ = next;
-          log_.say("setting {} is {}", {info_of(setting).key, std::to_string(value)});
+          log_.say(ui::LogEvent::SettingChanged, {info_of(setting).key, std::to_string(value)});
         }
         done(error);
       },

@@ -79,7 +79,7 @@ void RetentionWatch::turn(const ui::Settings& settings) {
         if (error && error->code == Errc::Cancelled) next_ = {};  // a visitor came in between
         else if (error) log_.fault(*error);
         jumped_ = error && error->code == Errc::InvalidState;
-        if (*erased > 0) log_.say("records erased for their age: {}", {std::to_string(*erased)});
+        if (*erased > 0) log_.say(ui::LogEvent::RecordsExpired, {std::to_string(*erased)});
       },
       Errands::Whose::Device);
 }

@@ -91,8 +91,8 @@ void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
       [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
       [this, before](const std::optional<Error>& error) {
         if (!error)
-          return map_.is_plain() ? log_.say("the touch screen is taken as it is")
-                                 : log_.say("the touch screen was corrected");
+          return map_.is_plain() ? log_.say(ui::LogEvent::TouchPlain)
+                                 : log_.say(ui::LogEvent::TouchCorrected);
         log_.fault(*error);
         map_ = before;
         end(TouchVerdict::NotSaved);

@@ -20,8 +20,8 @@ class BenchDesk final : public DeskPage {
   void show(ui::ServiceView& view) override {
     view.bench = &bench_.view();
     if (page_ == ui::BenchPage::Stages)
-      view.work = {
-          view.bench->recording.running, view.bench->recording.progress, view.bench->recording.outcome, {}};
+      view.work = {view.bench->recording.running, view.bench->recording.progress,
+                   view.bench->recording.outcome};
     view.inner = page_ == ui::BenchPage::Algorithms && view.bench->choice.edited != nullptr;
   }
   void closed() override { bench_.closed(page_); }

@@ -90,7 +90,7 @@ Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
     desk->statistics_.begin(
         text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.board.clock().wall_now()))
             .substr(0, 10));
-  desk->log_.say("started");
+  desk->log_.say(ui::LogEvent::Started);
   return desk;
 }
 
@@ -173,7 +173,7 @@ void Desk::turn() {
     errands_.cancel();
     door_.forget();
     role_ = tools_.role = StaffRole::None;
-    log_.say("signed out");
+    log_.say(ui::LogEvent::SignedOut);
   }
   if (bench_ != nullptr) bench_->turn();
   if (state == State::Idle || state == State::Technician) save_what_changed();

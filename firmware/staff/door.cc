@@ -17,8 +17,8 @@ using ui::PinStep;
 using ui::StaffPage;
 using ui::StaffRole;
 
-Literal by_role(StaffRole role, Literal technician, Literal clerk) {
-  return role == StaffRole::Technician ? technician : clerk;
+ui::LogEvent chosen_by(StaffRole role) {
+  return role == StaffRole::Technician ? ui::LogEvent::TechnicianPinChosen : ui::LogEvent::OperatorPinChosen;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ void Door::set_clock() {
   clock_moved_ = std::chrono::minutes(0);
   clock_right_ = set.has_value();
   clock_refused_ = !set;
-  if (set) log_.say("the clock was set");
+  if (set) log_.say(ui::LogEvent::ClockSet);
   else log_.fault(set.error());
 }
 
@@ -104,9 +104,9 @@ void Door::check(std::string_view pin) {
         wrong_ = error || tried->attempt.wrong;
         wait_until_ = clock_.now() + tried->attempt.wait;
         entered_ = error ? StaffRole::None : tried->attempt.role;
-        if (tried->attempt.wrong) log_.say("a wrong PIN was typed");
-        if (entered_ == StaffRole::Technician) log_.say("technician signed in");
-        if (entered_ == StaffRole::Operator) log_.say("operator signed in");
+        if (tried->attempt.wrong) log_.say(ui::LogEvent::WrongPin);
+        if (entered_ == StaffRole::Technician) log_.say(ui::LogEvent::TechnicianSignedIn);
+        if (entered_ == StaffRole::Operator) log_.say(ui::LogEvent::OperatorSignedIn);
       },
       Errands::Whose::Device);
 }
@@ -144,19 +144,17 @@ void Door::offered_again(std::string_view pin, StaffRole role) {
     return wipe_text(first_);
   }
   if (before == PinStep::Own)
-    return save(
-        {std::exchange(first_, {}), {}}, before,
-        [this, role](const Pins& pins) { return access_.set(role, pins.one); },
-        by_role(role, "technician changed their PIN", "operator changed their PIN"));
+    return save({std::exchange(first_, {}), {}}, before,
+                [this, role](const Pins& pins) { return access_.set(role, pins.one); }, {chosen_by(role)});
   if (forgotten_ != StaffRole::None)
     return save(
         {std::exchange(first_, {}), {}}, before,
         [this, whose = forgotten_](const Pins& pins) { return access_.choose_again(whose, pins.one); },
-        by_role(forgotten_, "the technician's PIN was chosen anew", "the operator's PIN was chosen anew"));
+        {chosen_by(forgotten_)});
   if (before == PinStep::Operator)
-    return save(
-        {std::exchange(technician_, {}), std::exchange(first_, {})}, PinStep::Technician,
-        [this](const Pins& pins) { return access_.set_up(pins.one, pins.clerk); }, "both PINs were chosen");
+    return save({std::exchange(technician_, {}), std::exchange(first_, {})}, PinStep::Technician,
+                [this](const Pins& pins) { return access_.set_up(pins.one, pins.clerk); },
+                {ui::LogEvent::TechnicianPinChosen, ui::LogEvent::OperatorPinChosen});
   technician_ = std::exchange(first_, {});
   step_ = PinStep::Operator;
 }
@@ -186,7 +184,8 @@ void Door::refuse(const Error& error, PinStep again) {
 
 // A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a
 // device that is new has both at once or none.
-void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins&)> write, Literal said) {
+void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins&)> write,
+                std::vector<ui::LogEvent> said) {
   const auto kept = std::make_shared<Pins>(std::move(pins));
   checking_ = true;
   errands_.send(
@@ -197,7 +196,7 @@ void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins
         wipe_text(kept->clerk);
         return saved;
       },
-      [this, begins, said](const std::optional<Error>& error) {
+      [this, begins, said = std::move(said)](const std::optional<Error>& error) {
         checking_ = false;
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {
@@ -205,7 +204,7 @@ void Door::save(Pins pins, PinStep begins, std::function<Result<void>(const Pins
           set_up_ = true;
         }
         step_ = PinStep::Done;
-        log_.say(said);
+        for (const ui::LogEvent event : said) log_.say(event);
       },
       Errands::Whose::Device);
 }

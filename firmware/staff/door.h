@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
@@ -56,7 +57,8 @@ class Door {
   void offered_again(std::string_view pin, ui::StaffRole role);
   void judge(std::string pin, ui::StaffRole role, ui::PinStep next);
   // `begins` is where who is refused begins again; `said` goes to the log.
-  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write, Literal said);
+  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write,
+            std::vector<ui::LogEvent> said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
 

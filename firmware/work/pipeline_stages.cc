@@ -92,8 +92,9 @@ Result<void> PipelineStages::match(Products& products, pipeline::StageContext& c
 Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageContext& context,
                                          StageRecord& record) const {
   RELIEVO_ASSERT(products.pair.has_value() && products.matches.has_value());
-  record.in = accepted(*products.matches);
-  RELIEVO_TRY_ASSIGN(products.cloud, pipeline_->reconstruct(*products.pair, *products.matches, context));
+  record.in = accepted(*products.matches) + by_hand_.size();
+  RELIEVO_TRY_ASSIGN(products.cloud,
+                     pipeline_->reconstruct(*products.pair, *products.matches, context, by_hand_));
   record.out = products.cloud->points.size();
   return {};
 }

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "firmware/work/stage_runner.h"
 #include "pipeline/pipeline.h"
@@ -43,6 +45,8 @@ class PipelineStages final : public StageRunner {
     set_ = pipeline.algorithms();
     pipeline_ = std::move(pipeline);
   }
+  // Matches beside the matcher's, of the pictures that are worked on. While no job runs.
+  void add_by_hand(std::vector<pipeline::Match> matches) { by_hand_ = std::move(matches); }
   Result<void> run(State stage, Products& products, pipeline::StageContext& context,
                    StageRecord& record) override;
 
@@ -56,6 +60,7 @@ class PipelineStages final : public StageRunner {
 
   pipeline::AlgorithmSet set_;
   std::optional<pipeline::Pipeline> pipeline_;
+  std::vector<pipeline::Match> by_hand_;
   WhenMoved when_moved_ = WhenMoved::Refuse;
   WhenUnjudged when_unjudged_ = WhenUnjudged::Refuse;
 };

@@ -46,7 +46,8 @@ Result<void> load_stage(const storage::Document& document, State stage, Enrolmen
 Result<std::vector<std::byte>> make_document(const Products& products, const Making& making) {
   RELIEVO_ASSERT(products.frame.has_value());
   storage::DocumentHead head{std::string(kVersion), making.set.to_text(),    making.whole_view,
-                             making.calibration,    products.frame->skew_ns, {}};
+                             making.calibration,    products.frame->skew_ns, {},
+                             making.by_hand};
   for (std::size_t i = 0; i < std::min(done(products), making.records.size()); ++i) {
     const StageRecord& record = making.records[i];
     head.stages.push_back({record.took, record.in, record.out, record.arena_peak_bytes});
@@ -57,7 +58,7 @@ Result<std::vector<std::byte>> make_document(const Products& products, const Mak
 
 Result<Making> making_of(const storage::Document& document) {
   const storage::DocumentHead& head = document.head();
-  Making making{{}, head.whole_view, head.calibration, {}};
+  Making making{{}, head.whole_view, head.calibration, {}, head.by_hand};
   RELIEVO_TRY_ASSIGN(making.set, pipeline::AlgorithmSet::from_text(head.algorithms));
   for (std::size_t i = 0; i < head.stages.size(); ++i) {
     const storage::DocumentStage& stage = head.stages[i];

@@ -20,7 +20,8 @@ struct Making {
   pipeline::AlgorithmSet set;
   bool whole_view = false;
   pipeline::StereoCalibration calibration;
-  std::vector<StageRecord> records;  // of the stages that are done
+  std::vector<StageRecord> records;      // of the stages that are done
+  std::vector<pipeline::Match> by_hand;  // beside the matcher's, from Reconstruct on
 };
 
 Result<std::vector<std::byte>> make_document(const Products& products, const Making& making);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include "hal/base/words.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -61,24 +63,24 @@ std::string_view word(DriftVerdict verdict) {
   return "unknown";
 }
 
-Sentence sentence(const DriftJudgement& j) {
+std::string sentence(const DriftJudgement& j) {
   switch (j.verdict) {
     case DriftVerdict::Unknown:
       break;
     case DriftVerdict::Ok:
-      return Sentence("the rows of both views agree to {} px ({} px promised)",
-                      {decimal(j.residual_px, 3), decimal(j.expected_px, 3)});
+      return filled("the rows of both views agree to {} px ({} px promised)",
+                    {decimal(j.residual_px, 3), decimal(j.expected_px, 3)});
     case DriftVerdict::Warn:
-      return Sentence(
+      return filled(
           "the rows of both views disagree by {} px ({} px promised): a camera has moved, calibrate again",
           {decimal(j.residual_px, 2), decimal(j.expected_px, 3)});
     case DriftVerdict::Refuse:
-      return Sentence(
+      return filled(
           "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, "
           "calibrate again",
           {decimal(j.residual_px, 2), decimal(kRefusedPx, 1)});
   }
-  return Sentence("this face has too little texture to tell whether the cameras have moved");
+  return "this face has too little texture to tell whether the cameras have moved";
 }
 
 }  // namespace relievo::pipeline

@@ -21,9 +21,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
-#include "hal/base/sentence.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/match_set.h"
 
@@ -55,6 +55,6 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
 
 std::string_view word(DriftVerdict verdict);  // unknown, ok, warn, refuse
 // For a technician: what was found, and what to do.
-Sentence sentence(const DriftJudgement& judgement);
+std::string sentence(const DriftJudgement& judgement);
 
 }  // namespace relievo::pipeline

@@ -48,8 +48,9 @@ struct DocumentHead {
   std::string algorithms;   // "key = value" a line
   bool whole_view = false;  // else the face
   pipeline::StereoCalibration calibration;
-  std::int64_t skew_ns = 0;           // as in StereoFrame
-  std::vector<DocumentStage> stages;  // those that are done, in their order; kDocumentStages at most
+  std::int64_t skew_ns = 0;              // as in StereoFrame
+  std::vector<DocumentStage> stages;     // those that are done, in their order; kDocumentStages at most
+  std::vector<pipeline::Match> by_hand;  // beside the matcher's (pipeline/match/hand); cost is not kept
 };
 
 // What is saved; borrowed. The products of the stages that head names are there: a mesh only while it is in

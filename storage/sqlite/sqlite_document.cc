@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::uint32_t kApplicationId = 0x524C564F;  // "RLVO"
-constexpr std::uint32_t kForm = 1;
-constexpr std::size_t kHeaderBytes = 100;  // of SQLite's file: its file format, section 1.3
+constexpr std::uint32_t kForm = 2;                    // 1: without matches by hand, read too
+constexpr std::size_t kHeaderBytes = 100;             // of SQLite's file: its file format, section 1.3
 constexpr const char* kSchema =
-    "PRAGMA application_id = 1380734543; PRAGMA user_version = 1;"
+    "PRAGMA application_id = 1380734543; PRAGMA user_version = 2;"
     "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB "
     "NOT NULL) STRICT;";
-static_assert(kApplicationId == 1380734543 && kForm == 1);
+static_assert(kApplicationId == 1380734543 && kForm == 2);
 
 Error damaged() {
   return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"};
@@ -75,7 +75,7 @@ std::string get_text(ByteReader& from) {
 
 std::vector<std::byte> head_bytes(const DocumentHead& head) {
   std::vector<std::byte> bytes;
-  bytes.reserve(256 + head.version.size() + head.algorithms.size());
+  bytes.reserve(256 + head.version.size() + head.algorithms.size() + 16 * head.by_hand.size());
   ByteWriter to(bytes);
   put_text(to, head.version);
   put_text(to, head.algorithms);
@@ -86,6 +86,8 @@ std::vector<std::byte> head_bytes(const DocumentHead& head) {
     to.put(static_cast<std::int64_t>(stage.took.count()));
     for (const std::uint64_t value : {stage.in, stage.out, stage.arena_peak_bytes}) to.put(value);
   }
+  for (const pipeline::Match& m : head.by_hand)
+    for (const float value : {m.left_px.x, m.left_px.y, m.disparity_px, m.sigma_px}) to.put(value);
   return bytes;
 }
 
@@ -104,7 +106,12 @@ Result<DocumentHead> head_from(std::span<const std::byte> bytes) {
     for (std::uint64_t* value : {&stage.in, &stage.out, &stage.arena_peak_bytes})
       *value = from.get<std::uint64_t>();
   }
-  if (!from.ok() || from.left() != 0) return damaged();
+  while (from.ok() && from.left() > 0) {
+    pipeline::Match& m = head.by_hand.emplace_back();
+    for (float* value : {&m.left_px.x, &m.left_px.y, &m.disparity_px, &m.sigma_px})
+      *value = from.get<float>();
+  }
+  if (!from.ok()) return damaged();
   return head;
 }
 
@@ -126,7 +133,8 @@ std::size_t room_for(const DocumentParts& parts) {
   const auto picture = [](const ImageView& v) {
     return static_cast<std::size_t>(v.width_px) * static_cast<std::size_t>(v.height_px) * 3;
   };
-  std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size();
+  std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size() +
+                      parts.head.by_hand.size() * 16;
   if (parts.pair != nullptr) bytes += parts.pair->left.grey.size() * 17;
   if (parts.matches != nullptr) bytes += parts.matches->matches.size() * 22;
   if (parts.cloud != nullptr) bytes += parts.cloud->points.size() * 24;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/match/rectify/rectified_geometry.h"
 #include "tests/system/relievo_process.h"
 
 namespace relievo::test {
@@ -84,6 +86,49 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
           "full.relievo", "full");
   EXPECT_EQ(listing(disk.path()), "");
   EXPECT_FALSE(fs::exists(here / "none"));
+}
+
+TEST_F(SavedReconstruction, MatchesByHandFromAFileAreCalculatedWithAndKept) {
+  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  const auto rig = pipeline::read_calibration(here / "face/rig.yml");
+  pipeline::RectifiedPair windows(std::pmr::get_default_resource());
+  ASSERT_TRUE(rig && pipeline::lay_windows(*rig, {}, windows));
+  // 15 mm before the middle between the cameras' near and far.
+  const std::string line = std::to_string(windows.width_px / 2) + " " +
+                           std::to_string(windows.height_px / 2) + " " +
+                           std::to_string(windows.disparity_px(545)) + "\n";
+  write_text(here / "hand.txt", "# one\n" + line);
+  write_text(here / "none.txt", "# none\n");
+  std::vector<std::string> face{"reconstruct",   "face/left.png", "face/right.png",
+                                "--calibration", "face/rig.yml",  "-o"};
+  const auto reconstruct = [&](const std::string& folder, std::vector<std::string> more) {
+    more.insert(more.begin(), face.begin(), face.end());
+    more.insert(more.begin() + static_cast<std::ptrdiff_t>(face.size()), folder);
+    return more;
+  };
+  done(reconstruct("without", {}));
+  const std::string said =
+      done(reconstruct("first", {"--by-hand", "hand.txt", "--save", "face.relievo"})).out;
+  EXPECT_NE(said.find("1 of the matches made by hand"), std::string::npos) << said;
+  EXPECT_NE(read_text(here / "first/report.json").find("\"matches_by_hand\": 1"), std::string::npos);
+  EXPECT_NE(read_text(here / "first/model.ply"), read_text(here / "without/model.ply"));
+
+  fs::remove(here / "hand.txt");  // it is in the document
+  done({"reconstruct", "--load", "face.relievo", "-o", "loaded"});
+  expect_same_model("first", "loaded");
+  done({"reconstruct", "--load", "face.relievo", "--from", "match", "-o", "again"});
+  expect_same_model("first", "again");
+  done({"reconstruct", "--load", "face.relievo", "--by-hand", "none.txt", "-o", "taken"});
+  expect_same_model("without", "taken");
+
+  for (const char* bad :
+       {"400 200\n", "400 200 x\n", "400 200 1 0\n", "-1 200 1\n", "400 1e9 1\n", "400 200 9000\n"}) {
+    write_text(here / "bad.txt", line + bad + line);
+    refused(reconstruct("none", {"--by-hand", "bad.txt"}), "bad.txt line 2");
+  }
+  refused(reconstruct("none", {"--by-hand", "missing.txt"}), "missing.txt", "check the name");
+  refused({"reconstruct", "--load", "face.relievo", "--by-hand", "none.txt", "--from", "mesh", "-o", "none"},
+          "--from mesh", "before this one");
 }
 
 }  // namespace

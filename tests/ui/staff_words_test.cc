@@ -4,10 +4,11 @@
 // Numbers, dates and what the appliance says of itself, as each language writes them.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 
-#include "hal/base/sentence.h"
-#include "ui/screens/service/place_words.h"
+#include "ui/screens/service/bench/bench_frame.h"
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
@@ -57,20 +58,6 @@ TEST_F(StaffWordsTest, AnAngleStandsAtItsNumberATemperatureDoesNot) {
   EXPECT_EQ(bare(in(Language::French).number(7, 0, "%")), "7\u00a0%");
 }
 
-TEST_F(StaffWordsTest, BehindAColonFrenchAndSpanishGoOnSmall) {
-  constexpr const char* kPhotograph =
-      "that looks like a picture of a face: please look into the cameras yourself";
-  EXPECT_TRUE(in(Language::French).said(kPhotograph, false).starts_with("cela ressemble"));
-  EXPECT_TRUE(in(Language::Spanish).said(kPhotograph, false).starts_with("parece"));
-  EXPECT_TRUE(in(Language::German).said(kPhotograph, false).starts_with("Das sieht"));
-  EXPECT_TRUE(in(Language::English).said(kPhotograph, false).starts_with("that looks"));
-  EXPECT_TRUE(in(Language::French).said(kPhotograph).starts_with("Cela")) << "a sentence of its own";
-  StaffFrame page = in(Language::French);
-  EXPECT_STREQ(page.continued("Échec"), "échec");
-  for (const char* same : {"OpenCV a renoncé", "×", "où", "", "1 px"})
-    EXPECT_STREQ(page.continued(same), same);
-}
-
 TEST_F(StaffWordsTest, OnlyWhatIsANumberGetsTheMark) {
   StaffFrame page = in(Language::German);
   EXPECT_EQ(bare(page.as_number("+0.42")), "+0,42");
@@ -88,25 +75,45 @@ TEST_F(StaffWordsTest, DatesHaveTheOrderOfTheLanguage) {
     EXPECT_EQ(in(Language::German).date(none), none);
 }
 
-TEST_F(StaffWordsTest, ASentenceIsSaidWithItsValuesAndWhereItWas) {
-  const std::string few = Sentence("only {} of {} pairs agree with each other", {"5", "14"}).packed();
-  EXPECT_EQ(bare(in(Language::English).said(few)), "Only 5 of 14 pairs agree with each other");
-  EXPECT_EQ(bare(in(Language::German).said(few)), "Nur 5 von 14 Paaren stimmen miteinander überein");
-  const std::string moved =
-      Sentence(Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(
-                   "2.47 px"))
-          .packed();
-  EXPECT_EQ(bare(in(Language::German).said(moved)),
-            "Eine Kamera hat sich seit der Kalibrierung bewegt: Kalibrieren Sie neu (2,47 px)");
-  const std::string arabic(in(Language::Arabic).said(moved));
-  EXPECT_FALSE(arabic.starts_with("\u2068"))
-      << "its own words tell the direction, not what stands behind them";
-  EXPECT_EQ(in(Language::German).said(""), "");
-  EXPECT_STREQ(in(Language::French).begun("écart"), "Écart");
-  EXPECT_STREQ(in(Language::French).begun("à côté"), "À côté");
-  for (const char* same : {"", "÷ 2", "ßig", "Écart", "2 px", "左"})
-    EXPECT_STREQ(in(Language::French).begun(same), same);
-  EXPECT_EQ(bare(in(Language::German).said("nobody translated {}\tthis")), "Nobody translated this");
+// The code's sentence in the reader's language, and the detail as the engine wrote it, from left to right and
+// quieter: whoever adds an error translates nothing.
+TEST_F(StaffWordsTest, AnErrorNobodyKnowsIsSaidByItsCodeWithItsDetailInEnglish) {
+  const Fault fault = fault_of(Error{Errc::MediaFull, "the flux is full: empty it"}.at("/flux"));
+  for (const auto& [language, sentence] :
+       {std::pair{Language::German, "Es ist kein Platz mehr"}, std::pair{Language::Arabic, "لم تبق مساحة"}}) {
+    StaffFrame page = in(language);
+    BenchView bench;
+    bench.problem = fault;
+    staff_.bench = &bench;
+    page.begin("", nullptr);
+    BenchFrame(page).problem(bench.problem);
+    page.end();
+    const Node *said = nullptr, *detail = nullptr;
+    for (const Node& node : tree_.nodes()) {
+      if (node.text == sentence) said = &node;
+      if (node.text == "\u2066/flux: the flux is full: empty it\u2069") detail = &node;
+    }
+    ASSERT_NE(said, nullptr) << sentence;
+    ASSERT_NE(detail, nullptr) << sentence;
+    EXPECT_LT(said, detail) << "below it";
+    EXPECT_STREQ(detail->style.language, "en");
+    EXPECT_EQ(detail->style.size_px, in(Language::English).english("x", 17).style.size_px);
+  }
+}
+
+TEST_F(StaffWordsTest, EveryCodeAndEveryEventHasASentenceOfItsOwn) {
+  for (std::size_t l = 0; l < kLanguages; ++l) {
+    const Words tr(static_cast<Language>(l));
+    std::set<std::string> said;
+    for (int code = 0; code <= static_cast<int>(Errc::Unsupported); ++code)
+      EXPECT_TRUE(said.insert(words_of(tr, static_cast<Errc>(code))).second) << code;
+    for (int event = 0; event < static_cast<int>(LogEvent::Count); ++event) {
+      const LogWords words = words_of(tr, static_cast<LogEvent>(event));
+      const char* role = words.role != nullptr ? words.role : "";
+      EXPECT_TRUE(said.insert(std::string(words.pattern) + role).second) << event;
+    }
+    EXPECT_FALSE(said.contains(""));
+  }
 }
 
 TEST_F(StaffWordsTest, NoLineEndsBetweenAValueAndItsUnit) {
@@ -138,40 +145,28 @@ TEST_F(StaffWordsTest, AChangedSettingIsCalledAsOnItsPage) {
     EXPECT_EQ(said_change(page, key, value), "") << key << value;
 }
 
-TEST_F(StaffWordsTest, TheLogSaysAChangedSettingInWords) {
+TEST_F(StaffWordsTest, TheLogSaysEventsAndFaultsInWords) {
   StaffFrame page = in(Language::German);
   page.begin("", nullptr);
-  page.logged(
-      {"2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}});
-  page.logged({"2026-03-14 10:20:44", false, "setting gone is 7", "setting {} is {}", {"gone", "7"}});
+  const auto changed = [](std::string_view key, std::string_view value) {
+    return LogLine{"2026-03-14 10:20:44",    false,       "as in the file", {},
+                   LogEvent::SettingChanged, {key, value}};
+  };
+  page.logged(changed("patience_s", "30"));
+  page.logged(changed("gone", "7"));
+  page.logged({"2026-03-14 10:20:44", false, "", {}, LogEvent::OperatorSignedIn, {}});
+  page.logged({"2026-03-14 10:20:44", true, "the plug is out", Errc::Disconnected, {}, {}});
+  page.logged({"2026-03-14 10:20:44", true, "of an older version", {}, {}, {}});
   page.end();
   std::string all;
   for (const Node& node : tree_.nodes()) all += bare(node.text) + "\n";
-  EXPECT_NE(all.find(std::string("Einstellung „") + name_of(page.tr, Setting::PatienceS) + "“: 30\u00a0s"),
-            std::string::npos)
-      << all;
-  EXPECT_EQ(all.find("patience_s"), std::string::npos);
-  EXPECT_NE(all.find("Einstellung gone ist 7"), std::string::npos) << "an older version's";
-}
-
-TEST_F(StaffWordsTest, WherePartsAreWordsTheyAreSaid) {
-  StaffFrame page = in(Language::German);
-  const auto german = [&](std::string_view place) { return bare(said_place(page, place)); };
-  EXPECT_EQ(german("serial 4061 → serial 4088"), "Seriennummer 4088 statt Seriennummer 4061");
-  EXPECT_EQ(german("serial 1 → at /dev/a; at /dev/b → serial 2"),
-            "links an /dev/a statt Seriennummer 1, rechts Seriennummer 2 statt an /dev/b");
-  EXPECT_EQ(german("left picture"), "linkes Bild");
-  EXPECT_EQ(german("2.47 px"), "2,47 px");
-  for (const char* same : {"/dev/video0", "", "serial 4061", "left pictures", "mesher.grid", "zh.txt"})
-    EXPECT_EQ(german(same), same);
-}
-
-TEST(SentenceTest, PackedItIsOneLine) {
-  const Sentence said("the {} of {}", {"a\tb", "c\nd"});
-  EXPECT_EQ(said.packed(), "the {} of {}\ta b\tc d");
-  EXPECT_EQ(Sentence("two {}", {"1", "2"}).text(), "two 1 (2)");
-  EXPECT_EQ(Sentence("none", {"here"}).text(), "none (here)");
-  EXPECT_EQ(decimal(0.125, 2) + decimal(1.5, 1, true), "0.12+1.5");
+  for (const std::string& said :
+       {std::string("Einstellung „") + name_of(page.tr, Setting::PatienceS) + "“: 30\u00a0s",
+        std::string("Einstellung „gone“: 7"), std::string("Angemeldet: Betreuung"),
+        std::string("Ein Gerät wurde abgezogen oder antwortet nicht\nthe plug is out"),
+        std::string("\nof an older version")})
+    EXPECT_NE(all.find(said), std::string::npos) << said << " in " << all;
+  EXPECT_EQ(all.find("as in the file"), std::string::npos);
 }
 
 }  // namespace

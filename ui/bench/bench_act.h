@@ -18,7 +18,10 @@ enum class BenchAct : std::uint8_t {
   ShowStage,   // BenchStage
   Point,       // touched in the left picture: x << 12 | y, 4096ths of the picture
   PointRight,  // in the right one
-  ByHand,      // the next two touches are a match by hand; again: no longer
+  Drag,        // a finger that came down on the left picture is there now
+  DragRight,   // on the right one
+  ByHand,      // touches make pairs by hand; again: no longer
+  RemovePair,  // the chosen one
   ChooseKind,  // index into kinds
   ChooseName,  // index into the chosen kind's names: chosen, or for rules switched
   EditOption,  // index into options

@@ -30,8 +30,8 @@ struct BenchCameras {
   float exposure_us = 0, gain = 0;  // as asked for last
   bool can_be_set = false;
   bool relief_shown = false;
-  BenchPicture relief;       // near is bright, black is unknown
-  std::string_view problem;  // why there is no relief
+  BenchPicture relief;  // near is bright, black is unknown
+  Fault problem;        // why there is no relief
 };
 
 inline constexpr std::size_t kCalibrationRows = 6, kCoverageCells = 8;
@@ -82,10 +82,9 @@ struct BenchCalibration {
   float error_mm = 0, goal_mm = 0;  // predicted, of distances, one standard deviation
   BenchVerdict verdict = BenchVerdict::None;
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
-  std::span<const std::string>
-      reasons;  // why it is good, doubted or refused, most important first: packed (hal/base/sentence.h)
-  std::string_view exported;  // the folder on the stick; empty: none was
-  std::string_view problem;   // what went wrong: packed
+  std::span<const std::string> reasons;  // why it is good, doubted or refused, most important first; English
+  std::string_view exported;             // the folder on the stick; empty: none was
+  Fault problem;                         // what went wrong
   std::array<BenchCalibrationRow, kCalibrationRows> history{};
   std::size_t history_count = 0;
 };

@@ -8,10 +8,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
+#include "ui/view/fault.h"
 
 namespace relievo::ui {
 
@@ -47,7 +49,7 @@ struct BenchRule {
 struct BenchResult {
   bool there = false;
   std::string_view algorithms;          // what differs from the default, one "key = value" a line
-  std::string_view failure;             // of a stage, packed (hal/base/sentence.h); empty: all four are done
+  Fault failure;                        // of a stage; empty: all four are done
   std::size_t failed_at = 0;            // Match, Reconstruct, Mesh, Texture
   std::array<float, 4> seconds{};       // Match, Reconstruct, Mesh, Texture
   std::array<std::uint64_t, 4> made{};  // accepted matches, points, triangles, texels
@@ -70,6 +72,21 @@ struct BenchPoint {
   std::string_view rejected_by;  // the rule; empty: accepted
   pipeline::Vec3f at_mm;
   float sigma_mm = 0;
+  // Of a pair by hand, once it has been calculated with: by how much the surface there came nearer, measured
+  // along z; NaN: not known, `new_surface` where there was none before.
+  float moved_mm = std::numeric_limits<float>::quiet_NaN();
+  bool new_surface = false;
 };
+
+inline constexpr std::size_t kMostPairs = 32;  // made on the page; a file may hold more
+
+// What the pairs by hand changed: the surface with them against the one without.
+struct BenchChange {
+  bool known = false;
+  float moved_mm2 = 0, new_mm2 = 0;  // area that moved by more than kMovedMm, and that was not there before
+  float farthest_mm = 0;
+  float full_colour_mm = 0;  // of the picture beside the surface's: nearer is red, farther blue
+};
+inline constexpr float kMovedMm = 0.05F;
 
 }  // namespace relievo::ui

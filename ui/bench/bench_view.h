@@ -44,12 +44,15 @@ struct BenchView {
       true;  // without a calibration there is no test capture, unless it was loaded with its own
   float progress = 0;
   std::uint8_t working_on = 0;  // while phase is Running: Match, Reconstruct, Mesh, Texture
-  std::string_view problem;     // packed (hal/base/sentence.h)
+  Fault problem;
   BenchStage stage = BenchStage::Rectified;
   std::array<BenchPicture, 2> shown{};     // of the stage; the second is empty where there is one only
   std::array<BenchPicture, 2> compared{};  // the same stage of the result put aside, and of the present one
   BenchPoint point;
-  bool by_hand = false;     // touches make a match
+  bool by_hand = false;  // touches make pairs; `point` is the chosen one
+  std::span<const BenchPoint> pairs;
+  bool pairs_changed = false;  // since they were calculated with
+  BenchChange change;
   bool can_record = false;  // there is a capture, and nobody is at work on it
   BenchRecording recording;
   BenchSaved saved;

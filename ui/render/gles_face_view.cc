@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
+#include "pipeline/model/mesh_border.h"
 #include "ui/render/edge_level.h"
 #include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
@@ -58,13 +60,10 @@ std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::Point
 
 // How far from its border each vertex lies, in kFadeMm and no more than 1.
 std::vector<float> within(const pipeline::FaceMesh& mesh) {
-  std::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0);  // 0 where the triangles around a vertex close
-  for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
-  std::vector<float> share(turn.size(), 1.0F);
-  for (std::size_t v = 0; v < turn.size(); ++v)
-    if (turn[v] != 0) share[v] = 0;
+  const auto border = pipeline::border_vertices(mesh, std::pmr::get_default_resource());
+  std::vector<float> share(border.size(), 1.0F);
+  for (std::size_t v = 0; v < border.size(); ++v)
+    if (border[v] != 0) share[v] = 0;
   const auto spread = [&](const std::array<std::uint32_t, 3>& t) {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 1; j < 3; ++j) {

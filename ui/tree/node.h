@@ -53,7 +53,8 @@ struct Node {
   Colour colour{};
   Action action{};
   bool modal = false;  // nothing under it can be touched
-  bool drags = false;
+  // Where it is set, `action` is done when a finger comes down, and this wherever it goes from there.
+  Action dragged{};
   bool hold = false;        // done by a finger that rests (ui/view/service.h: kHold), not by a tap
   bool slow_key = false;    // of such a one: a keypad waits as long, and any further key calls it back
   Colour filling{};         // of the bar that says how long one still has to hold

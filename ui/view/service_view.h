@@ -63,7 +63,6 @@ struct Work {
   bool running = false;
   float progress = 0;  // 0 to 1
   Outcome outcome = Outcome::None;
-  std::string_view problem;  // one sentence in English, for the log's reader; may be empty
 };
 
 // Whose PIN is to be typed while new ones are chosen: each is typed twice.

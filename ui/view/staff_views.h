@@ -7,9 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "ui/view/fault.h"
+#include "ui/view/log_event.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
@@ -25,13 +28,14 @@ struct StatisticsView {
   double median_s = 0, slow_s = 0;  // from the pictures to the model: half, nine of ten are faster
 };
 
-// What has been noted, to be said in the reader's language.
+// What has been noted. Of an event or a fault that this version does not know only the text is shown.
 struct LogLine {
   std::string_view at;  // date and time
   bool fault = false;
-  std::string_view sentence;  // English
-  std::string_view key;       // of its words; empty: nobody knows it any more, the sentence is said as it is
-  std::array<std::string_view, 2> values{};  // for the places {} of the key
+  std::string_view text;  // English
+  std::optional<Errc> code{};
+  std::optional<LogEvent> event{};
+  std::array<std::string_view, 2> values{};  // of the event
 };
 
 // --- health ---------------------------------------------------------------------------------------
@@ -59,10 +63,8 @@ inline constexpr std::uint8_t kConsentTake = 5;  // from the stick; also on the 
 
 struct ConsentShelfView {
   bool taking = false;
-  Outcome outcome =
-      Outcome::None;       // of the last try; Done: it is in force. NotFound: the stick has no such folder
-  std::string_view file;   // what is wrong, by its name
-  std::string_view fault;  // and why: English, the key of its words
+  Outcome outcome = Outcome::None;  // of the last try; Done: it is in force
+  const Fault* fault = nullptr;     // why not
 };
 
 // --- self-test --------------------------------------------------------------------------------------
@@ -73,7 +75,7 @@ inline constexpr std::size_t kChecks = static_cast<std::size_t>(Check::Count);
 
 struct SelfTestView {
   std::array<CheckState, kChecks> states{};
-  std::array<std::string_view, kChecks> problems{};  // English, of those that are bad
+  std::array<Fault, kChecks> problems{};  // of those that are bad
 };
 
 // --- trigger test -----------------------------------------------------------------------------------

@@ -18,6 +18,7 @@
 #include "ui/device/settings.h"
 #include "ui/language/language.h"
 #include "ui/view/consent_text.h"
+#include "ui/view/fault.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
@@ -94,12 +95,10 @@ struct ViewState {
   float progress = 0;  // 0 to 1 within the present state; 0 where nothing runs
   pipeline::Advice advice = pipeline::Advice::None;
   Trouble trouble = Trouble::None;
-  std::string_view problem;           // one sentence for a technician; empty when all is well
-  std::string_view calibration_note;  // for the technician: the cameras have moved, packed
-                                      // (hal/base/sentence.h); empty when all is well
-  std::string_view subject;           // who is being enrolled
-  std::string_view receipt;           // what to quote for an erasure; from the moment of storing on
-  int attempt = 0;                    // 1 for the first capture of a session
+  Fault calibration_note;    // for the technician: what speaks against the calibration
+  std::string_view subject;  // who is being enrolled
+  std::string_view receipt;  // what to quote for an erasure; from the moment of storing on
+  int attempt = 0;           // 1 for the first capture of a session
   LiveView live;
   std::array<StageView, kStageViews> stages{};
   const pipeline::StereoFrame* frame = nullptr;    // the pictures of this session, once taken

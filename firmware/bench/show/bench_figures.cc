@@ -7,7 +7,6 @@
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/rule_figures.h"
 #include "firmware/measure/self_agreement.h"
-#include "hal/base/sentence.h"
 
 namespace relievo::firmware {
 
@@ -38,7 +37,7 @@ void BenchFigures::add(const StageRecord& record) {
 }
 
 void BenchFigures::fail(State stage, const Error& error) {
-  failure_ = Sentence(error).packed();
+  failure_ = ui::fault_of(error);
   result_.failed_at = static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match);
 }
 

@@ -40,7 +40,8 @@ class BenchFigures {
   pipeline::AlgorithmSet set_;
   ui::BenchResult result_;
   std::size_t stages_ = 0;
-  std::string difference_, failure_;
+  std::string difference_;
+  ui::Fault failure_;
   std::vector<std::string> rules_;
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "firmware/checks/deviation_picture.h"
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/disparity_map.h"
 #include "firmware/measure/rule_figures.h"
@@ -154,7 +155,22 @@ void BenchPictures::draw_shapes(const Products& products) {
   }
 }
 
-void BenchPictures::draw(const Products& products) {
+// Where nothing is known of one of the two surfaces, the photograph stays.
+void BenchPictures::draw_change(const pipeline::RectifiedPair& pair, const HandChange& change) {
+  StageCanvas canvas(begin(BenchStage::Mesh, 1).rgb.get(), kSide);
+  draw_photograph(pair, 0.5, canvas);
+  const FaceWindow window(pair, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const float nearer =
+          change.nearer_mm(static_cast<int>(window.back_x(x)), static_cast<int>(window.back_y(y)));
+      if (std::isnan(nearer)) continue;
+      const auto c = deviation_colour(static_cast<double>(nearer / change.figures().full_colour_mm));
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+}
+
+void BenchPictures::draw(const Products& products, const HandChange& change) {
   wipe();
   if (products.frame) {
     draw_input(products.frame->left, 0);
@@ -168,6 +184,7 @@ void BenchPictures::draw(const Products& products) {
     draw_disparity(*products.pair, *products.matches);
   }
   draw_shapes(products);
+  if (change.figures().known) draw_change(*products.pair, change);
 }
 
 ui::BenchPicture BenchPictures::picture(BenchStage stage, std::size_t side) const {

@@ -5,7 +5,8 @@
 // longer than budget::kBenchPictureSidePx, in memory of fixed size; pages nobody touched cost nothing.
 //   Input, Processed, Rectified   both views, whole
 //   Matches                       the face: rejected ones in the colour of the rule that took them first
-//   Disparity, Cloud, Mesh, Texture   the face
+//   Disparity, Cloud, Mesh, Texture   the face; beside the mesh what pairs by hand changed, where there are
+//   any
 // Thread: the worker draws while its job runs; main reads and wipes while none runs. No errors.
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "firmware/bench/show/hand_change.h"
 #include "firmware/session/session.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
@@ -26,7 +28,7 @@ class BenchPictures {
 
   BenchPictures();
   // Draws what the products have.
-  void draw(const Products& products);
+  void draw(const Products& products, const HandChange& change);
   // The left picture (0) or the right one; empty where the stage has none.
   ui::BenchPicture picture(ui::BenchStage stage, std::size_t side) const;
   void copy_from(const BenchPictures& other);
@@ -44,6 +46,7 @@ class BenchPictures {
   void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_shapes(const Products& products);
+  void draw_change(const pipeline::RectifiedPair& pair, const HandChange& change);
 
   std::array<std::array<One, 2>, ui::kBenchStages> all_;
 };

@@ -9,7 +9,8 @@ namespace relievo::firmware {
 void show_lines(const std::vector<LogEntry>& entries, std::vector<ui::LogLine>& lines) {
   lines.clear();
   for (const LogEntry& entry : entries) {
-    ui::LogLine& line = lines.emplace_back(ui::LogLine{entry.at, entry.fault, entry.sentence, entry.key, {}});
+    ui::LogLine& line =
+        lines.emplace_back(ui::LogLine{entry.at, entry.fault, entry.text, entry.code, entry.event, {}});
     for (std::size_t i = 0; i < std::min(entry.values.size(), line.values.size()); ++i)
       line.values[i] = entry.values[i];
   }

@@ -183,7 +183,7 @@ void RecordsDesk::erase(std::int64_t number) {
       JobPlace::Keeper,
       [this, id = storage::SubjectId{number}](JobControl&) { return tools().store.erase_subject(id); },
       [this, number, visit = visit_](const std::optional<Error>& error) {
-        if (!error) tools().log.say("record #{} was erased", {std::to_string(number)});
+        if (!error) tools().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
         if (visit != visit_) return;
         told(error);
         erased_ = !error;
@@ -207,7 +207,7 @@ void RecordsDesk::take_out(std::int64_t number) {
         return export_records(tools().store, tools().board.media(), subjects, control, *trace);
       },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
-        if (trace->whole > 0) tools().log.say("records exported: {}", {std::to_string(trace->whole)});
+        if (trace->whole > 0) tools().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
         if (visit == visit_) exported(error, *trace);
       });
 }

@@ -45,7 +45,7 @@ void SelfTestDesk::begin(Check check, JobPlace place, Errands::Work work) {
     if (error) tools().log.fault(*error);
     if (visit != visit_) return;
     view_.states[at] = error ? CheckState::Bad : CheckState::Good;
-    view_.problems[at] = error ? error->what.view() : std::string_view();
+    view_.problems[at] = error ? ui::fault_of(*error) : ui::Fault{};
   });
 }
 
@@ -53,7 +53,7 @@ void SelfTestDesk::ask(const ui::StaffWish& wish) {
   if (wish.verb != ui::kSelfTestBegin || running_ > 0) return;
   view_ = {};
   DeskTools& t = tools();
-  t.log.say("self-test begun");
+  t.log.say(ui::LogEvent::SelfTestBegun);
   begin(Check::Memory, JobPlace::Keeper, [](JobControl&) -> Result<void> {
     if (peak_rss_bytes() > budget::kApplianceBytes)
       return Error{Errc::OutOfMemory,

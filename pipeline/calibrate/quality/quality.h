@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "hal/base/sentence.h"
 #include "pipeline/calibrate/quality/uncertainty.h"
 
 namespace relievo::pipeline {
@@ -40,8 +39,8 @@ struct ViewQuality {
 
 struct CalibrationQuality {
   CalibrationVerdict verdict = CalibrationVerdict::Refuse;
-  std::vector<Sentence> reasons;   // most important first
-  std::vector<ViewQuality> views;  // all that were given, in their order
+  std::vector<std::string> reasons;  // most important first
+  std::vector<ViewQuality> views;    // all that were given, in their order
   int used = 0;
   double left_rms_px = 0;  // each camera alone, all its boards
   double right_rms_px = 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "hal/base/words.h"
 #include "pipeline/calibrate/quality/limits.h"
 #include "pipeline/calibrate/quality/quality_measures.h"
 
@@ -18,8 +19,9 @@ class Verdict {
     quality.verdict = CalibrationVerdict::Pass;
   }
 
-  void say(CalibrationVerdict at_best, Literal key, std::initializer_list<std::string_view> values) {
-    quality_.reasons.emplace_back(key, values);
+  void say(CalibrationVerdict at_best, std::string_view pattern,
+           std::initializer_list<std::string_view> values) {
+    quality_.reasons.push_back(filled(pattern, values));
     quality_.verdict = std::max(quality_.verdict, at_best);
   }
 
@@ -76,7 +78,7 @@ void judge_board(const CalibrationQuality& q, Verdict& v) {
 }
 
 void judge_depth(const CalibrationQuality& q, Verdict& v) {
-  const auto judge = [&v](double mm, Literal worst_words, Literal good_words) {
+  const auto judge = [&v](double mm, std::string_view worst_words, std::string_view good_words) {
     if (mm > limits::kWorstDepthMm)
       v.say(CalibrationVerdict::Refuse, worst_words,
             {decimal(kFaceMm, 0), decimal(mm, 2), decimal(limits::kWorstDepthMm, 1)});

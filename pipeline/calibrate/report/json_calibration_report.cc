@@ -133,13 +133,6 @@ nlohmann::ordered_json views_json(const CalibratorOutput& out) {
 
 }  // namespace
 
-std::vector<std::string> texts(const std::vector<Sentence>& reasons) {
-  std::vector<std::string> all;
-  all.reserve(reasons.size());
-  for (const Sentence& reason : reasons) all.push_back(reason.text());
-  return all;
-}
-
 std::string calibration_report_json(const CalibrationReport& r) {
   const CalibrationQuality& q = r.output.quality;
   const auto name_of = [&q](int view) -> nlohmann::ordered_json {
@@ -151,7 +144,7 @@ std::string calibration_report_json(const CalibrationReport& r) {
                                          {"source", r.source},
                                          {"board", board_json(r.input.pattern)},
                                          {"verdict", word(q.verdict)},
-                                         {"reasons", texts(q.reasons)},
+                                         {"reasons", q.reasons},
                                          {"views_used", q.used},
                                          {"views_given", q.views.size()},
                                          {"pair_rms_px", q.pair_rms_px},

@@ -53,7 +53,7 @@ std::string verdict_section(const CalibrationReport& r) {
   out += "<svg viewBox=\"0 0 48 48\" aria-hidden=\"true\">" + std::string(words.icon) + "</svg>";
   out += "<div><h2>" + std::string(words.word) + "</h2><p>" + std::string(words.means) +
          "</p></div></div>\n<ul>\n";
-  for (const Sentence& reason : q.reasons) out += "<li>" + escaped(sentence(reason.text())) + "</li>\n";
+  for (const std::string& reason : q.reasons) out += "<li>" + escaped(sentence(reason)) + "</li>\n";
   return out + "</ul>\n" + left_out(q) + "</section>\n";
 }
 

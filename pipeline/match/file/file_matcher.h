@@ -1,29 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FileMatcher ("file-matches"): matches made by hand or elsewhere, read from a text file. One match a line:
-//
-//   # left x, left y, disparity, and one standard deviation of the disparity where it is known
-//   512.5 300 41.25
-//   600, 310.5, 40, 0.2
-//
-// full-size rectified pixels; blanks, tabs or one comma between numbers; '#' begins a comment; a point as
-// decimal sign. The file says where: keypoints are not asked, and the result is scattered whatever they are.
+// FileMatcher ("file-matches"): matches made by hand or elsewhere, read from a text file (match_file.h).
+// The file says where: keypoints are not asked, and the result is scattered whatever they are.
 // cost is one minus the correlation of 9 x 9 pixels at the match; sigma_px the file's, else the option's.
-// Errors: NotFound or IoFailed (the file), InvalidInput (a line that is none of the above, a place outside
-// the pictures, a sigma that is not positive, more than 4 MiB), each with the file and the line; as Matcher.
+// Errors: the file's; TooFewMatches where it holds none; as Matcher.
 #pragma once
 
 #include <string>
 
 #include "pipeline/base/options.h"
+#include "pipeline/match/file/match_file.h"
 #include "pipeline/match/matcher.h"
 
 namespace relievo::pipeline {
 
 struct FileMatcherOptions {
-  std::string path;       // none: matching fails and says so
-  float sigma_px = 0.5F;  // where the file has none: what a careful hand reaches
+  std::string path;               // none: matching fails and says so
+  float sigma_px = kHandSigmaPx;  // where the file has none
 };
 
 template <typename Field>

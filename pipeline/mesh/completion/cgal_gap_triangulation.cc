@@ -21,11 +21,12 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
 // The faces to the right of the border, and all that is reached from them without crossing it.
 std::set<Triangulation::Face_handle> outside(const Triangulation& cdt,
                                              std::span<const std::array<std::uint32_t, 2>> border,
-                                             const std::vector<Triangulation::Vertex_handle>& at) {
+                                             const std::vector<Triangulation::Vertex_handle>& at,
+                                             bool beyond_hull) {
   std::set<Triangulation::Face_handle> found;
   std::vector<Triangulation::Face_handle> stack;
   const auto reach = [&](Triangulation::Face_handle f) {
-    if (!cdt.is_infinite(f) && found.insert(f).second) stack.push_back(f);
+    if ((beyond_hull || !cdt.is_infinite(f)) && found.insert(f).second) stack.push_back(f);
   };
   for (const auto& [from, to] : border) {
     Triangulation::Face_handle face;
@@ -45,11 +46,22 @@ std::set<Triangulation::Face_handle> outside(const Triangulation& cdt,
   return found;
 }
 
+// A notch between places of the border alone; wider ones have added places within.
+bool narrow(Triangulation::Face_handle face) {
+  constexpr double kNarrow = 8;
+  for (int k = 0; k < 3; ++k)
+    if (CGAL::squared_distance(face->vertex(k)->point(), face->vertex((k + 1) % 3)->point()) >
+        kNarrow * kNarrow)
+      return false;
+  return true;
+}
+
 }  // namespace
 
 std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
     std::span<const Vec2f> plane, std::span<const std::array<std::uint32_t, 2>> border,
-    std::span<const std::uint32_t> added, std::pmr::memory_resource* memory) {
+    std::span<const std::uint32_t> added, std::optional<std::uint32_t> far_point,
+    std::pmr::memory_resource* memory) {
   Triangulation cdt;
   std::vector<Triangulation::Vertex_handle> at(plane.size());
   std::vector<char> is_added(plane.size(), 0);
@@ -65,10 +77,14 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
   for (const auto& [from, to] : border)
     if (at[from] != at[to]) cdt.insert_constraint(at[from], at[to]);
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles(memory);
-  for (const auto face : outside(cdt, border, at)) {
+  for (const auto face : outside(cdt, border, at, far_point.has_value())) {
     std::array<std::uint32_t, 3> t{};
-    bool known = true, fresh = false;
+    bool known = true, fresh = far_point && (cdt.is_infinite(face) || narrow(face));
     for (int k = 0; k < 3; ++k) {
+      if (cdt.is_infinite(face->vertex(k))) {
+        t[static_cast<std::size_t>(k)] = *far_point;
+        continue;
+      }
       const auto v = face->vertex(k)->info();
       // Where the border crosses itself in the plane, CGAL adds vertices of its own.
       known = known && v < plane.size() && at[v] == face->vertex(k);

@@ -71,19 +71,29 @@ void end_at_jaw(FaceRelief& radius, int c, float cell_mm) {
 
 }  // namespace
 
-FittedHead fit_generic_head(const UnrolledHead& head, double cell_mm, double misfit_mm) {
+FaceRelief fit_generic_face(const UnrolledHead& head, double cell_mm, double misfit_mm) {
   const Fit fit = fit_modes(head, cell_mm, misfit_mm);
-  FittedHead fitted{head.added, head.added};
-  FaceRelief &radius = fitted.radius, &sigma = fitted.sigma;
+  FaceRelief radius = head.added;
   for (int r = 0; r < radius.rows(); ++r)
     for (int c = 0; c < radius.columns(); ++c) {
       const HeadPlace place = head_place(radius.x_mm(c), radius.y_mm(r));
-      const Modes modes = modes_of(place);
-      radius.z(c, r) = static_cast<float>(place.mean_mm + modes.dot(fit.weight));
-      sigma.z(c, r) = static_cast<float>(std::sqrt(misfit_mm * misfit_mm + place.left_mm * place.left_mm +
-                                                   modes.dot(fit.covariance * modes)));
+      radius.z(c, r) = static_cast<float>(place.mean_mm + modes_of(place).dot(fit.weight));
     }
   for (int c = 0; c < radius.columns(); ++c) end_at_jaw(radius, c, static_cast<float>(cell_mm));
+  return radius;
+}
+
+FittedGlobe fit_generic_globe(const UnrolledHead& head, double cell_mm, double misfit_mm,
+                              std::pmr::memory_resource* memory) {
+  const Fit fit = fit_modes(head, cell_mm, misfit_mm);
+  FittedGlobe fitted{std::pmr::vector<double>(memory), std::pmr::vector<double>(memory)};
+  for (std::size_t node = 0; node < kGlobeNodes; ++node) {
+    const HeadPlace place = globe_place(node);
+    const Modes modes = modes_of(place);
+    fitted.radius_mm.push_back(place.mean_mm + modes.dot(fit.weight));
+    fitted.sigma_mm.push_back(
+        std::sqrt(misfit_mm * misfit_mm + place.left_mm * place.left_mm + modes.dot(fit.covariance * modes)));
+  }
   return fitted;
 }
 

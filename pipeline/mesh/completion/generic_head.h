@@ -1,30 +1,66 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What heads usually look like: radii about the upright axis (unrolled_head.h) as a mean and kHeadModes ways
-// in which people differ from it, each scaled to one standard deviation (principal components; Blanz and
-// Vetter, A morphable model for the synthesis of 3D faces, 1999, without their correspondences: a radius is
-// where it is). Learned from kHeadPeople heads of hal/sim, whose measures follow Farkas, each laid into the
-// frame that find_head_frame() found on it; generic_head_data.cc is written by `make_generic_head` in
-// tests/bench. Millimetres. Thread: any.
+// What heads usually look like: radii as a mean and kHeadModes ways in which people differ from it, each
+// scaled to one standard deviation (principal components; Blanz and Vetter, A morphable model for the
+// synthesis of 3D faces, 1999, without their correspondences: a radius is where it is). Two sets of radii:
+// of the face about the head's upright axis (unrolled_head.h), and of the whole head, its neck cut off, at
+// the nodes of a globe (globe.h) about a point within it; its modes are what goes with those of the face.
+// Learned from kHeadPeople heads of hal/sim, whose measures follow Farkas, each laid into the frame that
+// find_head_frame() found on it. generic_head.bin holds them and is part of the program;
+// generic_head.bin.license says how it is made. Millimetres, head frame. Thread: any.
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+
+#include "hal/base/result.h"
+#include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
 
 inline constexpr int kHeadColumns = 51;  // arcs from -kHalfArc to kHalfArc
 inline constexpr int kHeadRows = 39;     // heights from -kBelow to kAbove
+inline constexpr int kGlobeTimes = 4;    // the globe's triangles were quartered
+inline constexpr int kGlobeNodes = 2562;
+inline constexpr Vec3d kGlobeCentre{0, 10, -100};
 inline constexpr int kHeadModes = 24;
 inline constexpr int kHeadPeople = 300;
 inline constexpr double kHeadMeanUnit = 0.01;  // mm a count
 inline constexpr double kHeadModeUnit = 0.001;
 
-extern const std::array<std::int16_t, kHeadColumns * kHeadRows> kHeadMean;
-extern const std::array<std::array<std::int16_t, kHeadColumns * kHeadRows>, kHeadModes> kHeadMode;
-extern const std::array<std::int16_t, kHeadColumns * kHeadRows>
-    kHeadLeft;  // rms of what no mode shows, of heads kept apart; kHeadMeanUnit
+// How generic_head.bin begins; its numbers are little-endian. Counts of 16 bits follow: mean, modes and left
+// of the face, then of the whole head.
+struct GenericHeadHeader {
+  std::array<char, 8> magic;
+  std::int32_t columns, rows, nodes, modes;
+  bool operator==(const GenericHeadHeader&) const = default;
+};
+static_assert(std::endian::native == std::endian::little);
+inline constexpr GenericHeadHeader kGenericHeadHeader{
+    {'R', 'e', 'l', 'H', 'e', 'a', 'd', '1'}, kHeadColumns, kHeadRows, kGlobeNodes, kHeadModes};
+
+// One set of radii.
+struct HeadRadii {
+  std::span<const std::int16_t> mean;  // kHeadMeanUnit
+  std::span<const std::int16_t> mode;  // one after the other; kHeadModeUnit
+  std::span<const std::int16_t> left;  // rms of what no mode shows, of heads kept apart; kHeadMeanUnit
+};
+
+struct GenericHead {
+  HeadRadii face;   // rows of kHeadColumns, from the lowest
+  HeadRadii globe;  // kGlobeNodes
+};
+
+// Points into `file`. Error: InvalidInput where it is none.
+Result<GenericHead> read_generic_head(std::span<const std::byte> file);
+
+// The program's own.
+std::span<const std::byte> generic_head_file();
+const GenericHead& generic_head();
 
 // The mean and every mode at one place, smooth between the cells.
 struct HeadPlace {
@@ -32,6 +68,7 @@ struct HeadPlace {
   double left_mm = 0;
   std::array<double, kHeadModes> mode_mm{};
 };
-HeadPlace head_place(double arc_mm, double y_mm);
+HeadPlace head_place(double arc_mm, double y_mm);  // of the face
+HeadPlace globe_place(std::size_t node);
 
 }  // namespace relievo::pipeline

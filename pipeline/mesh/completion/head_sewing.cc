@@ -4,21 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
 #include <vector>
 
 #include "pipeline/mesh/completion/gap_triangulation.h"
-#include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-Vec3f narrow(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 using Edge = std::array<std::uint32_t, 2>;
 
@@ -46,36 +39,24 @@ std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
   return border;
 }
 
-struct Addition {
-  Vec3f at_mm;  // the camera's frame
-  Vec2f plane;
-  float sigma_mm;
-};
-
-// Not where the border's own triangles still lie.
-std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head,
-                                     double cell_mm, const SewingRules& rules, Arena& scratch) {
-  std::pmr::vector<Addition> all(&scratch);
-  for (int r = 0; r < head.own.rows(); ++r)
-    for (int c = 0; c < head.own.columns(); ++c) {
-      const float radius = head.added.z(c, r);
-      const float away = head.distance_mm[head.index(c, r)];
-      if (std::isnan(radius) || away < 1.5F * static_cast<float>(cell_mm)) continue;
-      const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
-      const double sigma = rules.sigma ? static_cast<double>(rules.sigma->z(c, r))
-                                       : rules.sigma_mm + rules.sigma_per_mm * static_cast<double>(away);
-      all.push_back({narrow(apply(camera_from_head, rolled(arc, y, static_cast<double>(radius)))),
-                     {static_cast<float>(arc), static_cast<float>(y)},
-                     static_cast<float>(sigma)});
-    }
-  return all;
+std::pmr::vector<Edge> directed_edges(const FaceMesh& mesh, Arena& scratch) {
+  std::pmr::vector<Edge> edges(&scratch);
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  return edges;
 }
 
-// What the gap's triangles may be: short edges, seen from outside, and no edge that the surface has already.
-bool fits(const FaceMesh& mesh, const Triangle& t, float longest_mm) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) > longest_mm * longest_mm)
-      return false;
+// What the gap's triangles may be: of short edges, none of which the surface has already; where the border
+// folds in the plane, its wrong side was reached.
+bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, double longest_mm) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Edge edge{t[k], t[(k + 1) % 3]};
+    const float squared = squared_distance(mesh.vertices_mm[edge[0]], mesh.vertices_mm[edge[1]]);
+    if (static_cast<double>(squared) > longest_mm * longest_mm) return false;
+    if (std::binary_search(own.begin(), own.end(), edge)) return false;
+  }
   return true;
 }
 
@@ -102,54 +83,39 @@ FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
   return out;
 }
 
-FaceMesh joined(const FaceMesh& mesh, const UnrolledHead& head, std::span<const Addition> added,
-                double longest_edge_mm, StageContext& context) {
+}  // namespace
+
+FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
+             const SewingRules& rules, StageContext& context) {
   FaceMesh whole(&context.scratch);
   whole.vertices_mm.assign(mesh.vertices_mm.begin(), mesh.vertices_mm.end());
   whole.sigma_mm.assign(mesh.sigma_mm.begin(), mesh.sigma_mm.end());
   whole.measured.assign(mesh.measured.begin(), mesh.measured.end());
   whole.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-  std::pmr::vector<Vec2f> plane(&context.scratch);
-  plane.reserve(mesh.vertices_mm.size() + added.size());
-  for (const Vec3f& v : head.flat.vertices_mm) plane.push_back({v.x, v.y});
-  std::pmr::vector<std::uint32_t> fresh(&context.scratch);
-  for (const Addition& a : added) {
-    fresh.push_back(static_cast<std::uint32_t>(whole.vertices_mm.size()));
+  const auto add = [&whole](const Addition& a) {
     whole.vertices_mm.push_back(a.at_mm);
     whole.sigma_mm.push_back(a.sigma_mm);
     whole.measured.push_back(0);
-    plane.push_back(a.plane);
+    return static_cast<std::uint32_t>(whole.vertices_mm.size() - 1);
+  };
+  std::pmr::vector<Vec2f> places(plane.begin(), plane.end(), &context.scratch);
+  std::pmr::vector<std::uint32_t> fresh(&context.scratch);
+  for (const Addition& a : added) {
+    fresh.push_back(add(a));
+    places.push_back(a.plane);
   }
+  std::optional<std::uint32_t> far_point;
+  if (rules.far_point) far_point = add(*rules.far_point);
   const auto border = border_of(mesh, context.scratch);
-  const auto gap = triangulate_gap(plane, border, fresh, &context.scratch);
+  const auto own = directed_edges(mesh, context.scratch);
+  const auto gap = triangulate_gap(places, border, fresh, far_point, &context.scratch);
   for (const Triangle& t : gap)
-    if (fits(whole, t, static_cast<float>(longest_edge_mm))) whole.triangles.push_back(t);
+    if (fits(whole, own, t, rules.longest_edge_mm)) whole.triangles.push_back(t);
   keep_one_surface(whole.vertices_mm, whole.triangles, {0}, &context.scratch);
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)
     if (mesh.measured[v] != 0) whole.normals[v] = mesh.normals[v];
   return compacted(whole, context.output, context.scratch);
-}
-
-}  // namespace
-
-Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm,
-                               const std::function<SewingRules(UnrolledHead&)>& propose,
-                               StageContext& context) {
-  const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
-  if (!frame) {
-    if (frame.error().code == Errc::PoorGeometry) return mesh;
-    return frame.error();
-  }
-  const Arena::Mark mark(context.scratch);
-  UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
-  if (context.stop()) return stopped;
-  const SewingRules rules = propose(head);
-  if (context.stop()) return stopped;
-  const auto added = additions(head, inverse(frame->head_from_camera), cell_mm, rules, context.scratch);
-  if (added.empty()) return mesh;
-  return joined(mesh, head, added, rules.longest_edge_mm, context);
 }
 
 }  // namespace relievo::pipeline

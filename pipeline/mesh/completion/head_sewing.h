@@ -6,27 +6,29 @@
 // `output`, the rest in scratch; CGAL's triangulation of the gap takes from the heap. Thread: any.
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <span>
 
 #include "pipeline/base/stage.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
 
-struct SewingRules {
-  double longest_edge_mm = 12;        // wider gaps stay open
-  double sigma_mm = 0;                // of an added place at the seam,
-  double sigma_per_mm = 0;            // and how much more for each mm from it;
-  std::optional<FaceRelief> sigma{};  // or of every cell, where a completion knows it better
+struct Addition {
+  Vec3f at_mm;  // the left camera's frame
+  Vec2f plane;
+  float sigma_mm;
 };
 
-// Lays the measured surface flat on cells of `cell_mm`, lets `propose` add to it (UnrolledHead::add), and
-// sews that on. A surface in which no head is found, or to which nothing was added, comes back as it is.
-// `across`: as find_head_frame() wants it. Errors: Cancelled, OutOfMemory.
-Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_mm,
-                               const std::function<SewingRules(UnrolledHead&)>& propose,
-                               StageContext& context);
+struct SewingRules {
+  double longest_edge_mm;               // wider gaps stay open
+  std::optional<Addition> far_point{};  // of a whole head: what all of the plane's far edge runs to
+};
+
+// `plane`: where each vertex of `mesh` lies when laid flat, seen from outside. No addition may lie where the
+// mesh does. Throws std::bad_alloc.
+FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
+             const SewingRules& rules, StageContext& context);
 
 }  // namespace relievo::pipeline

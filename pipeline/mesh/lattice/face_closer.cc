@@ -98,7 +98,7 @@ std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& s
 void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l,
                       std::span<double> like, MaskShaper& shaper, Arena& scratch) {
   const UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
-  const FaceRelief fitted = fit_generic_head(head, kHeadCellMm, kHeadMisfitMm).radius;
+  const FaceRelief fitted = fit_generic_face(head, kHeadCellMm, kHeadMisfitMm);
   struct Place {
     Vec2f at;
     float radius_mm = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "pipeline/model/mesh_border.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/texture/chart/box_window.h"
@@ -53,17 +54,13 @@ std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
                                                    std::pmr::memory_resource* memory) {
   constexpr float kReachMm = 38;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0,
-                                      memory);  // 0 where the triangles around a vertex close
-  for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+  const std::pmr::vector<std::uint8_t> at_border = border_vertices(mesh, memory);
   std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // the nearest vertex of it
   const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
   for (std::uint32_t v = 0; v < border.size(); ++v)
-    if (turn[v] != 0 && completed(v)) border[v] = v;
-  const auto squared_mm = [&](std::uint32_t v, std::uint32_t at_border) {
-    return squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]);
+    if (at_border[v] != 0 && completed(v)) border[v] = v;
+  const auto squared_mm = [&](std::uint32_t v, std::uint32_t w) {
+    return squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[w]);
   };
   sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
     if (border[from] == kNone || border[to] == border[from] || !completed(to)) return false;

@@ -110,6 +110,20 @@ class BenchRig {
     }
     turn();
   }
+  // A finger comes down at one place of it and goes to another, in shares.
+  void drag(std::string_view id, float from_x, float from_y, float to_x, float to_y) {
+    const ui::Node* node = screen->tree().find(id);
+    ASSERT_NE(node, nullptr) << id << " is not on the screen";
+    const ui::Rect at = node->rect;
+    const auto feed = [&](ui::Input::Kind kind, float x, float y) {
+      screen->feed({kind, 3, at.x + at.w * x, at.y + at.h * y}, view);
+      turn();
+    };
+    feed(ui::Input::Kind::Down, from_x, from_y);
+    for (const float part : {0.3F, 0.7F, 1.0F})
+      feed(ui::Input::Kind::Move, from_x + part * (to_x - from_x), from_y + part * (to_y - from_y));
+    feed(ui::Input::Kind::Up, to_x, to_y);
+  }
   // After what was written the stick was let go.
   void plug_in() { dynamic_cast<hal::FolderMedia&>(board->media()).plug(stick()); }
   bool shows(std::string_view id) const { return screen->tree().find(id) != nullptr; }

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "firmware/measure/self_agreement.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {
@@ -34,13 +35,13 @@ class BenchTest : public testing::Test {
     if (rig().now().phase == BenchPhase::Ready && rig().now().result.algorithms.empty()) return;
     rig().tap("capture");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
-    ASSERT_EQ(rig().now().result.failure, "");
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
+    ASSERT_EQ(rig().now().result.failure.detail, "");
   }
   static void again() {
     rig().tap("run");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+    ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
   }
   static Products& products() { return rig().appliance->session().products(); }
   // The places of an identifier in the choice.
@@ -125,7 +126,8 @@ TEST_F(BenchTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
 
   rig().tap("by hand");
   rig().tap("left", share(found.left_px.x, pair.width_px), share(found.left_px.y, pair.height_px));
-  EXPECT_TRUE(rig().now().point.waits_for_right);
+  EXPECT_TRUE(rig().now().point.matched) << "a partner is proposed";
+  EXPECT_NEAR(rig().now().point.disparity_px, found.disparity_px, 2.0);
   rig().tap("right", share(found.right_px.x, pair.width_px), share(found.right_px.y, pair.height_px));
   const ui::BenchPoint by_hand = rig().now().point;
   ASSERT_TRUE(by_hand.matched && by_hand.by_hand);
@@ -133,7 +135,103 @@ TEST_F(BenchTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
   EXPECT_NEAR(by_hand.disparity_px, found.disparity_px, 2.0);
   EXPECT_NEAR(by_hand.at_mm.z, found.at_mm.z, 8.0);
   EXPECT_GT(by_hand.sigma_mm, 0);
+  rig().tap("remove pair");
   rig().tap("by hand");
+}
+
+// A wrong patch is planted among the matches; a pair by hand mends it, and what it changed is told.
+TEST_F(BenchTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded) {
+  capture();
+  rig().tap("stage 0");
+  rig().tap("run from");
+  ASSERT_TRUE(rig().until(finished));
+  const int width = products().pair->width_px, height = products().pair->height_px;
+  const pipeline::Vec2d centre = products().pair->face_centre_px;
+  const auto in = [](double part, int whole) { return static_cast<float>(part / whole); };
+  const auto depth = [&](float x, float y) {
+    const compare::DisparityMap view = compare::model_view(*products().pair, products().model->mesh);
+    return products().pair->depth_mm(
+        static_cast<double>(view.at(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)))));
+  };
+  const auto model = [] { return *storage::encode_model(*products().model); };
+  const auto calculate = [](const char* button) {
+    rig().tap(button);
+    ASSERT_TRUE(rig().until(finished));
+    ASSERT_EQ(rig().now().result.failure, "");
+  };
+  const auto x = static_cast<float>(centre.x) + 0.3F * static_cast<float>(products().pair->face_width_px),
+             y = static_cast<float>(centre.y);
+  const double right = depth(x, y);
+  ASSERT_GT(right, 0);
+  for (pipeline::Match& m : products().matches->matches) {
+    const double r = std::hypot(static_cast<double>(m.left_px.x - x), static_cast<double>(m.left_px.y - y));
+    m.disparity_px += static_cast<float>(3 * std::exp(-r * r / 100));
+  }
+  rig().tap("stage 5");
+  calculate("run from");
+  const double wrong = depth(x, y);
+  ASSERT_GT(right - wrong, 3) << "millimetres nearer than it is";
+  const auto planted = model();
+
+  rig().tap("stage 2");
+  rig().tap("by hand");
+  rig().tap("left", in(static_cast<double>(x), width), in(static_cast<double>(y), height));
+  ASSERT_EQ(rig().now().pairs.size(), 1U);
+  ASSERT_TRUE(rig().now().point.matched);
+  EXPECT_NEAR(products().pair->depth_mm(static_cast<double>(rig().now().point.disparity_px)), right, 2.0)
+      << "what the windows say, not the planted patch";
+  EXPECT_TRUE(std::isnan(rig().now().point.moved_mm));
+  calculate("run pairs");
+  EXPECT_NEAR(depth(x, y), right, (right - wrong) / 4);
+  const ui::BenchPoint moved = rig().now().point;
+  EXPECT_NEAR(moved.moved_mm, wrong - right, 1.5) << "away";
+  EXPECT_NEAR(rig().now().change.farthest_mm, wrong - right, 2.0);
+  EXPECT_GT(rig().now().change.moved_mm2, 20);
+  EXPECT_TRUE(rig().shows("point moved") && rig().shows("moved"));
+  EXPECT_FALSE(rig().shows("run pairs")) << "calculated with";
+  rig().tap("stage 6");
+  EXPECT_FALSE(rig().now().shown[1].pixels.empty());
+  EXPECT_TRUE(rig().shows("change"));
+
+  // Saved, and loaded: the pair with it, the same bits from every stage it has a part in.
+  const auto mended = model();
+  EXPECT_NE(mended, planted);
+  rig().plug_in();
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  rig().plug_in();
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("saved 0");
+  ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
+  ASSERT_TRUE(rig().until(finished));
+  ASSERT_EQ(rig().now().pairs.size(), 1U) << rig().now().problem;
+  EXPECT_EQ(rig().now().pairs[0].disparity_px, moved.disparity_px);
+  EXPECT_EQ(model(), mended);
+  rig().tap("stage 5");
+  calculate("run from");
+  EXPECT_EQ(model(), mended);
+
+  // Either end is dragged; removed, the surface is as if it had never been.
+  rig().tap("stage 2");
+  const ui::BenchPoint before = rig().now().point;
+  ASSERT_TRUE(before.touched);
+  rig().drag("left", before.left_x, before.y, before.left_x - 0.05F, before.y + 0.03F);
+  const ui::BenchPoint dragged = rig().now().point;
+  ASSERT_EQ(rig().now().pairs.size(), 1U) << "the same pair";
+  EXPECT_NEAR(dragged.left_x, before.left_x - 0.05F, 0.005);
+  EXPECT_NEAR(dragged.y, before.y + 0.03F, 0.005);
+  rig().drag("right", dragged.right_x, dragged.y, dragged.right_x + 0.1F, dragged.y + 0.2F);
+  EXPECT_NEAR(rig().now().point.right_x, dragged.right_x + 0.1F, 0.03) << "to the likeness near the finger";
+  EXPECT_EQ(rig().now().point.y, dragged.y) << "on its own row";
+  EXPECT_EQ(rig().now().point.left_x, dragged.left_x);
+  rig().tap("remove pair");
+  EXPECT_TRUE(rig().now().pairs.empty());
+  calculate("run pairs");
+  EXPECT_EQ(model(), planted);
+  rig().tap("by hand");
+  rig().tap("capture");
+  ASSERT_TRUE(rig().until(finished));
 }
 
 TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
@@ -177,7 +275,7 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   rig().open(StaffPage::Algorithms);
   EXPECT_EQ(rig().stages->algorithms().get("matcher"), "refined") << "visitors' are another choice";
   rig().tap("apply");
-  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem.detail;
   EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
   const auto kept = pipeline::AlgorithmSet::from_text(*rig().store->setting("algorithms"));
   ASSERT_TRUE(kept.has_value());
@@ -220,7 +318,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
   ASSERT_TRUE(rig().until(finished));
-  ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem;
+  ASSERT_EQ(rig().now().phase, BenchPhase::Ready) << rig().now().problem.detail;
   EXPECT_EQ(model(), as_saved);
   EXPECT_EQ(rig().now().result.algorithms, "") << "its algorithms came with it";
   EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "grid");
@@ -235,7 +333,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
     rig().tap("stage " + std::to_string(stage));
     rig().tap("run from");
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().result.failure, "");
+    ASSERT_EQ(rig().now().result.failure.detail, "");
     EXPECT_EQ(model(), as_saved) << stage;
   }
 
@@ -245,7 +343,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return !rig().now().problem.empty(); }));
-  EXPECT_NE(rig().now().problem.find("damaged"), std::string_view::npos);
+  EXPECT_NE(rig().now().problem.detail.find("damaged"), std::string_view::npos);
   EXPECT_EQ(rig().now().phase, BenchPhase::Ready);
   EXPECT_EQ(model(), as_saved);
 }
@@ -253,7 +351,7 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
   rig().open(StaffPage::Cameras);
   ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; }))
-      << rig().now().problem;
+      << rig().now().problem.detail;
   for (const ui::BenchCamera& camera : rig().now().cameras.camera) {
     EXPECT_FALSE(camera.picture.pixels.empty());
     EXPECT_GT(camera.mean, 0.05F);
@@ -269,11 +367,11 @@ TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
 TEST_F(BenchTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
   rig().open(StaffPage::Cameras);
   ASSERT_TRUE(rig().until([] { return rig().shows("show relief"); }))
-      << rig().now().problem;  // with the first pair
+      << rig().now().problem.detail;  // with the first pair
   EXPECT_FALSE(rig().shows("relief"));
   rig().tap("show relief");
   ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); }))
-      << rig().now().cameras.problem;
+      << rig().now().cameras.problem.detail;
   rig().turn();
   EXPECT_TRUE(rig().shows("relief") && rig().shows("left live"));
   EXPECT_FALSE(rig().shows("right live"));
@@ -312,7 +410,8 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(
       rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
   if (rig().now().calibration.running) rig().tap("calibration finish");
-  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; })) << rig().now().calibration.problem;
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
+      << rig().now().calibration.problem.detail;
   const ui::BenchCalibration made = rig().now().calibration;
   ASSERT_NE(made.verdict, ui::BenchVerdict::Refuse) << (made.reasons.empty() ? "" : made.reasons.front());
   ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
@@ -322,13 +421,13 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
 
   rig().tap("calibration store");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; }))
-      << rig().now().calibration.problem;
+      << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().revision, 2U);
   EXPECT_EQ(rig().stages->calibration()->revision, 2U) << "visitors are measured with it";
   EXPECT_EQ(rig().store->active_calibration()->revision, 2U);
   // The one before it comes back by a touch.
   rig().tap("calibration 1");
-  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem;
+  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().stages->calibration()->revision, 1U);
 }
 

@@ -69,7 +69,7 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
   Reconstruction reconstruction;
   Console console;
   const auto done = reconstruction.run(folder.path() / "left.png", folder.path() / "right.png",
-                                       folder.path() / "rig_calibrated.yml", {}, console);
+                                       folder.path() / "rig_calibrated.yml", {}, {}, console);
   ASSERT_TRUE(done) << done.error().what.view();
   const auto view = measure::TruthView::read(folder.path());
   const auto surface = measure::read_true_surface(folder.path() / "head.ply");
@@ -104,7 +104,7 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
   Reconstruction upright;
   Console console;
   ASSERT_TRUE(upright.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig.yml",
-                          {}, console));
+                          {}, {}, console));
   for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
     for (const char* eye : {"left", "right"}) {
       const auto picture = hal::read_picture(folder.path() / (std::string(eye) + ".png"));
@@ -115,7 +115,7 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
     ASSERT_TRUE(pipeline::write_calibration(folder.path() / "lying.yml", test::laid(*calibration, side)));
     Reconstruction lying;
     const auto done = lying.run(folder.path() / "lying_left.png", folder.path() / "lying_right.png",
-                                folder.path() / "lying.yml", {}, console);
+                                folder.path() / "lying.yml", {}, {}, console);
     ASSERT_TRUE(done) << done.error().what.view();
     const pipeline::ModelQuality& expected = upright.report().quality;
     // The outline is known to a part of the lattice's cells, 2 mm wide on pictures this small.

@@ -69,15 +69,15 @@ class KioskCalibrationTest : public StaffHands {
     tap("calibration begin");
     ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Calibrate; }));
     ASSERT_TRUE(until([this] { return bench().calibration.views >= 8 || !bench().calibration.running; }))
-        << bench().calibration.problem;
+        << bench().calibration.problem.detail;
     if (bench().calibration.running) tap("calibration finish");
     ASSERT_TRUE(until([this] { return bench().calibration.ended || !bench().calibration.problem.empty(); }));
-    ASSERT_EQ(bench().calibration.problem, "");
-    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.problem;
+    ASSERT_EQ(bench().calibration.problem.detail, "");
+    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.problem.detail;
     EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
     tap("calibration store");
     ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; }))
-        << bench().calibration.problem;
+        << bench().calibration.problem.detail;
     EXPECT_TRUE(bench().calibrated);
   }
 };
@@ -156,7 +156,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   kiosk->turn();
   tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");
   ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; }))
-      << bench().calibration.problem;
+      << bench().calibration.problem.detail;
   sign_out();
   open_again();
   ASSERT_TRUE(reach(ui::Step::Attract)) << "a calibration that was chosen ends it for good";

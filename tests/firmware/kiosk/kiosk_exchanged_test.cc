@@ -80,7 +80,8 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   };
   ASSERT_TRUE(until([&] { return bench().history_count == 2; }));
   tap(bench().history[0].active ? "calibration 1" : "calibration 0");
-  ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; })) << bench().problem;
+  ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; }))
+      << bench().problem.detail;
   EXPECT_FALSE(says("R2"));
   sign_out();
   EXPECT_TRUE(reach(ui::Step::Attract));

@@ -44,7 +44,7 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   tap("capture");
   ASSERT_TRUE(until(
       [this] { return bench().phase == ui::BenchPhase::Ready || bench().phase == ui::BenchPhase::Failed; }));
-  ASSERT_TRUE(stands()) << bench().problem;
+  ASSERT_TRUE(stands()) << bench().problem.detail;
   tap("back");
   tap("open trigger");
   tap("begin");

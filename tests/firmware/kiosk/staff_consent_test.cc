@@ -41,7 +41,9 @@ class StaffConsentTest : public StaffHands {
     kiosk->turn();
     return shelf().outcome;
   }
+  // The detail where the page shows one, else how the try ended.
   std::string said() const {
+    if (const ui::Fault* fault = shelf().fault; fault != nullptr && says(fault->detail)) return fault->detail;
     const ui::Node* node = find("outcome");
     std::string words(node == nullptr ? std::string_view() : node->name);
     for (const char* mark : {"\u2066", "\u2068", "\u2069"})

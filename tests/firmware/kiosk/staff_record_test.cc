@@ -42,7 +42,7 @@ class StaffRecordTest : public StaffHands {
     tap("open stages");
     EXPECT_EQ(find("record"), nullptr) << "nothing to be recorded yet";
     tap("capture");
-    ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << bench().problem;
+    ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << bench().problem.detail;
   }
   Outcome record() { return use_stick("record"); }
   Outcome use_stick(const char* button) {
@@ -138,7 +138,7 @@ TEST_F(StaffRecordTest, AReconstructionThatFailedIsSavedAndLoadedAsFarAsItCame) 
   ASSERT_TRUE(until([this] { return find("saved 0") != nullptr; }));
   tap("saved 0");
   ASSERT_TRUE(until([this, before] { return bench().can_record && bench().shown[0].version != before; }))
-      << bench().problem;
+      << bench().problem.detail;
   EXPECT_FALSE(bench().result.failure.empty());
   EXPECT_EQ(record(), Outcome::Done);
   is_replayed_bit_for_bit(stick() / "captures" / recordings_on(stick()).front());

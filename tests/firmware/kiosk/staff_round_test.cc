@@ -34,7 +34,7 @@ class StaffRoundTest : public StaffHands {
     tap("open log");
     bool signed_in = false;
     for (const ui::LogLine& line : kiosk->view().service->log->lines)
-      signed_in = signed_in || line.key == "technician signed in";
+      signed_in = signed_in || line.event == ui::LogEvent::TechnicianSignedIn;
     EXPECT_TRUE(signed_in);
     tap("back");
   }
@@ -205,7 +205,7 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
   speak(ui::Language::Arabic);
   read("سجّل الفني دخوله");
   for (const ui::LogLine& line : kiosk->view().service->log->lines)
-    EXPECT_TRUE(line.at.starts_with("20")) << line.sentence;
+    EXPECT_TRUE(line.at.starts_with("20")) << line.text;
 }
 
 }  // namespace

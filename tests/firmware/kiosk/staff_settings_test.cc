@@ -27,7 +27,7 @@ class StaffSettingsTest : public StaffHands {
   }
   bool logged(std::string_view words) const {
     for (const LogEntry& entry : kiosk->desk().log().entries()) {
-      if (entry.sentence.find(words) != std::string::npos) return true;
+      if (entry.text.find(words) != std::string::npos) return true;
     }
     return false;
   }
@@ -80,7 +80,7 @@ TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   tap("open log");
   int told = 0;
   for (const ui::LogLine& line : kiosk->view().service->log->lines)
-    told += line.sentence.find("what is usual holds") != std::string_view::npos ? 1 : 0;
+    told += line.text.find("what is usual holds") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(told, 2);
 }
 

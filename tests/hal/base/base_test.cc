@@ -16,6 +16,7 @@
 #include "hal/base/mailbox.h"
 #include "hal/base/result.h"
 #include "hal/base/thread_pool.h"
+#include "hal/base/words.h"
 
 namespace relievo {
 namespace {
@@ -49,6 +50,19 @@ TEST(Error, KeepsTheEndOfALongPath) {
   const Error error = Error{Errc::NotFound, "gone"}.at(path);
   EXPECT_EQ(error.where().size(), 191U);
   EXPECT_TRUE(error.where().ends_with("/end.png"));
+}
+
+TEST(Words, ADetailIsOneLineWhateverTheFileIsCalled) {
+  const Error error = Error{Errc::NotFound, "is not there: check the name"}.at("a\nb\x1b[31m.png");
+  EXPECT_EQ(detail_of(error), "a?b?[31m.png: is not there: check the name");
+  EXPECT_EQ(detail_of(Error{Errc::NotFound, "is not there", 2}), "is not there (No such file or directory)");
+}
+
+TEST(Words, ValuesStandInTheirPlaces) {
+  EXPECT_EQ(filled("only {} of {} agree", {"5", "{}"}), "only 5 of {} agree");
+  EXPECT_EQ(filled("{} of {}", {"5"}), "5 of {}");
+  EXPECT_EQ(filled("none", {"5"}), "none");
+  EXPECT_EQ(decimal(0.125, 2) + decimal(1.5, 1, true), "0.12+1.5");
 }
 
 TEST(Arena, GivesAlignedMemoryAndThrowsAtTheEnd) {

@@ -97,7 +97,7 @@ TEST(Drift, ComparesWithWhatTheCalibrationPromises) {
 TEST(Drift, RefusesBeyondItsLimit) {
   const DriftJudgement far = judge_drift(seen(1.6, 0, 0), promising(0.02));
   EXPECT_EQ(far.verdict, DriftVerdict::Refuse);
-  EXPECT_NE(sentence(far).text().find("calibrate again"), std::string::npos);
+  EXPECT_NE(sentence(far).find("calibrate again"), std::string::npos);
   EXPECT_EQ(judge_drift(seen(1.4, 0, 0), promising(0.02)).verdict, DriftVerdict::Warn);
   EXPECT_EQ(judge_drift(seen(-1.2, 1.2, 0), promising(0.02)).verdict, DriftVerdict::Refuse) << "rms counts";
 }

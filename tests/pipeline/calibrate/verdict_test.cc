@@ -18,7 +18,7 @@ using pipeline::CalibrationVerdict;
 
 bool says(const CalibrationQuality& q, std::string_view words) {
   return std::any_of(q.reasons.begin(), q.reasons.end(),
-                     [&](const Sentence& reason) { return reason.text().find(words) != std::string::npos; });
+                     [&](const std::string& reason) { return reason.find(words) != std::string::npos; });
 }
 
 CalibrationQuality judged(const pipeline::CalibratorInput& input) {

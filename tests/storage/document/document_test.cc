@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -25,9 +26,13 @@ struct Sample {
       std::vector<std::byte>(static_cast<std::size_t>(kWidth) * kHeight * 3, std::byte{7});
   std::vector<std::byte> right =
       std::vector<std::byte>(static_cast<std::size_t>(kWidth + 2) * kHeight * 2, std::byte{9});
-  DocumentHead head{"1.2", "matcher = zmncc\n",
-                    true,  test::sample_calibration(),
-                    -1234, {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}}};
+  DocumentHead head{"1.2",
+                    "matcher = zmncc\n",
+                    true,
+                    test::sample_calibration(),
+                    -1234,
+                    {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}},
+                    {{{3.25F, 1e-42F}, -0.1F, 0, 0.5F, 0}, {{7, 8}, 1.0F / 3, 0, 1e9F, 0}}};
   pipeline::RectifiedPair pair{std::pmr::get_default_resource()};
   pipeline::MatchSet matches{std::pmr::get_default_resource()};
   pipeline::PointCloud cloud{std::pmr::get_default_resource()};
@@ -88,6 +93,10 @@ TEST(Document, GivesBackEveryBit) {
   ASSERT_EQ(document->head().stages.size(), 4U);
   EXPECT_EQ(document->head().stages[0].took.count(), 5);
   EXPECT_EQ(document->head().stages[1].arena_peak_bytes, 6U);
+  EXPECT_TRUE(std::ranges::equal(
+      document->head().by_hand, sample.head.by_hand, [](const pipeline::Match& a, const pipeline::Match& b) {
+        return std::memcmp(&a, &b, offsetof(pipeline::Match, rejected_by)) == 0;  // but for its last bytes
+      }));
   const auto left = document->picture(true), right = document->picture(false);
   ASSERT_TRUE(left && right);
   EXPECT_EQ(left->view.format, PixelFormat::Rgb8);
@@ -157,7 +166,7 @@ TEST(Document, WhatIsNoneOrNewerIsToldApart) {
   foreign[71] ^= std::byte{1};  // the application id
   EXPECT_EQ(Document::open(foreign).error().code, Errc::InvalidInput);
   auto newer = *bytes;
-  newer[63] = std::byte{2};  // the user version
+  newer[63] = std::byte{3};  // the user version
   EXPECT_EQ(Document::open(newer).error().code, Errc::StoreNewer);
 }
 

@@ -3,6 +3,7 @@
 //
 // Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
 // step of the first start.
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/pin_verbs.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
@@ -27,14 +28,14 @@ void ended(StaffFrame& page, const ConsentShelfView& seen) {
   if (seen.outcome == Outcome::None) return;
   if (seen.outcome == Outcome::Done)
     return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
-  if (seen.outcome == Outcome::NoStick)
+  if (seen.outcome == Outcome::NoStick) {
     page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
-  else if (seen.outcome == Outcome::StickGone)
+  } else if (seen.outcome == Outcome::StickGone) {
     page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
-  else if (seen.outcome == Outcome::NotFound)
-    page.status("outcome", tr("The stick has no folder named consent."), Mood::Bad);
-  else
-    page.status("outcome", page.filled(tr("{}: {}"), {seen.file, page.said(seen.fault, false)}), Mood::Bad);
+  } else if (seen.fault != nullptr) {
+    page.status("outcome", words_of(tr, seen.fault->code), Mood::Bad);
+    page.detail(seen.fault->detail);
+  }
   page.line(tr("Nothing was changed."));
 }
 

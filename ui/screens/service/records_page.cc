@@ -130,7 +130,6 @@ void portrait_of(StaffFrame& page) {
   face.name = page.tr("The portrait, to be turned with a finger");
   face.role = Role::Picture;
   face.action = {ActionKind::TurnFace, 0};
-  face.drags = true;
   face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
   face.box.radius = page.px(size::kCardRadius);
   page.tree.leaf(face);

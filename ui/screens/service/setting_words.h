@@ -16,8 +16,6 @@ const char* name_of(const Words& tr, Setting setting);
 // `value` is one of info_of(setting).values.
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value);
 
-// Under this key firmware/service/device/ notes a change: the setting's key, and its value in figures.
-inline constexpr std::string_view kSettingChanged = "setting {} is {}";
 // A change as the log keeps it; empty where that is no setting, or no value of it
 // (an older version's).
 std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value);

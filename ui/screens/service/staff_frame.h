@@ -50,21 +50,15 @@ class StaffFrame : public Page {
   void line(std::string_view words, Mood mood = Mood::Plain);
   // A line of the log, in the reader's language.
   void logged(const struct LogLine& what);
-  // A sentence of the appliance (a key of the catalogues) in the reader's language; as it is where they lack
-  // it. What stands in it follows behind tabs (hal/base/sentence.h); numbers get the decimal mark of the
-  // language.
-  std::string_view said(std::string_view sentence, bool begins = true);  // not so behind a colon
+  // What the engine says in English, as it wrote it: quieter, and from left to right in every language.
+  Node english(std::string_view words, float size) const;
+  // The same on lines of its own: the detail of what stands above it.
+  void detail(std::string_view words);
   // As high as a member of staff needs it.
   void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
                     Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);
   }
-  // Keys of sentences begin small, as behind the colon of a command's error; a sentence of a page begins
-  // large.
-  const char* begun(const char* words);
-  // What begins large behind a colon, where French and Spanish go on small; English keys do anyway, German
-  // begins anew.
-  const char* continued(const char* words);
   void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
   void status(std::string_view id, std::string_view words, Mood mood);

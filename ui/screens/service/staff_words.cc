@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StaffFrame's words: numbers and dates as the language writes them, and what the appliance says.
+// StaffFrame's words: numbers and dates as the language writes them, and what the engine reports.
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdio>
 
-#include "ui/screens/service/place_words.h"
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
@@ -15,7 +15,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::size_t kMostValues = 8, kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
+constexpr std::size_t kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
 constexpr std::string_view kMinus = "\u2212";
 constexpr std::string_view kAngle =
     "°";  // stands at its number, as no other unit does (ISO 80000-1), °C neither
@@ -124,72 +124,32 @@ std::string_view StaffFrame::date(std::string_view iso) {
   return {first.data(), length + tree.keep(isolate::kEnd).size()};
 }
 
-const char* StaffFrame::begun(const char* words) {
-  // The small letters of a to z, and à to þ behind their lead byte: 0x20 above the capitals.
-  const bool latin = *words >= 'a' && *words <= 'z',
-             accented = words[0] == '\xc3' && words[1] >= '\xa0' && words[1] <= '\xbe' && words[1] != '\xb7';
-  if (!latin && !accented) return words;
-  const std::size_t at = accented ? 1 : 0;
-  const char capital = static_cast<char>(words[at] - 0x20);
-  const char* all = tree.keep({words, at}).data();
-  tree.keep({&capital, 1});
-  kept(words + at + 1);
-  return all;
+Node StaffFrame::english(std::string_view words, float size) const {
+  const std::string_view first = tree.keep(isolate::kLeft);
+  const std::size_t length = first.size() + tree.keep(words).size() + tree.keep(isolate::kEnd).size();
+  Node node = text({first.data(), length}, size, Weight::Regular, palette.ink_soft);
+  node.style.size_px = px(size * text_share);  // Latin letters are as large in every language
+  node.style.language = info_of(Language::English).code;
+  return node;
 }
 
-const char* StaffFrame::continued(const char* words) {
-  const bool small = visit.language == Language::French || visit.language == Language::Spanish;
-  const bool latin = words[0] >= 'A' && words[0] <= 'Z',
-             accented = words[0] == '\xc3' && words[1] <= '\x9e' && words[1] != '\x97';
-  if (!small || (!latin && !accented)) return words;
-  const std::size_t at = accented ? 1 : 0;
-  // OpenCV, GPIO, JPEG stay as they are.
-  for (const char* c = words + at + 1; *c != 0 && *c != ' '; ++c) {
-    if (*c >= 'A' && *c <= 'Z') return words;
-  }
-  const char letter = static_cast<char>(words[at] + 0x20);
-  const char* all = tree.keep({words, at}).data();
-  tree.keep({&letter, 1});
-  kept(words + at + 1);
-  return all;
-}
-
-std::string_view StaffFrame::said(std::string_view sentence, bool begins) {
-  if (sentence.empty()) return sentence;  // gettext's name of nothing is its header
-  std::array<std::string_view, kMostValues> values{};
-  std::size_t count = 0;
-  const std::size_t end = std::min(sentence.find('\t'), sentence.size());
-  for (std::size_t at = end; at < sentence.size() && count < values.size();) {
-    const std::size_t next = std::min(sentence.find('\t', at + 1), sentence.size());
-    values[count++] = sentence.substr(at + 1, next - at - 1);
-    at = next;
-  }
-  const char* key = kept(sentence.substr(0, end));
-  const char* words = begins ? begun(tr(key)) : continued(tr(key));
-  std::size_t holes = 0;
-  for (std::string_view rest = words; rest.find("{}") != std::string_view::npos;
-       rest.remove_prefix(rest.find("{}") + 2))
-    ++holes;
-  for (std::size_t i = 0; i < std::min(count, holes); ++i) values[i] = as_number(values[i]);
-  const std::string_view all =
-      count == 0 ? std::string_view(words) : filled(words, std::span(values).first(std::min(count, holes)));
-  if (count <= holes) return all;
-  // Where it was; the words stay outside of any isolate, so that they tell the direction.
-  const std::string_view where = said_place(*this, values[holes]), first = tree.keep(all);
-  return {first.data(), first.size() + filled(" ({})", where).size()};
+void StaffFrame::detail(std::string_view words) {
+  due_rule();
+  tree.leaf(english(words, 17));
 }
 
 std::string_view StaffFrame::noted(const LogLine& what) {
-  if (what.key.empty()) return filled("{}", what.sentence);
-  if (what.key == kSettingChanged) {
+  if (what.code) return words_of(tr, *what.code);
+  if (*what.event == LogEvent::SettingChanged) {
     if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty())
       return change;
   }
-  return filled(begun(tr(kept(what.key))), {what.values[0], what.values[1]});
+  const LogWords words = words_of(tr, *what.event);
+  if (words.role != nullptr) return filled(words.pattern, words.role);
+  return filled(words.pattern, {what.values[0], what.values[1]});
 }
 
 void StaffFrame::logged(const LogLine& what) {
-  const std::string_view sentence = noted(what);
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.across = Across::Start;
   row.role = what.fault ? Role::Status : Role::Group;
@@ -205,7 +165,9 @@ void StaffFrame::logged(const LogLine& what) {
   if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
   tree.close();
   tree.open(grown(box(Flow::Column)));
-  tree.leaf(text(sentence, 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+  if (what.code || what.event)
+    tree.leaf(text(noted(what), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+  if (!what.event) tree.leaf(english(what.text, 17));
   tree.close();
   tree.close();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -59,7 +60,9 @@ void self_test_page(StaffFrame& page) {
     for (std::size_t i = 0; i < kChecks; ++i) {
       page.row(numbered(page, "check ", i), words_of(tr, static_cast<Check>(i)),
                words_of(tr, seen->states[i]), mood_of(seen->states[i]));
-      if (seen->states[i] == CheckState::Bad) page.line(page.said(seen->problems[i]), Mood::Bad);
+      if (seen->states[i] != CheckState::Bad) continue;
+      page.line(words_of(tr, seen->problems[i].code), Mood::Bad);
+      page.detail(seen->problems[i].detail);
     }
   }
   page.tree.close();

@@ -82,7 +82,7 @@ TEST(CalibrationReport, SaysTheVerdictInWordAndShape) {
                                       {CalibrationVerdict::Usable, "Usable"},
                                       {CalibrationVerdict::Refuse, "Refuse"}}) {
     set.output.quality.verdict = verdict;
-    set.output.quality.reasons = {Sentence("view {} is at fault", {kWickedName})};
+    set.output.quality.reasons = {"view " + std::string(kWickedName) + " is at fault"};
     const std::string html = pipeline::calibration_report_html(set.report());
     const HtmlReader page(html);
     EXPECT_EQ(page.error(), "");

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every algorithm of every stage: chosen, its options edited and checked, rules switched; and what they make
-// of the test capture. Names of algorithms and options are those of the command line, in every language.
+// of the test capture. Names of algorithms and options, and what they say of themselves, are those of the
+// command line in every language.
 #include <cstdio>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -21,14 +22,6 @@ const char* label_of(const Words& tr, std::string_view kind) {
   if (kind == "completion") return tr("Completion");
   if (kind == "relief") return tr("Check against pictures");
   return tr("Texture");
-}
-
-// A sentence in which pipeline/ describes itself, in the page's language; English, where that has none, keeps
-// its direction.
-std::string_view described(BenchFrame& b, std::string_view sentence) {
-  const char* english = b.page.kept(sentence);
-  const char* words = b.tr(english);
-  return words == english ? b.left_to_right(b.page.begun(english)) : std::string_view(b.page.begun(words));
 }
 
 void kinds(BenchFrame& b) {
@@ -96,8 +89,7 @@ void options(BenchFrame& b) {
   const BenchChoice& choice = b.view.choice;
   names(b);
   b.page.begin_panel("options");
-  Node said = b.page.text(described(b, choice.kinds[choice.kind].sentence), 17, Weight::Regular,
-                          b.page.palette.ink_soft);
+  Node said = b.page.english(choice.kinds[choice.kind].sentence, 17);
   said.box.pad_y = b.page.px(6);
   b.page.tree.leaf(said);
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
@@ -173,8 +165,7 @@ void editor(BenchFrame& b) {
     no.role = Role::Status;
     b.page.tree.leaf(no);
   }
-  b.page.tree.leaf(
-      b.page.text(described(b, option.sentence), type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  b.page.tree.leaf(b.page.english(option.sentence, type::kSmall));
   char text[96];
   std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
   b.page.row("option range", b.tr("Possible values"), b.left_to_right(b.page.with_numbers(text)));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "ui/screens/service/fault_words.h"
+
 namespace relievo::ui {
 
 const char* title_of(const Words& tr, BenchStage stage) {
@@ -109,7 +111,7 @@ void BenchFrame::choice(std::string_view id, std::string_view label, bool chosen
 }
 
 void BenchFrame::open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture,
-                              PictureSlot slot, Action action) {
+                              PictureSlot slot, Action action, Action dragged) {
   Node frame = page.grown(page.box(Flow::Stack));
   frame.aspect = picture.pixels.empty() ? 1.0F
                                         : static_cast<float>(picture.pixels.width_px) /
@@ -127,6 +129,7 @@ void BenchFrame::open_picture(std::string_view id, std::string_view spoken, cons
   }
   image.box.radius = page.px(12);
   image.action = action;
+  image.dragged = dragged;
   image.tells_place = action.kind != ActionKind::None;
   page.tree.leaf(image);
 }
@@ -177,17 +180,17 @@ bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& vis
   return page >= StaffPage::Stages && page <= StaffPage::Calibrate;
 }
 
-void BenchFrame::problem(std::string_view words) {
-  if (!words.empty()) alert(page.said(words));
+void BenchFrame::problem(const Fault& fault) {
+  if (!fault.empty()) alert(words_of(tr, fault.code), fault.detail);
 }
 
 void BenchFrame::failure() {
   const BenchResult& r = view.result;
   if (!r.failure.empty())
-    alert(page.filled(tr("{}: {}"), {work_of(tr, r.failed_at), page.said(r.failure, false)}));
+    alert(page.filled("{} – {}", {work_of(tr, r.failed_at), words_of(tr, r.failure.code)}), r.failure.detail);
 }
 
-void BenchFrame::alert(std::string_view words) {
+void BenchFrame::alert(std::string_view words, std::string_view detail) {
   Node row = page.box(Flow::Row, space::kS, 0, 8);
   row.id = "problem";
   row.role = Role::Status;
@@ -197,6 +200,7 @@ void BenchFrame::alert(std::string_view words) {
   page.tree.open(page.grown(page.box(Flow::Column)));
   Node said = page.text(words, 18, Weight::Regular, page.palette.bad);
   page.tree.leaf(said);
+  page.tree.leaf(page.english(detail, 17));
   page.tree.close();
   page.tree.close();
 }

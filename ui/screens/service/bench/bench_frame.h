@@ -54,9 +54,9 @@ class BenchFrame {
   }
 
   // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
-  // to it (Node::pinned). Touched, `action` says where.
+  // to it (Node::pinned). Touched, `action` says where; `dragged` as in Node.
   void open_picture(std::string_view id, std::string_view spoken, const BenchPicture& picture,
-                    PictureSlot slot, Action action = {});
+                    PictureSlot slot, Action action = {}, Action dragged = {});
   void close_picture();
   // On the open picture: a line over its whole width, a ring; shares of the picture.
   void pin_line(float y, Colour colour, float thick_dp);
@@ -70,11 +70,11 @@ class BenchFrame {
   // The buttons under the pages of the test capture.
   // `with_stick`: also those between the reconstruction and the stick.
   void capture_buttons(bool with_run, bool with_stick = false);
-  void problem(std::string_view words);  // packed (hal/base/sentence.h); empty: nothing is shown
-  void failure();                        // of the present result's stages
+  void problem(const Fault& fault);  // empty: nothing is shown
+  void failure();                    // of the present result's stages
 
  private:
-  void alert(std::string_view words);
+  void alert(std::string_view words, std::string_view detail);
   void stick_buttons();
 };
 

@@ -175,7 +175,7 @@ void verdict(BenchFrame& b) {
                                : b.tr("Usable, with doubts");
   b.page.section(b.tr("The new calibration"));
   b.page.row("verdict", b.tr("Verdict"), said, mood);
-  for (const std::string& reason : c.reasons) b.page.line(b.page.said(reason), mood);
+  for (const std::string& reason : c.reasons) b.page.detail(reason);
   if (!c.reasons.empty()) b.page.rule();
   b.page.row("ended", words_of(b.tr, c.end), {});
   b.page.row("depth error", b.tr("Error of a face's distance"),

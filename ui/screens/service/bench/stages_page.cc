@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every stage of the test capture as a picture: the pair with its epipolar lines, where a touch shows a
-// point's partner; the matches in the colours of the rules; depth, points, surface, texture.
+// point's partner and pairs are made by hand; the matches in the colours of the rules; depth, points, surface
+// with what the pairs by hand moved of it, texture.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "ui/screens/service/bench/bench_frame.h"
@@ -11,11 +14,13 @@ namespace relievo::ui {
 namespace {
 
 constexpr int kLines = 8;
-constexpr Colour kFaint{255, 255, 255, 70}, kTouched{255, 170, 40, 255};
+constexpr Colour kFaint{255, 255, 255, 70}, kTouched{255, 170, 40, 255}, kOther{110, 210, 255, 255};
 
 bool is_pair(BenchStage stage) {
   return stage == BenchStage::Input || stage == BenchStage::Processed || stage == BenchStage::Rectified;
 }
+
+bool makes_pairs(const BenchFrame& b) { return b.view.by_hand && b.view.stage == BenchStage::Rectified; }
 
 void tabs(BenchFrame& b) {
   const std::size_t across = b.across(kBenchStages);
@@ -46,19 +51,27 @@ void tabs(BenchFrame& b) {
   }
 }
 
+void pin_pairs(BenchFrame& b, std::size_t side) {
+  for (const BenchPoint& p : b.view.pairs.first(std::min(b.view.pairs.size(), kMostPairs)))
+    if (side == 0 || p.matched) b.pin_dot(side == 0 ? p.left_x : p.right_x, p.y, kOther, {});
+}
+
 void pair_pictures(BenchFrame& b) {
   const bool touchable = b.view.stage == BenchStage::Rectified;
   Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(2.4F));
   row.box.left_to_right = true;
   b.page.tree.open(row);
   for (std::size_t side = 0; side < 2; ++side) {
-    Action action{};
+    Action action{}, dragged{};
     if (touchable) action = bench(side == 0 ? BenchAct::Point : BenchAct::PointRight);
+    if (makes_pairs(b)) dragged = bench(side == 0 ? BenchAct::Drag : BenchAct::DragRight);
     b.open_picture(side == 0 ? "left" : "right", side == 0 ? b.tr("Left camera") : b.tr("Right camera"),
-                   b.view.shown[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight, action);
+                   b.view.shown[side], side == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight, action,
+                   dragged);
     if (b.view.stage != BenchStage::Input) {
       for (int i = 1; i < kLines; ++i) b.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
     }
+    if (makes_pairs(b)) pin_pairs(b, side);
     const BenchPoint& point = b.view.point;
     if (touchable && point.touched) b.pin_line(point.y, kTouched, 2);
     if (touchable && point.touched && side == 0) b.pin_dot(point.left_x, point.y, kTouched, "left mark");
@@ -69,10 +82,14 @@ void pair_pictures(BenchFrame& b) {
 }
 
 void one_picture(BenchFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row), b.picture_share(2.4F));
+  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(2.4F));
   b.page.tree.open(row);
   b.open_picture("picture", title_of(b.tr, b.view.stage), b.view.shown[0], PictureSlot::BenchLeft);
   b.close_picture();
+  if (!b.view.shown[1].pixels.empty()) {
+    b.open_picture("change", b.tr("What the pairs by hand moved"), b.view.shown[1], PictureSlot::BenchRight);
+    b.close_picture();
+  }
   b.page.tree.close();
 }
 
@@ -88,8 +105,10 @@ void point_rows(BenchFrame& b) {
   const BenchPoint& point = b.view.point;
   if (!point.touched) {
     b.page.tree.leaf(b.page.text(
-        b.view.by_hand ? b.tr("Touch a point in the left picture, then its partner on the orange line.")
-                       : b.tr("Touch the left picture: the line and the match of that point are shown."),
+        b.view.by_hand
+            ? b.tr(
+                  "Touch a point in the left picture. Its partner is proposed in the right one: touch or drag to correct it.")
+            : b.tr("Touch the left picture: the line and the match of that point are shown."),
         type::kSmall, Weight::Regular, b.page.palette.ink_soft));
     return;
   }
@@ -103,6 +122,10 @@ void point_rows(BenchFrame& b) {
     b.page.row("point none", b.tr("No match here"), {}, Mood::Warn);
     return;
   }
+  if (point.new_surface) b.page.row("point moved", b.tr("Surface here"), b.tr("new"), Mood::Good);
+  else if (!std::isnan(point.moved_mm))
+    b.page.row("point moved", b.tr("Surface came nearer by"),
+               b.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
   b.page.row("point right", b.tr("Right"), coordinates(b, point.right_px));
   b.page.row(
       "point disparity", b.tr("Disparity"),
@@ -117,6 +140,34 @@ void point_rows(BenchFrame& b) {
                        1, "mm"));
   b.page.row("point sigma", b.tr("Depth uncertainty"),
              b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+}
+
+void change_rows(BenchFrame& b) {
+  if (b.view.pairs.empty()) return;
+  b.page.rule();
+  b.page.row("pairs", b.tr("Pairs by hand"), b.page.number(static_cast<double>(b.view.pairs.size())));
+  const BenchChange& change = b.view.change;
+  if (!change.known) return;
+  b.page.row("moved", b.tr("Surface moved"), b.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));
+  b.page.row("new", b.tr("New surface"), b.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
+  b.page.row("farthest", b.tr("Largest move"),
+             b.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
+  if (b.view.stage == BenchStage::Mesh)
+    b.page.tree.leaf(
+        b.page.text(b.page.filled(b.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
+                                  b.page.number(static_cast<double>(change.full_colour_mm), 2, "mm")),
+                    type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+}
+
+void pair_buttons(BenchFrame& b) {
+  b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
+  if (!b.view.by_hand) return;
+  if (b.view.point.touched)
+    b.page.small_button("remove pair", b.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
+                        bench(BenchAct::RemovePair));
+  if (b.view.pairs_changed)
+    b.page.small_button("run pairs", b.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
+                        bench(BenchAct::Run));
 }
 
 void rule_rows(BenchFrame& b) {
@@ -190,7 +241,11 @@ void saved_list(BenchFrame& b) {
 
 void side_rows(BenchFrame& b) {
   b.failure();
-  if (b.view.stage == BenchStage::Rectified) return point_rows(b);
+  if (b.view.stage == BenchStage::Rectified) {
+    point_rows(b);
+    return change_rows(b);
+  }
+  if (b.view.stage == BenchStage::Mesh) change_rows(b);
   if (b.view.stage == BenchStage::Matches) return rule_rows(b);
   time_rows(b);
 }
@@ -212,8 +267,7 @@ void bench_stages_page(StaffFrame& page) {
     page.begin_panel("facts");
     side_rows(b);
     page.tree.close();
-    if (b.view.stage == BenchStage::Rectified)
-      b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, bench(BenchAct::ByHand), 0);
+    if (b.view.stage == BenchStage::Rectified) pair_buttons(b);
     page.tree.close();
     page.tree.close();
   }

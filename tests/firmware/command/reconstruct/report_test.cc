@@ -1,19 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/base/console.h"
+#include "firmware/report/report.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/report/report.h"
-
 namespace relievo::firmware {
 namespace {
-
-TEST(Console, AnErrorIsOneLineWhateverTheFileIsCalled) {
-  const Error error = Error{Errc::NotFound, "is not there: check the name"}.at("a\nb\x1b[31m.png");
-  EXPECT_EQ(one_line(error), "relievo: a?b?[31m.png: is not there: check the name");
-  EXPECT_EQ(one_line(Error{Errc::NotFound, "is not there"}), "relievo: is not there");
-}
 
 TEST(Report, HasTheKeysThatScriptsRead) {
   using std::chrono::microseconds;

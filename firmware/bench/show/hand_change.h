@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HandChange: the surface with the pairs made by hand against the newest one of the same capture and the same
+// algorithms without any, both as the left rectified view sees them. Depths along its z, millimetres.
+// Thread: worker while a job runs, else main. Errors: none; without the other surface nothing is known.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware/measure/disparity_map.h"
+#include "firmware/session/session.h"
+#include "firmware/work/session_document.h"
+#include "ui/bench/bench_result.h"
+
+namespace relievo::firmware {
+
+class HandChange {
+ public:
+  void measure(const Making& making, const Products& products);
+  void forget();
+
+  const ui::BenchChange& figures() const { return figures_; }
+  // By how much the surface came nearer at a place of the view; NaN where one of the two is not there.
+  float nearer_mm(int x, int y) const;
+  // To the points of the pairs that were calculated with.
+  void tell(std::span<ui::BenchPoint> points) const;
+
+ private:
+  compare::DisparityMap before_, now_;  // depths
+  std::string set_;                     // the algorithms of `before_`
+  ui::BenchChange figures_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/base/words.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace relievo {
+
+std::string decimal(double number, int decimals, bool with_sign) {
+  char text[48];
+  std::snprintf(text, sizeof text, with_sign ? "%+.*f" : "%.*f", decimals, number);
+  return text;
+}
+
+std::string filled(std::string_view pattern, std::initializer_list<std::string_view> values) {
+  std::string text;
+  for (const std::string_view value : values) {
+    const std::size_t hole = pattern.find("{}");
+    if (hole == std::string_view::npos) break;
+    text.append(pattern.substr(0, hole)).append(value);
+    pattern.remove_prefix(hole + 2);
+  }
+  return text.append(pattern);
+}
+
+std::string detail_of(const Error& error) {
+  std::string line;
+  if (!error.where().empty()) line.append(error.where()).append(": ");
+  line.append(error.what.view());
+  if (error.sys_errno != 0) line.append(" (").append(std::strerror(error.sys_errno)).append(")");
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return line;
+}
+
+}  // namespace relievo

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// English sentences with values in them, for reports, logs and technicians. Thread: any. Errors: those of
+// memory.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "hal/base/result.h"
+
+namespace relievo {
+
+std::string decimal(double number, int decimals, bool with_sign = false);
+
+// `pattern` with the values in its places {}, in their order.
+std::string filled(std::string_view pattern, std::initializer_list<std::string_view> values);
+
+// "where: what (what the system said)" on one line, whatever a file is called: control characters become '?'.
+std::string detail_of(const Error& error);
+
+}  // namespace relievo

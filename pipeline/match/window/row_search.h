@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One place of the left view looked for on its row of the right one, by zero-mean correlation of square
+// windows read from the pair itself: for a few places, where the matchers' tables would cost more than they
+// save. Candidates are whole disparities, a parabola goes through the best; sigma_px as in window_matching.h,
+// cost one minus the correlation. Pixels. Thread: any. Errors: none.
+#pragma once
+
+#include <optional>
+
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::pipeline {
+
+// The best between two disparities, both included; none where no window correlates, or the best lies at an
+// end: what is looked for may then be beyond.
+std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
+                                  int radius);
+
+}  // namespace relievo::pipeline
