@@ -195,17 +195,17 @@ Patch patch_at(const FaceMesh& m, const Vec3f& at, std::size_t from, std::size_t
   for (std::size_t t = from; t < to; ++t) {
     const auto& [i, j, k] = m.triangles[t];
     const Vec3f &a = m.vertices_mm[i], &b = m.vertices_mm[j], &c = m.vertices_mm[k];
-    if (mesh::squared_distance(a, at) > 36) continue;
-    const Vec3f n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
-    const float area = mesh::length(n);
+    if (squared_distance(a, at) > 36) continue;
+    const Vec3f n = cross(minus(b, a), minus(c, a));
+    const float area = length(n);
     sum.normal = {sum.normal.x + n.x, sum.normal.y + n.y, sum.normal.z + n.z};
     sum.middle = {sum.middle.x + area * (a.x + b.x + c.x) / 3, sum.middle.y + area * (a.y + b.y + c.y) / 3,
                   sum.middle.z + area * (a.z + b.z + c.z) / 3};
     sum.area += area;
   }
   if (!(sum.area > 0)) return sum;
-  sum.normal = mesh::times(sum.normal, 1 / mesh::length(sum.normal));
-  sum.middle = mesh::times(sum.middle, 1 / sum.area);
+  sum.normal = times(sum.normal, 1 / length(sum.normal));
+  sum.middle = times(sum.middle, 1 / sum.area);
   return sum;
 }
 
@@ -236,11 +236,9 @@ TEST(GenericHead, ClosesAndGoesOnWhereTheFaceEnds) {
     const Vec3f& at = after->vertices_mm[seam[i]];
     const Patch in = patch_at(*after, at, 0, own), out = patch_at(*after, at, own, after->triangles.size());
     if (in.area < 20 || out.area < 20) continue;
-    const Vec3f to_in = mesh::minus(in.middle, at), to_out = mesh::minus(out.middle, at);
-    step.push_back(
-        std::abs(static_cast<double>(mesh::dot(in.normal, to_in) - mesh::dot(out.normal, to_out))));
-    crease.push_back(std::acos(std::min(1.0, static_cast<double>(mesh::dot(in.normal, out.normal)))) *
-                     57.29578);
+    const Vec3f to_in = minus(in.middle, at), to_out = minus(out.middle, at);
+    step.push_back(std::abs(static_cast<double>(dot(in.normal, to_in) - dot(out.normal, to_out))));
+    crease.push_back(std::acos(std::min(1.0, static_cast<double>(dot(in.normal, out.normal)))) * 57.29578);
   }
   std::sort(step.begin(), step.end());
   std::sort(crease.begin(), crease.end());
