@@ -43,7 +43,7 @@ Result<void> SymmetricCompletionOptions::check() const {
 Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                StageContext& context) const {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
+  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
   if (!frame) {
     if (frame.error().code == Errc::PoorGeometry) return mesh;
     return frame.error();
