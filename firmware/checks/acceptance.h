@@ -41,8 +41,8 @@ struct TargetReading {
   std::size_t used = 0, discarded = 0;
   double range_mm = 0;  // form, or flatness
   double rms_mm = 0;
-  double size_mm = 0;        // sphere only
-  measure::Vec3d centre_mm;  // sphere only
+  double size_mm = 0;         // sphere only
+  pipeline::Vec3d centre_mm;  // sphere only
 };
 
 struct SpacingReading {

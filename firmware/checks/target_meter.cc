@@ -10,7 +10,7 @@
 
 namespace relievo::firmware {
 
-using measure::Vec3d;
+using pipeline::Vec3d;
 
 struct TargetMeter::Room {
   Room(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)

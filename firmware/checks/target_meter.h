@@ -32,11 +32,11 @@ class TargetMeter {
   Result<void> take(const TargetPictures& pictures);
   // The measured vertices of the mesh (never the bridged ones) within `reach_mm` of `centre_mm` as the
   // left rectified view shows it.
-  Result<std::vector<measure::Vec3d>> surface_around(const measure::Vec3d& centre_mm, double reach_mm);
+  Result<std::vector<pipeline::Vec3d>> surface_around(const pipeline::Vec3d& centre_mm, double reach_mm);
   // The rectified left view around the target, beside it the same with every point coloured by its
   // deviation: blue -range, white 0, red +range, and the scale below.
-  hal::Picture picture_of(const measure::Vec3d& centre_mm, double reach_mm,
-                          const std::vector<measure::Vec3d>& points_mm,
+  hal::Picture picture_of(const pipeline::Vec3d& centre_mm, double reach_mm,
+                          const std::vector<pipeline::Vec3d>& points_mm,
                           const std::vector<double>& deviations_mm, double range_mm) const;
 
  private:
@@ -44,7 +44,7 @@ class TargetMeter {
     double x_px = 0, y_px = 0, radius_px = 0;
   };
   TargetMeter();
-  Circle circle_around(const measure::Vec3d& centre_mm, double reach_mm) const;
+  Circle circle_around(const pipeline::Vec3d& centre_mm, double reach_mm) const;
 
   struct Room;  // memory, threads and the rectified pair: they stay where they are
   std::unique_ptr<Room> room_;

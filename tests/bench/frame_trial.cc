@@ -60,8 +60,8 @@ RigidTransform a_from_b(const Photograph& a, const Photograph& b) {
   std::vector<Vec3d> points;
   const auto& vertices = b.true_surface.vertices_mm;
   for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / 40'000) {
-    const Vec3d p = measure::wide(vertices[i]);
-    if (measure::distance(p, tip) < 90) points.push_back(apply(guess, p));
+    const Vec3d p = pipeline::wide(vertices[i]);
+    if (pipeline::distance(p, tip) < 90) points.push_back(apply(guess, p));
   }
   const measure::TriangleGrid grid(a.true_surface);
   return chained(measure::fit_rigidly(points, grid).surface_from_points, guess);
@@ -74,7 +74,7 @@ Apart between(const Photograph& a, const Photograph& b, const RigidTransform& a_
   constexpr double kDeg = 180 / std::numbers::pi;
   Apart apart;
   apart.turns_deg = {0.5 * (m[7] - m[5]) * kDeg, 0.5 * (m[2] - m[6]) * kDeg, 0.5 * (m[3] - m[1]) * kDeg};
-  apart.turned_deg = measure::length(apart.turns_deg);
+  apart.turned_deg = pipeline::length(apart.turns_deg);
   apart.origin_mm = a_head_from_b_head.translation_mm;
   return apart;
 }

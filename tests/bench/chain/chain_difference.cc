@@ -65,7 +65,7 @@ std::vector<double> distances(const ChainRecord& surface, const ChainRecord& fro
   const measure::Surface triangles{surface.vertices_mm, surface.triangles};
   const measure::TriangleGrid grid(triangles);
   for (const pipeline::Vec3f& v : from.vertices_mm) {
-    const auto nearest = grid.nearest(measure::wide(v), kReachMm);
+    const auto nearest = grid.nearest(pipeline::wide(v), kReachMm);
     sizes.push_back(nearest ? nearest->distance_mm : kReachMm);
   }
   return sizes;
@@ -131,7 +131,7 @@ ChainDifference between(const ChainRecord& a, const ChainRecord& b) {
       });
   std::tie(d.points, d.points_alone) =
       pair_up(points(a), points(b), [&](const pipeline::CloudPoint& one, const pipeline::CloudPoint& other) {
-        mm.push_back(measure::distance(measure::wide(one.at_mm), measure::wide(other.at_mm)));
+        mm.push_back(pipeline::distance(pipeline::wide(one.at_mm), pipeline::wide(other.at_mm)));
         mm_sigmas.push_back(mm.back() / double{one.sigma_mm});
       });
   d.disparity_px = spread_of(std::move(px)), d.disparity_sigmas = spread_of(std::move(px_sigmas));

@@ -85,7 +85,7 @@ TEST(Acceptance, TargetsStandInsideTheVolumeTheyAreMeantFor) {
 
 TEST(Acceptance, PlacesTurnAboutXThenYThenZ) {
   const auto near = [](const pipeline::Vec3d& a, const pipeline::Vec3d& b) {
-    return measure::distance(a, b) < 1e-9;
+    return pipeline::distance(a, b) < 1e-9;
   };
   EXPECT_TRUE(near(left_from_target({1, 2, 3, 0, 0, 90}, {10, 0, 0}), {1, 12, 3}));
   EXPECT_TRUE(near(left_from_target({0, 0, 0, 90, 0, 0}, {0, 10, 0}), {0, 0, 10}));

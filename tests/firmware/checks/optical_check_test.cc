@@ -68,7 +68,7 @@ TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
   ASSERT_EQ(report->spacings.size(), 2U);
   for (std::size_t k = 0; k < 4; ++k) {
     const auto truth = left_from_target(few().dumbbells[k / 2], {k % 2 == 0 ? -60.0 : 60.0, 0, 0});
-    EXPECT_LT(measure::distance(report->targets[k].centre_mm, truth), 1.0) << report->targets[k].name;
+    EXPECT_LT(pipeline::distance(report->targets[k].centre_mm, truth), 1.0) << report->targets[k].name;
     EXPECT_GT(report->targets[k].used, 2000U);
     EXPECT_LE(static_cast<double>(report->targets[k].discarded),
               kDiscardShare * static_cast<double>(report->targets[k].used + report->targets[k].discarded));
