@@ -248,8 +248,8 @@ TEST(GenericHead, ClosesAndGoesOnWhereTheFaceEnds) {
               step[n / 2], step[n * 95 / 100], crease[n / 2], crease[n * 95 / 100]);
   EXPECT_LT(step[n / 2], 0.3);
   EXPECT_LT(step[n * 95 / 100], 1);
-  EXPECT_LT(crease[n / 2], 8);
-  EXPECT_LT(crease[n * 95 / 100], 25);
+  EXPECT_LT(crease[n / 2], 10);
+  EXPECT_LT(crease[n * 95 / 100], 60) << "where the face ends on a fold";
 }
 
 TEST(GenericHead, TakesNoFileButItsOwn) {
