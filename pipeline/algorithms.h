@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
 #include "pipeline/match/match_constraint.h"
 #include "pipeline/match/matcher.h"
@@ -57,12 +58,14 @@ struct OptionDescription {
   std::string key;    // "refined.bending", or a kind: "matcher"
   std::string value;  // the default
   std::string sentence;
-  std::vector<std::string> names;                // of a kind: what it may be; empty for a number
+  std::vector<std::string> names;                // of a kind, or an option chosen by name: what it may be
   std::vector<AlgorithmDescription> algorithms;  // of a kind: what each of `names` is
-  double least = 0, most = 0;                    // of a number
+  OptionRange range;                             // of an option
   bool text = false;                             // any text: a path
   bool several = false;                          // of a kind: names may be joined by '+'
   std::string kind = {};                         // of an option: the kind it belongs to
+
+  bool is_option() const { return !kind.empty(); }
 };
 std::vector<OptionDescription> describe_algorithms();
 

@@ -134,7 +134,7 @@ Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pa
                                 StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
     RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_->mesh(cloud, c));
-    if (const auto head = find_head_frame(mesh, {}, c, across(calibration_)))
+    if (const auto head = find_head_frame(mesh, c, across(calibration_)))
       lay_eyeballs(mesh, head->head_from_camera, pair, c);
     return completion_->complete(std::move(mesh), across(calibration_), c);
   });
@@ -160,7 +160,7 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
     const double* x_axis = pair.rectified_from_left.m;
     const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
-    const auto head = find_head_frame(mesh, HeadFrameOptions{}, c, across);
+    const auto head = find_head_frame(mesh, c, across);
     if (!head && head.error().code != Errc::PoorGeometry) return head.error();
     const HeadFrame frame = head ? *head : frame_as_seen(mesh, c);
     model.head_from_camera = frame.head_from_camera;

@@ -20,11 +20,9 @@ using pipeline::StereoCalibration;
 constexpr std::string_view kMagic{"RCALIB\0\0", 8};
 constexpr std::uint16_t kForm = 3;
 constexpr std::size_t kCameraBytes = 9 * 8 + 2 * 4;
-constexpr std::size_t kForm1Bytes = 8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 8 + sizeof(Sha256);
-constexpr std::size_t kForm2Bytes = kForm1Bytes + 8 + 1 + 3 * 8;
 constexpr std::size_t kNamesBytes = 2 * (pipeline::kMaxCameraWords + 1);
-constexpr std::size_t kForm3Bytes = kForm2Bytes + kNamesBytes;
-constexpr std::array kFormBytes{kForm1Bytes, kForm2Bytes, kForm3Bytes};
+constexpr std::size_t kRecordBytes =
+    8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 2 * 8 + 1 + 3 * 8 + kNamesBytes + sizeof(Sha256);
 constexpr int kMaxSidePx = 65'536;
 
 void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
@@ -112,7 +110,7 @@ Result<void> check_calibration(const StereoCalibration& calibration) {
 std::vector<std::byte> encode_calibration(const StereoCalibration& calibration,
                                           const CalibrationFigures& figures) {
   std::vector<std::byte> out;
-  out.reserve(kForm3Bytes);
+  out.reserve(kRecordBytes);
   ByteWriter to(out);
   to.put(bytes_of(kMagic));
   to.put(kForm);
@@ -138,10 +136,9 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   }
   ByteReader from(bytes.subspan(kMagic.size()));
   const auto form = from.get<std::uint16_t>();
-  if (form < 1 || form > kForm) {
+  if (form > kForm)
     return Error{Errc::StoreNewer, "this calibration was stored by a newer version: update Relievo"};
-  }
-  if (bytes.size() != kFormBytes[form - 1] ||
+  if (form != kForm || bytes.size() != kRecordBytes ||
       !std::ranges::equal(sha256(bytes.first(bytes.size() - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
     return Error{Errc::StoreCorrupt,
                  "a stored calibration is damaged: calibrate again, or activate an earlier one"};
@@ -153,9 +150,8 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   calibration.right = get_camera(from);
   for (double& v : calibration.right_from_left.rotation.m) v = from.get<double>();
   auto& t = calibration.right_from_left.translation_mm;
-  for (double* v : {&t.x, &t.y, &t.z, &calibration.rms_px}) *v = from.get<double>();
-  if (form == 1) return stored;
-  calibration.epipolar_shift_px = from.get<double>();
+  for (double* v : {&t.x, &t.y, &t.z, &calibration.rms_px, &calibration.epipolar_shift_px})
+    *v = from.get<double>();
   CalibrationFigures& figures = stored.figures;
   const auto grade = from.get<std::uint8_t>();
   if (grade <= static_cast<std::uint8_t>(CalibrationGrade::Refuse))
@@ -163,7 +159,6 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
   for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
     *v = from.get<double>();
   }
-  if (form == 2) return stored;
   calibration.cameras.left = get_name(from);
   calibration.cameras.right = get_name(from);
   return stored;

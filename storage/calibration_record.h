@@ -4,9 +4,8 @@
 // The stored form of a calibration: never YAML, whose truncation reads as a wrong number.
 //
 // Little-endian: "RCALIB\0\0" u16 form, u32 revision, the doubles and sizes in the order of
-// StereoCalibration; in form 2 epipolar_shift_px after rms_px, then the figures (u8 grade, three
-// doubles); in form 3 the cameras' names (each u8 length, 255 bytes); SHA-256 of all before it. One length
-// a form; every double comes back bit for bit. Forms 1 and 2 are read, form 3 written.
+// StereoCalibration, the figures (u8 grade, three doubles), the cameras' names (each u8 length, 255 bytes);
+// SHA-256 of all before it. One length; every double comes back bit for bit.
 #pragma once
 
 #include <cstddef>

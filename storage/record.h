@@ -35,8 +35,7 @@ struct Subject {
   std::string name;
   WallTime created_at;
   int enrolments = 0;
-  std::int64_t receipt =
-      0;  // drawn when they came (receipt_number.h); 0: a store of before receipts were drawn
+  std::int64_t receipt = 0;  // drawn when they came (receipt_number.h)
 };
 
 struct SubjectFilter {

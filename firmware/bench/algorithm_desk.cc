@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& order, const std::vector<std:
 
 AlgorithmDesk::AlgorithmDesk() : all_(pipeline::describe_algorithms()) {
   for (const auto& one : all_) {
-    if (!one.names.empty()) kinds_.push_back(&one);
+    if (!one.is_option()) kinds_.push_back(&one);
   }
   rebuild();
 }
@@ -62,7 +62,7 @@ void AlgorithmDesk::rebuild() {
   shown_.clear();
   for (const std::string& name : chosen) {
     for (const auto& option : all_) {
-      const bool mine = option.names.empty() && belongs(option.key, kind.key, name);
+      const bool mine = option.is_option() && belongs(option.key, kind.key, name);
       if (mine && std::find(shown_.begin(), shown_.end(), &option) == shown_.end()) shown_.push_back(&option);
     }
   }
@@ -70,8 +70,8 @@ void AlgorithmDesk::rebuild() {
   for (const auto* option : shown_) option_values_.push_back(set_.get(option->key));
   options_.clear();
   for (std::size_t i = 0; i < shown_.size(); ++i)
-    options_.push_back({shown_[i]->key, option_values_[i], shown_[i]->sentence, shown_[i]->least,
-                        shown_[i]->most, shown_[i]->text, option_values_[i] != shown_[i]->value});
+    options_.push_back({shown_[i]->key, option_values_[i], shown_[i]->sentence, shown_[i]->range.least,
+                        shown_[i]->range.most, shown_[i]->text, option_values_[i] != shown_[i]->value});
   if (edited_ >= options_.size()) editing_ = false;
 }
 
@@ -103,6 +103,11 @@ void AlgorithmDesk::edit(std::size_t index) {
   edited_ = index;
   typed_.clear();
   refused_.clear();
+  // Of a few names a tap takes the next.
+  const std::vector<std::string>& names = shown_[index]->names;
+  if (names.empty()) return;
+  const auto now = std::find(names.begin(), names.end(), option_values_[index]);
+  use(now + 1 < names.end() ? *(now + 1) : names.front());
 }
 
 void AlgorithmDesk::type(char letter) {

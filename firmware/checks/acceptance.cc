@@ -10,8 +10,7 @@
 namespace relievo::firmware {
 namespace {
 
-using measure::cross, measure::difference, measure::distance, measure::dot, measure::length, measure::scaled,
-    measure::Vec3d;
+using pipeline::Vec3d;
 
 // How far around a target a surface is looked for: its edge must not be the region's.
 constexpr double kMarginMm = 4;
@@ -50,7 +49,7 @@ std::vector<Vec3d> cap_of(const std::vector<Vec3d>& surface, const Vec3d& centre
   const double least = std::cos(kCapDeg * std::numbers::pi / 180);
   std::vector<Vec3d> cap;
   for (const Vec3d& p : surface) {
-    const Vec3d out = difference(p, centre_mm);
+    const Vec3d out = minus(p, centre_mm);
     const bool faces = -dot(out, p) > least * length(out) * length(p);
     const bool at_rod = dot(out, rod) > 0 && length(cross(out, rod)) < kRodMm;
     if (faces && !at_rod) cap.push_back(p);
@@ -132,14 +131,13 @@ std::vector<TargetPlace> plate_places() {
 Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
                               const ShowTarget& show, AcceptanceReport& report) {
   const std::string name = "dumbbell " + std::to_string(shot.number + 1);
-  const Vec3d along =
-      difference(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
+  const Vec3d along = minus(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
   Vec3d centres[2];
   for (const int side : {0, 1}) {
     const double out = side == 0 ? -1 : 1;
     const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
     RELIEVO_TRY_ASSIGN(const TargetReading reading,
-                       measure_sphere(meter, shot, nominal, scaled(along, -out),
+                       measure_sphere(meter, shot, nominal, times(along, -out),
                                       name + (side == 0 ? " a" : " b"), picture_range_mm, show));
     centres[side] = reading.centre_mm;
     report.targets.push_back(reading);
@@ -152,15 +150,15 @@ Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double pi
                            const ShowTarget& show, AcceptanceReport& report) {
   const std::string name = "plate " + std::to_string(shot.number + 1);
   const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
-  const Vec3d x = difference(left_from_target(shot.place, {1, 0, 0}), middle),
-              y = difference(left_from_target(shot.place, {0, 1, 0}), middle);
+  const Vec3d x = minus(left_from_target(shot.place, {1, 0, 0}), middle),
+              y = minus(left_from_target(shot.place, {0, 1, 0}), middle);
   const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
   const double reach = std::hypot(half_width, half_height) + kMarginMm;
   auto surface = meter.surface_around(middle, reach);
   if (!surface) return at_target(surface.error(), name);
   std::vector<Vec3d> inside;
   for (const Vec3d& p : *surface) {
-    const Vec3d from = difference(p, middle);
+    const Vec3d from = minus(p, middle);
     if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
       inside.push_back(p);
   }

@@ -75,7 +75,7 @@ Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, d
   RELIEVO_TRY_ASSIGN(const auto mesh, room.pipeline.mesh(cloud, pair, room.context));
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
-    if (mesh.measured[i] != 0) points.push_back(measure::wide(mesh.vertices_mm[i]));
+    if (mesh.measured[i] != 0) points.push_back(wide(mesh.vertices_mm[i]));
   return points;
 }
 

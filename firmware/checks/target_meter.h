@@ -16,7 +16,7 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/checks/optical_target.h"
-#include "firmware/measure/vector3.h"
+#include "pipeline/model/vector3.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware {

@@ -3,7 +3,6 @@
 //
 // `relievo algorithms`: what may be chosen, from the description that choices are read by.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,21 +20,12 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-std::string range_of(const pipeline::OptionDescription& option) {
-  if (option.text) return "text";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g to %.10g", option.least, option.most);
-  return text;
-}
-
-bool is_kind(const pipeline::OptionDescription& option) { return !option.names.empty(); }
-
 bool say_options(const Options& all, std::string_view section, Console& console) {
   bool any = false;
   for (const auto& option : all) {
-    if (is_kind(option) || option.key.substr(0, option.key.find('.')) != section) continue;
-    console.say("  " + padded(option.key + " = " + option.value, 36) + padded(range_of(option), 18) +
-                option.sentence);
+    if (!option.is_option() || option.key.substr(0, option.key.find('.')) != section) continue;
+    console.say("  " + padded(option.key + " = " + option.value, 36) +
+                padded(option.text ? "text" : option.range.possible(), 18) + option.sentence);
     any = true;
   }
   return any;
@@ -55,8 +45,8 @@ bool say_algorithms(const Options& all, std::string_view name, Console& console)
 }
 
 bool say_kind(const Options& all, std::string_view key, Console& console) {
-  const auto kind = std::find_if(all.begin(), all.end(),
-                                 [key](const auto& option) { return is_kind(option) && option.key == key; });
+  const auto kind = std::find_if(
+      all.begin(), all.end(), [key](const auto& option) { return !option.is_option() && option.key == key; });
   if (kind == all.end()) return false;
   console.say(kind->key + ": " + kind->sentence + "; default " + kind->value);
   for (const auto& algorithm : kind->algorithms)

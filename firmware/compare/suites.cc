@@ -127,9 +127,9 @@ Words peers() {
                                       "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
                                       "opencv-sgbm.max_lr_px=1", "opencv-sgbm.speckle_px=200"};
   words.push_back({"OpenCV SGBM 3-way", peer});
-  words.back().settings.emplace_back("opencv-sgbm.mode=1");
+  words.back().settings.emplace_back("opencv-sgbm.mode=3way");
   words.push_back({"OpenCV SGBM HH", peer});
-  words.back().settings.emplace_back("opencv-sgbm.mode=2");
+  words.back().settings.emplace_back("opencv-sgbm.mode=hh");
   return words;
 }
 

@@ -54,8 +54,8 @@ class Normal4 {
 
 Vec3d middle_of(const std::vector<Vec3d>& points) {
   Vec3d middle;
-  for (const Vec3d& p : points) middle = sum(middle, p);
-  return scaled(middle, 1 / static_cast<double>(points.size()));
+  for (const Vec3d& p : points) middle = plus(middle, p);
+  return times(middle, 1 / static_cast<double>(points.size()));
 }
 
 // |p|^2 = 2 c.p + k: linear in the centre. Biased by noise, but a start.
@@ -65,13 +65,13 @@ Result<Sphere> guess_sphere(const std::vector<Vec3d>& points, const Vec3d& middl
   if (!(size > 0)) return kShapeless;
   Normal4 system;
   for (const Vec3d& point : points) {
-    const Vec3d p = scaled(difference(point, middle), 1 / size);
+    const Vec3d p = times(minus(point, middle), 1 / size);
     system.add({p.x, p.y, p.z, 1}, dot(p, p));
   }
   Row4 x{};
   if (!system.solve(x)) return kShapeless;
   const Vec3d centre{x[0] / 2, x[1] / 2, x[2] / 2};
-  return Sphere{sum(middle, scaled(centre, size)),
+  return Sphere{plus(middle, times(centre, size)),
                 size * std::sqrt(std::max(0.0, x[3] + dot(centre, centre)))};
 }
 
@@ -133,14 +133,14 @@ Result<Sphere> fit_sphere(const std::vector<Vec3d>& points) {
   for (int round = 0; round < 50; ++round) {
     Normal4 system;
     for (const Vec3d& p : points) {
-      const Vec3d out = difference(p, s.centre_mm);
+      const Vec3d out = minus(p, s.centre_mm);
       const double r = length(out);
       if (!(r > 0)) continue;
       system.add({out.x / r, out.y / r, out.z / r, 1}, r - s.radius_mm);
     }
     Row4 x{};
     if (!system.solve(x)) return kShapeless;
-    s.centre_mm = sum(s.centre_mm, {x[0], x[1], x[2]});
+    s.centre_mm = plus(s.centre_mm, {x[0], x[1], x[2]});
     s.radius_mm += x[3];
     if (std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]) + std::abs(x[3]) < 1e-10) break;
   }
@@ -153,7 +153,7 @@ Result<Plane> fit_plane(const std::vector<Vec3d>& points) {
   const Vec3d middle = middle_of(points);
   Spread spread;
   for (const Vec3d& point : points) {
-    const Vec3d d = difference(point, middle);
+    const Vec3d d = minus(point, middle);
     const std::array<double, 3> p{d.x, d.y, d.z};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) spread.c[i][j] += p[i] * p[j];
@@ -168,12 +168,12 @@ Result<Plane> fit_plane(const std::vector<Vec3d>& points) {
     const Vec3d next = inverse.times(normal);
     const double l = length(next);
     if (!(l > 0)) return kShapeless;
-    const Vec3d unit = scaled(next, 1 / l);
+    const Vec3d unit = times(next, 1 / l);
     const double turned = length(cross(unit, normal));
     normal = unit;
     if (turned < 1e-14) break;
   }
-  if (normal.z > 0) normal = scaled(normal, -1);
+  if (normal.z > 0) normal = times(normal, -1);
   // On a line any normal across it would do.
   const Vec3d along = spread.times(cross(normal, {1, 0, 0})), across = spread.times(cross(normal, {0, 1, 0}));
   if (length(cross(along, across)) < 1e-9 * size * size) return kShapeless;

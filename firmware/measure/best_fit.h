@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "firmware/measure/vector3.h"
 #include "hal/base/result.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::measure {
+
+using pipeline::Vec3d;
 
 struct Sphere {
   Vec3d centre_mm;
@@ -29,7 +31,7 @@ Result<Plane> fit_plane(const std::vector<Vec3d>& points_mm);
 
 // Signed: outside the sphere, on the normal's side of the plane.
 inline double deviation(const Sphere& s, const Vec3d& p) { return distance(p, s.centre_mm) - s.radius_mm; }
-inline double deviation(const Plane& s, const Vec3d& p) { return dot(difference(p, s.point_mm), s.normal); }
+inline double deviation(const Plane& s, const Vec3d& p) { return dot(minus(p, s.point_mm), s.normal); }
 
 // A form that was fitted after at most `share` of the points, those furthest off, had been discarded.
 template <typename Form>

@@ -4,19 +4,13 @@
 
 #include <algorithm>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::firmware::compare {
 namespace {
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-double percentile(std::vector<double>& values, double at) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto k =
-      std::min(values.size() - 1, static_cast<std::size_t>(at * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
 }
 
 void count_error(ErrorHistogram& histogram, double error) {
@@ -36,7 +30,7 @@ void describe_errors(std::vector<double>& errors, double within_sum, std::size_t
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   s.mean_px = errors.empty() ? nothing : sum / static_cast<double>(errors.size());
   s.rms_px = errors.empty() ? nothing : std::sqrt(squares / static_cast<double>(errors.size()));
-  s.median_px = percentile(errors, 0.5);
+  s.median_px = median(errors);
   s.p95_px = percentile(errors, 0.95);
   s.bias_px = within == 0 ? nothing : within_sum / static_cast<double>(within);
 }
@@ -96,8 +90,8 @@ SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, con
   s.shared = errors.size();
   s.bad_one = bad(errors);
   s.bad_other = bad(other_errors);
-  s.median_one_px = percentile(errors, 0.5);
-  s.median_other_px = percentile(other_errors, 0.5);
+  s.median_one_px = median(errors);
+  s.median_other_px = median(other_errors);
   return s;
 }
 

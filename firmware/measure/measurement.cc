@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/measure/rigid_fit.h"
+#include "hal/base/statistics.h"
 
 namespace relievo::firmware::measure {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 constexpr double kTruthReachMm = 20;
 constexpr double kModelReachMm = 10;
 constexpr std::size_t kSamples = 100'000;
-
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto k =
-      std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
-}
 
 double share_within(const std::vector<double>& values, double limit) {
   const auto n = std::count_if(values.begin(), values.end(), [&](double v) { return v <= limit; });
@@ -42,8 +35,7 @@ Surface measured_part(const pipeline::FaceMesh& mesh) {
 std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
   const auto corner = [&](const auto& t, std::size_t k) { return wide(surface.vertices_mm[t[k]]); };
   const auto area = [&](const auto& t) {
-    return 0.5 *
-           length(cross(difference(corner(t, 1), corner(t, 0)), difference(corner(t, 2), corner(t, 0))));
+    return 0.5 * length(cross(minus(corner(t, 1), corner(t, 0)), minus(corner(t, 2), corner(t, 0))));
   };
   double total = 0;
   for (const auto& t : surface.triangles) total += area(t);
@@ -65,7 +57,7 @@ std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
       const double u = fold ? 1 - a : a;
       const double v = fold ? 1 - b : b;
       points.push_back(
-          sum(scaled(corner(t, 0), 1 - u - v), sum(scaled(corner(t, 1), u), scaled(corner(t, 2), v))));
+          plus(times(corner(t, 0), 1 - u - v), plus(times(corner(t, 1), u), times(corner(t, 2), v))));
     }
   }
   return points;
@@ -87,9 +79,9 @@ void measure_surface(const Surface& model, const TruthView& truth, const Triangl
     }
     if (d > 3) ++far;
   }
-  m.accuracy_median_mm = percentile(accuracy, 0.5);
+  m.accuracy_median_mm = median(accuracy);
   m.accuracy_p95_mm = percentile(accuracy, 0.95);
-  m.interior_median_mm = percentile(interior, 0.5);
+  m.interior_median_mm = median(interior);
   m.interior_p95_mm = percentile(interior, 0.95);
   m.outliers_3mm = samples.empty() ? 0 : static_cast<double>(far) / static_cast<double>(samples.size());
 }

@@ -40,7 +40,7 @@ bool solve(Normal6 system, Row6& x) {
 pipeline::Rotation rotation_of(const Vec3d& w) {  // Rodrigues
   const double angle = length(w);
   if (angle < 1e-15) return {};
-  const Vec3d u = scaled(w, 1 / angle);
+  const Vec3d u = times(w, 1 / angle);
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   const double v = 1 - c;
@@ -75,9 +75,9 @@ RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surfa
       const Vec3d p = apply(t, point);
       const auto near = surface.nearest(p, reach_mm);
       if (!near) continue;
-      const Vec3d lever = cross(difference(p, middle), near->normal);
+      const Vec3d lever = cross(minus(p, middle), near->normal);
       const Row6 j{lever.x, lever.y, lever.z, near->normal.x, near->normal.y, near->normal.z};
-      const double error = dot(difference(near->at_mm, p), near->normal);
+      const double error = dot(minus(near->at_mm, p), near->normal);
       for (std::size_t r = 0; r < 6; ++r) {
         for (std::size_t c = 0; c < 6; ++c) system.a[r][c] += j[r] * j[c];
         system.b[r] += j[r] * error;
@@ -87,10 +87,9 @@ RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surfa
     Row6 x{};
     if (used < 100 || !solve(system, x)) break;
     const pipeline::Rotation turn = rotation_of({x[0], x[1], x[2]});
-    const Vec3d moved =
-        sum(apply(turn, difference(t.translation_mm, middle)), sum(middle, {x[3], x[4], x[5]}));
+    const Vec3d moved = plus(apply(turn, minus(t.translation_mm, middle)), plus(middle, {x[3], x[4], x[5]}));
     t = {product(turn, t.rotation), moved};
-    if (length({x[0], x[1], x[2]}) + length({x[3], x[4], x[5]}) < 1e-7) break;
+    if (length(Vec3d{x[0], x[1], x[2]}) + length(Vec3d{x[3], x[4], x[5]}) < 1e-7) break;
   }
   fit.moved_mm = distance(apply(t, middle), middle);
   const double trace = t.rotation.m[0] + t.rotation.m[4] + t.rotation.m[8];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/image/plane.h"
 
@@ -13,14 +14,6 @@ namespace relievo::firmware::compare {
 namespace {
 
 using pipeline::Plane;
-
-// The value below which `share` of them lie; they are put in another order.
-double quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return 0;
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(k)]);
-}
 
 template <typename T>
 void mirror_rows(std::pmr::vector<T>& values, int width, int channels) {
@@ -188,9 +181,10 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
       close += apart.back() <= 1 ? 1 : 0;
     }
   figures.answered = apart.size();
-  figures.median_px = quantile(apart, 0.5);
-  figures.p95_px = quantile(apart, 0.95);
-  figures.within_1px = apart.empty() ? 0 : static_cast<double>(close) / static_cast<double>(apart.size());
+  if (apart.empty()) return figures;
+  figures.median_px = median(apart);
+  figures.p95_px = percentile(apart, 0.95);
+  figures.within_1px = static_cast<double>(close) / static_cast<double>(apart.size());
   return figures;
 }
 
@@ -213,8 +207,9 @@ PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityM
     if (p.count.values[k] >= kFull - 0.5F) all.push_back(static_cast<float>(correlation(p, k)));
   PhotoFigures figures;
   figures.asked = all.size();
-  figures.median = quantile(all, 0.5);
-  figures.p5 = quantile(all, 0.05);
+  if (all.empty()) return figures;
+  figures.median = median(all);
+  figures.p5 = percentile(all, 0.05);
   return figures;
 }
 

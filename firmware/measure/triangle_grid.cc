@@ -10,30 +10,30 @@ namespace {
 
 // Ericson, Real-Time Collision Detection (2005), 5.1.5.
 Vec3d nearest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d ab = difference(b, a);
-  const Vec3d ac = difference(c, a);
-  const Vec3d ap = difference(p, a);
+  const Vec3d ab = minus(b, a);
+  const Vec3d ac = minus(c, a);
+  const Vec3d ap = minus(p, a);
   const double d1 = dot(ab, ap);
   const double d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3d bp = difference(p, b);
+  const Vec3d bp = minus(p, b);
   const double d3 = dot(ab, bp);
   const double d4 = dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return b;
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return sum(a, scaled(ab, d1 / (d1 - d3)));
-  const Vec3d cp = difference(p, c);
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return plus(a, times(ab, d1 / (d1 - d3)));
+  const Vec3d cp = minus(p, c);
   const double d5 = dot(ab, cp);
   const double d6 = dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return c;
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return sum(a, scaled(ac, d2 / (d2 - d6)));
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return plus(a, times(ac, d2 / (d2 - d6)));
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return sum(b, scaled(difference(c, b), (d4 - d3) / ((d4 - d3) + (d5 - d6))));
+    return plus(b, times(minus(c, b), (d4 - d3) / ((d4 - d3) + (d5 - d6))));
   }
   const double whole = va + vb + vc;
-  return sum(a, sum(scaled(ab, vb / whole), scaled(ac, vc / whole)));
+  return plus(a, plus(times(ab, vb / whole), times(ac, vc / whole)));
 }
 
 constexpr std::size_t kMostCells = 40'000'000;
@@ -140,9 +140,9 @@ std::optional<Nearest> TriangleGrid::nearest(const Vec3d& p, double reach_mm) co
   const auto& t = surface_.triangles[which];
   const Vec3d a = wide(surface_.vertices_mm[t[0]]);
   const Vec3d n =
-      cross(difference(wide(surface_.vertices_mm[t[1]]), a), difference(wide(surface_.vertices_mm[t[2]]), a));
+      cross(minus(wide(surface_.vertices_mm[t[1]]), a), minus(wide(surface_.vertices_mm[t[2]]), a));
   const double size = length(n);
-  return Nearest{best, at, size > 0 ? scaled(n, 1 / size) : Vec3d{0, 0, 1}};
+  return Nearest{best, at, size > 0 ? times(n, 1 / size) : Vec3d{0, 0, 1}};
 }
 
 }  // namespace relievo::firmware::measure

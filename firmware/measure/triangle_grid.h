@@ -11,9 +11,11 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/measure/vector3.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::measure {
+
+using pipeline::Vec3d, pipeline::Vec3f;
 
 struct Surface {
   std::vector<Vec3f> vertices_mm;

@@ -81,7 +81,7 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
       const std::size_t i = truth.at(x, y);
       float z = 0;
       std::memcpy(&z, bytes.data() + start + i * 4, 4);
-      const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : scaled(straight(truth.left_, x, y), z);
+      const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : times(straight(truth.left_, x, y), z);
       truth.points_mm_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
       truth.flags_[i] =
           std::isnan(z) ? std::uint8_t{0} : static_cast<std::uint8_t>(truth.flags_[i] & kJudged);
@@ -149,7 +149,7 @@ std::optional<Vec3d> TruthView::judged_point_along(const Vec3d& ray) const {
       const double weight = (i == 0 ? 1 - (u - x) : u - x) * (j == 0 ? 1 - (v - y) : v - y);
       z += weight * static_cast<double>(points_mm_[k].z);
     }
-  return scaled(ray, z / ray.z);
+  return times(ray, z / ray.z);
 }
 
 std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {

@@ -3,8 +3,7 @@
 //
 // The code a person gets for their erasure: the twelve digits drawn for them and two check digits (ISO/IEC
 // 7064, MOD 97-10), as "4821-9037-5512-71". One wrong or swapped digit is noticed. Digits only: every
-// keyboard has them, and none looks like another. Who was enrolled before codes were drawn has the number of
-// their record, as "000123-09"; such a code leads to nobody who has a drawn one.
+// keyboard has them, and none looks like another.
 #pragma once
 
 #include <optional>

@@ -28,20 +28,19 @@ std::string joined(const std::vector<std::string>& names) {
 
 Result<void> check_value(const OptionDescription& option, const std::string& value) {
   if (option.text) return {};
-  const std::string place = option.key + " = " + value;
   if (!option.names.empty()) {
     for (const std::string& part : option.several ? split_names(value) : std::vector<std::string>{value})
-      if (std::find(option.names.begin(), option.names.end(), part) == option.names.end())
+      if (std::find(option.names.begin(), option.names.end(), part) == option.names.end()) {
+        if (option.is_option()) return out_of_range(option.key, value, option.range);
         return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(
-            place + " (" + joined(option.names) + ")");
+            option.key + " = " + value + " (" + joined(option.names) + ")");
+      }
     return {};
   }
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
-  if (value.empty() || end != value.c_str() + value.size() ||
-      !(number >= option.least && number <= option.most))
-    return Error{Errc::InvalidInput, "not a number in the range in brackets"}.at(
-        place + " (" + option_text(option.least) + " to " + option_text(option.most) + ")");
+  if (value.empty() || end != value.c_str() + value.size() || !option.range.holds(number))
+    return out_of_range(option.key, value, option.range);
   return {};
 }
 
@@ -62,7 +61,7 @@ std::vector<std::string> split_names(std::string_view text) {
 std::vector<OptionDescription> describe_algorithms() {
   std::vector<OptionDescription> all;
   for (const Kind& kind : all_kinds()) {
-    all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, 0, 0, false, kind.several});
+    all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, {}, false, kind.several});
     for (const AlgorithmDescription& algorithm : kind.algorithms)
       all.back().names.emplace_back(algorithm.name);
   }
@@ -79,7 +78,7 @@ Error unknown_key(std::string_view key, const std::vector<OptionDescription>& al
   const std::string begin = std::string(section) + ".";
   std::vector<std::string> kinds, options;
   for (const OptionDescription& option : all) {
-    if (!option.names.empty()) kinds.push_back(option.key);
+    if (!option.is_option()) kinds.push_back(option.key);
     else if (option.key.starts_with(begin)) options.push_back(option.key.substr(begin.size()));
   }
   const auto place = [key](const std::vector<std::string>& there) {

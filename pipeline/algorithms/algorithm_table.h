@@ -6,9 +6,8 @@
 // their documentation and its making need.
 #pragma once
 
-#include <locale>
+#include <algorithm>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -36,47 +35,41 @@ std::vector<OptionDescription> surface_options();
 // Names joined by '+', apart.
 std::vector<std::string> split_names(std::string_view text);
 
-template <typename Value>
-std::string option_text(const Value& value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
-}
-
 // Adds the options of one algorithm of this kind, as they are by default.
 template <typename Options>
 void describe_options(std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) {
   Options options;
-  describe(options, [&](const char* name, auto& value, OptionRange range, const char* sentence) {
-    constexpr bool text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
-    all.push_back({std::string(section) + "." + name,
-                   option_text(value),
-                   sentence,
-                   {},
-                   {},
-                   range.least,
-                   range.most,
-                   text,
-                   false,
-                   std::string(kind)});
+  describe(options, [&](const char* name, auto& value, const OptionRange& range, const char* sentence) {
+    OptionDescription one;
+    one.key = std::string(section) + "." + name;
+    one.value = option_text(value, range);
+    one.sentence = sentence;
+    one.names.assign(range.names.begin(), range.names.end());
+    one.range = range;
+    one.text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
+    one.kind = kind;
+    all.push_back(std::move(one));
   });
 }
 
-// Reads one algorithm's options out of the set. The set has checked that numbers are numbers in range.
+// Reads one algorithm's options out of the set. The set has checked that numbers are numbers in range,
+// and names known.
 class OptionReader {
  public:
   template <typename Options>
   static Result<Options> read(const AlgorithmSet& set, std::string_view section) {
     Options options;
-    describe(options, [&](const char* name, auto& value, OptionRange, const char*) {
+    describe(options, [&](const char* name, auto& value, const OptionRange& range, const char*) {
       using Value = std::remove_reference_t<decltype(value)>;
       const auto chosen = set.chosen_.find(std::string(section) + "." + name);
       if (chosen == set.chosen_.end()) return;
       if constexpr (std::is_same_v<Value, std::string>) value = chosen->second;
+      else if constexpr (std::is_enum_v<Value>)
+        value = static_cast<Value>(std::find(range.names.begin(), range.names.end(), chosen->second) -
+                                   range.names.begin());
       else value = static_cast<Value>(number(chosen->second));
     });
-    RELIEVO_TRY(options.check());
+    RELIEVO_TRY(check_options(options, section));
     return options;
   }
 

@@ -4,17 +4,61 @@
 // How an algorithm's settings describe themselves, once: every Options struct has a free function
 //
 //   template <typename Field> void describe(XOptions& o, Field&& field) {
-//     field("window_px", o.window_px, OptionRange{3, 63}, "side of the window, pixels");
+//     field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+//     field("mode", o.mode, OptionRange{.names = kModes}, "3way: three paths, hh: eight paths");
 //   }
 //
-// from which `--set`, the TOML file, the technician's page and the documentation are made.
+// from which `--set`, the TOML file, the technician's page, the documentation and check_options() are made.
+// Numbers have a range, enum classes a name for each value, std::string is any text.
 #pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "hal/base/result.h"
 
 namespace relievo::pipeline {
 
 struct OptionRange {
-  double least;
-  double most;
+  double least = 0;
+  double most = 0;
+  double step = 0;                          // of a number: counted from `least`; 0: any
+  std::span<const char* const> names = {};  // of an enum class, one a value from 0 on
+
+  bool holds(double value) const;  // not a number is outside
+  std::string possible() const;    // "3 to 63 in steps of 2", "3way or hh"
 };
+
+// "sgm.band", "3": InvalidInput, with what would be possible.
+Error out_of_range(const std::string& option, const std::string& value, const OptionRange& range);
+
+// To ten digits, a float's to six.
+std::string number_text(double value, int digits = 10);
+
+// A value as it is shown, and read again.
+template <typename Value>
+std::string option_text(const Value& value, const OptionRange& range) {
+  if constexpr (std::is_same_v<Value, std::string>) return value;
+  else if constexpr (std::is_enum_v<Value>) return range.names[static_cast<std::size_t>(value)];
+  else return number_text(static_cast<double>(value), std::is_same_v<Value, float> ? 6 : 10);
+}
+
+// Errors: InvalidInput for the first number outside of its range; what the struct's own check() says, if it
+// has one, of options that do not fit together.
+template <typename Options>
+Result<void> check_options(const Options& options, std::string_view algorithm) {
+  Result<void> checked;
+  Options copy = options;  // describe() is for writing, too
+  describe(copy, [&](const char* name, const auto& value, const OptionRange& range, const char*) {
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
+      if (checked && !range.holds(static_cast<double>(value)))
+        checked = out_of_range(std::string(algorithm) + "." + name, option_text(value, range), range);
+  });
+  if constexpr (requires { options.check(); })
+    if (checked) return options.check();
+  return checked;
+}
 
 }  // namespace relievo::pipeline

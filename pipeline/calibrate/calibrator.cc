@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "hal/base/statistics.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/fit/stereo_fit.h"
 #include "pipeline/calibrate/fit/view_selection.h"
@@ -75,10 +76,8 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
       if (seen(at)) all.push_back(off[v].back());
     }
   }
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
   constexpr double kMedianOfDistance = 1.1774;  // in standard deviations of one coordinate
-  Strays strays{std::max(kStrayCorner * *middle / kMedianOfDistance, kLeastStrayPx), {}};
+  Strays strays{std::max(kStrayCorner * median(all) / kMedianOfDistance, kLeastStrayPx), {}};
   for (const auto& view : off) {
     auto& of_view = strays.of_view.emplace_back();
     for (std::size_t i = 0; i < view.size(); ++i)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -35,10 +37,7 @@ double median_sigma(const FaceMesh& mesh, Arena& scratch) {
   sigma.reserve(mesh.sigma_mm.size());
   for (std::size_t k = 0; k < mesh.sigma_mm.size(); ++k)
     if (mesh.measured[k] != 0) sigma.push_back(mesh.sigma_mm[k]);
-  if (sigma.empty()) return 0;
-  const auto middle = sigma.begin() + static_cast<std::ptrdiff_t>(sigma.size() / 2);
-  std::nth_element(sigma.begin(), middle, sigma.end());
-  return static_cast<double>(*middle);
+  return sigma.empty() ? 0 : median(sigma);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline::mesh {
 

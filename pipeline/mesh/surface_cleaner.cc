@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/vector_math.h"
+#include "hal/base/groups.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus, mesh::unit;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
@@ -25,8 +24,7 @@ class Soup {
        std::pmr::memory_resource* memory)
       : vertices_(vertices),
         triangles_(triangles),
-        first_(vertices.size() + 1, 0U, memory),
-        around_(3 * triangles.size(), 0U, memory),
+        around_(memory),
         across_(3 * triangles.size(), kNone, memory),
         alive_(triangles.size(), 1, memory),
         mark_(triangles.size(), kNone, memory),
@@ -91,14 +89,10 @@ class Soup {
 
  private:
   void index_corners() {
-    for (const Triangle& t : triangles_)
-      for (const std::uint32_t v : t) ++first_[v + 1];
-    for (std::size_t v = 0; v < vertices_.size(); ++v) first_[v + 1] += first_[v];
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (const std::uint32_t v : triangles_[t]) around_[first_[v]++] = t;
-    // Filling moved each start to its end, which is the next one's start.
-    std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-    first_[0] = 0;
+    around_.sort(vertices_.size(), [this](auto&& add) {
+      for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+        for (const std::uint32_t v : triangles_[t]) add(v, t);
+    });
   }
 
   void find_neighbours() {
@@ -107,12 +101,12 @@ class Soup {
         if (across_[3 * t + k] != kNone) continue;
         const std::uint32_t from = triangles_[t][k];
         const std::uint32_t to = triangles_[t][(k + 1) % 3];
-        for (std::uint32_t i = first_[from]; i < first_[from + 1]; ++i) {
-          const Triangle& other = triangles_[around_[i]];
+        for (const std::uint32_t there : around_[from]) {
+          const Triangle& other = triangles_[there];
           const std::size_t j = other[0] == to ? 0 : other[1] == to ? 1 : 2;
           if (other[j] != to || other[(j + 1) % 3] != from) continue;
-          across_[3 * t + k] = around_[i];
-          across_[3 * around_[i] + j] = t;
+          across_[3 * t + k] = there;
+          across_[3 * there + j] = t;
           break;
         }
       }
@@ -159,19 +153,18 @@ class Soup {
   std::size_t keep_largest_fan(std::uint32_t v) {
     std::uint32_t keep = kNone;
     std::size_t longest = 0;
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-      if (!alive_[around_[i]]) continue;
-      collect_fan(v, around_[i]);
+    for (const std::uint32_t t : around_[v]) {
+      if (!alive_[t]) continue;
+      collect_fan(v, t);
       if (stack_.size() > longest) {
         longest = stack_.size();
-        keep = around_[i];
+        keep = t;
       }
     }
     if (keep == kNone) return 0;
     collect_fan(v, keep);
     std::size_t dropped = 0;
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-      const std::uint32_t t = around_[i];
+    for (const std::uint32_t t : around_[v]) {
       if (!alive_[t] || std::find(stack_.begin(), stack_.end(), t) != stack_.end()) continue;
       alive_[t] = 0;
       ++dropped;
@@ -181,8 +174,7 @@ class Soup {
 
   std::span<const Vec3f> vertices_;
   std::span<const Triangle> triangles_;
-  std::pmr::vector<std::uint32_t> first_,
-      around_;                              // triangles around vertex v: around_[first_[v] .. first_[v + 1])
+  Groups around_;                           // triangles around each vertex
   std::pmr::vector<std::uint32_t> across_;  // the triangle behind each edge
   std::pmr::vector<std::uint8_t> alive_;
   std::pmr::vector<std::uint32_t> mark_, stack_;

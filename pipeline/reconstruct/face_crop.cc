@@ -7,11 +7,6 @@
 #include "pipeline/match/region/face_reach.h"
 
 namespace relievo::pipeline {
-Result<void> FaceCropOptions::check() const {
-  if (!(radius_mm > 0)) return Error{Errc::InvalidInput, "face: radius_mm must be positive"};
-  return {};
-}
-
 Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const FaceCropOptions& options,
                           StageContext& context) {
   if (!(pair.face_width_px > 0)) return {};

@@ -16,7 +16,6 @@ namespace relievo::pipeline {
 
 struct FaceCropOptions {
   double radius_mm = 104;  // tip of the nose to the hairline and the chin: 95 and 75 on a grown-up
-  Result<void> check() const;
 };
 
 template <typename Field>

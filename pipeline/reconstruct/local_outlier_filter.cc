@@ -190,19 +190,9 @@ class Filter {
 
 }  // namespace
 
-Result<void> LocalOutlierFilterOptions::check() const {
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("outlier-filter");
-  if (!(min_support >= 0 && min_support <= 1) || !(min_island >= 0 && min_island <= 1))
-    return Error{Errc::InvalidInput, "min_support and min_island must lie in 0 .. 1"}.at("outlier-filter");
-  if (!(spike_sigmas >= 0 && spike_sigmas <= 100))
-    return Error{Errc::InvalidInput, "spike_sigmas must lie in 0 .. 100"}.at("outlier-filter");
-  return {};
-}
-
 Result<OutlierCounts> reject_outliers(PointCloud& cloud, const LocalOutlierFilterOptions& options,
                                       StageContext& context) {
-  RELIEVO_TRY(options.check());
+  RELIEVO_TRY(check_options(options, "local"));
   const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
   if (context.stop()) return stopped;
   Filter filter(cloud, options, context.scratch);

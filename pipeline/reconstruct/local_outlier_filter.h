@@ -22,8 +22,6 @@ struct LocalOutlierFilterOptions {
   double min_support = 0.34;  // share of the 24 places around a point that must support it
   double spike_sigmas = 4;    // distance from the neighbours' plane, in their own scatter; 0 keeps spikes
   double min_island = 0.01;   // islands with less than this share of the points go
-
-  Result<void> check() const;
 };
 
 template <typename Field>

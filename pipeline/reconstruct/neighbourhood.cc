@@ -20,7 +20,7 @@ bool usable(const CloudPoint& p) {
 }  // namespace
 
 Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory)
-    : on_lattice_(cloud.lattice_step_px > 0), first_(memory), members_(memory) {
+    : on_lattice_(cloud.lattice_step_px > 0), cells_(memory) {
   float left = kLargestPixel;
   float top = kLargestPixel;
   float right = -kLargestPixel;
@@ -42,21 +42,11 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
   const auto cell_of = [step](float from, float at) {
     return static_cast<int>(std::lround(static_cast<double>(at - from) / step));
   };
-  columns_ = cell_of(left, right) + 1;
-  rows_ = cell_of(top, bottom) + 1;
-  const auto place = [&](const CloudPoint& p) {
-    return static_cast<std::size_t>(cell_of(top, p.left_px.y)) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(cell_of(left, p.left_px.x));
-  };
-  first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 2, 0U);
-  members_.assign(count, 0U);
-  // Counting sort; shifted by two so that filling leaves each start in place.
-  for (const CloudPoint& p : cloud.points)
-    if (usable(p)) ++first_[place(p) + 2];
-  for (std::size_t k = 2; k < first_.size(); ++k) first_[k] += first_[k - 1];
-  for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (usable(cloud.points[i]))
-      members_[first_[place(cloud.points[i]) + 1]++] = static_cast<std::uint32_t>(i);
+  cells_.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
+    for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
+      if (const CloudPoint& p = cloud.points[i]; usable(p))
+        add(cell_of(left, p.left_px.x), cell_of(top, p.left_px.y), i);
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/cells.h"
 #include "pipeline/model/point_cloud.h"
 
 namespace relievo::pipeline {
@@ -21,22 +22,15 @@ class Neighbourhood {
   Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory);
 
   bool on_lattice() const { return on_lattice_; }
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
+  int columns() const { return cells_.columns(); }
+  int rows() const { return cells_.rows(); }
   // How far around a point its neighbours are looked for, in cells.
   int reach() const { return on_lattice_ ? 2 : 1; }
-  std::span<const std::uint32_t> cell(int column, int row) const {
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return {};
-    const std::size_t k =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-    return {members_.data() + first_[k], first_[k + 1] - first_[k]};
-  }
+  std::span<const std::uint32_t> cell(int column, int row) const { return cells_.at(column, row); }
 
  private:
   bool on_lattice_;
-  int columns_ = 0;
-  int rows_ = 0;
-  std::pmr::vector<std::uint32_t> first_, members_;
+  Cells cells_;
 };
 
 }  // namespace relievo::pipeline

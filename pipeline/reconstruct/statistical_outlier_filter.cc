@@ -12,7 +12,6 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kMostRings = 8;
-constexpr int kMostNeighbours = 64;
 constexpr float kAlone = -1;
 constexpr int kBands = 32;
 
@@ -37,7 +36,7 @@ struct Nearest {
  private:
   int most_;
   int count_ = 0;
-  std::array<float, kMostNeighbours> least_{};
+  std::array<float, StatisticalOutlierFilterOptions::kMostNeighbours> least_{};
 };
 
 float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uint32_t i, int column, int row,
@@ -65,15 +64,8 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
 
 }  // namespace
 
-Result<void> StatisticalOutlierFilterOptions::check() const {
-  if (neighbours < 1 || neighbours > kMostNeighbours || !(deviations > 0))
-    return Error{Errc::InvalidInput, "neighbours must lie in 1 .. 64 and deviations be positive"}.at(
-        "outliers statistical");
-  return {};
-}
-
 Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "statistical"));
   const Neighbourhood near(cloud, &context.scratch);
   std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
   context.pool.for_each_band(near.rows(), kBands, [&](int begin, int end, int) {

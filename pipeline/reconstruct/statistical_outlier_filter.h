@@ -16,14 +16,14 @@
 namespace relievo::pipeline {
 
 struct StatisticalOutlierFilterOptions {
+  static constexpr int kMostNeighbours = 64;
   int neighbours = 16;
   double deviations = 2;
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(StatisticalOutlierFilterOptions& o, Field&& field) {
-  field("neighbours", o.neighbours, OptionRange{1, 64},
+  field("neighbours", o.neighbours, OptionRange{1, o.kMostNeighbours},
         "points in space: the mean distance to so many nearest ones is judged");
   field("deviations", o.deviations, OptionRange{0.1, 100},
         "points in space: standard deviations above the cloud's mean at which a point goes");

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -64,12 +66,6 @@ void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, 
   }
 }
 
-double median_of(std::pmr::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Where the face's middle is in space: on the line of sight through it, as deep as the surface around.
 // Where no face was looked for, the middle of the surface itself.
 Vector3d middle_of(const Samples& all, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
@@ -86,8 +82,8 @@ Vector3d middle_of(const Samples& all, const RectifiedPair& pair, std::pmr::memo
       x.push_back(s.at.x()), y.push_back(s.at.y()), z.push_back(s.at.z());
     }
   }
-  const double depth = median_of(z);
-  if (!(pair.face_width_px > 0)) return {median_of(x), median_of(y), depth};
+  const double depth = median(z);
+  if (!(pair.face_width_px > 0)) return {median(x), median(y), depth};
   return {(pair.face_centre_px.x - pair.left_centre_px.x) / pair.focal_px * depth,
           (pair.face_centre_px.y - pair.left_centre_px.y) / pair.focal_px * depth, depth};
 }

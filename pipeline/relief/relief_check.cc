@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "hal/base/statistics.h"
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 
@@ -23,13 +24,6 @@ constexpr double kSmoothMm = 8;           // narrower than a nose, wider than wh
 constexpr double kCurveMm = 12;
 constexpr double kTelling = 0.4;  // of the disc: less of a face may curve as little as a sheet
 constexpr double kFull = 0.8;     // share of a neighbourhood that must have been measured
-
-double percentile(std::pmr::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 double rms_of_trusted(const SheetFit& fit, Arena& scratch) {
   Arena::Mark mark(scratch);
@@ -48,7 +42,7 @@ double median_sigma(const HeightCells& cells, Arena& scratch) {
   std::pmr::vector<double> sigmas(&scratch);
   sigmas.reserve(cells.cells.size());
   for (const HeightCell& cell : cells.cells) sigmas.push_back(cell.sigma_mm);
-  return percentile(sigmas, 0.5);
+  return median(sigmas);
 }
 
 // Calls visit(k, dx, dy) for every cell within `reach_mm`; tells whether the neighbourhood is full.
@@ -106,13 +100,6 @@ double curvature_of(const HeightCells& cells) {
 }
 
 }  // namespace
-
-Result<void> ReliefOptions::check() const {
-  if (!(least_off_sheet_mm >= 0) || !(least_curvature_sr >= 0) || !(least_sigmas >= 0))
-    return Error{Errc::InvalidInput,
-                 "relief: least_off_sheet_mm, least_curvature_sr and least_sigmas may not be negative"};
-  return {};
-}
 
 Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
   Arena::Mark mark(context.scratch);

@@ -29,7 +29,6 @@ struct ReliefOptions {
   double least_curvature_sr = 1.5;  // half again what 900 pictures of faces came to; of a face half may be
                                     // hidden, and noise takes from the rest
   double least_sigmas = 1.5;        // off_sheet_mm over the stated sigma: noise alone makes 0.55
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/mesh/lattice/head_chart.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -50,7 +50,7 @@ class Maker {
       const long c = std::lround((at.x + kAsideMm) / kStepMm), r = std::lround((at.y + kAboveMm) / kStepMm);
       if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
       const std::size_t k = index(static_cast<int>(c), static_cast<int>(r));
-      radius_[k] = std::max(radius_[k], mesh::length(from_centre) - kUnderFaceMm);
+      radius_[k] = std::max(radius_[k], length(from_centre) - kUnderFaceMm);
       away_mm_[k] = 0;
     }
   }
@@ -134,9 +134,9 @@ class Maker {
     const auto at = [&](int x, int y) {
       return made_.at_mm[index(std::clamp(x, 0, columns_ - 1), std::clamp(y, 0, rows_ - 1))];
     };
-    const Vec3f n = mesh::unit(mesh::cross(mesh::minus(at(c + kAbout, r), at(c - kAbout, r)),
-                                           mesh::minus(at(c, r + kAbout), at(c, r - kAbout))));
-    return std::abs(mesh::dot(n, mesh::unit(at(c, r))));
+    const Vec3f n =
+        unit(cross(minus(at(c + kAbout, r), at(c - kAbout, r)), minus(at(c, r + kAbout), at(c, r - kAbout))));
+    return std::abs(dot(n, unit(at(c, r))));
   }
 
   std::array<std::uint8_t, 4> colour(int c, int r) const {

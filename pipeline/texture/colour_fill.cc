@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/groups.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -16,32 +18,20 @@ constexpr float kStill = 0.25F;          // grey levels: nothing moves by more
 constexpr float kOverRelaxation = 1.6F;  // Young's successive over-relaxation; below 2 it converges
 
 // Neighbours of the unknown vertices, each as often as triangles say so: twice inside, once at an edge.
-struct Neighbours {
-  Neighbours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::pmr::memory_resource* memory)
-      : first(mesh.vertices_mm.size() + 1, 0, memory), all(memory) {
-    const auto for_each = [&](auto&& visit) {
-      for (const auto& t : mesh.triangles)
-        for (std::size_t i = 0; i < 3; ++i)
-          if (known[t[i]] == 0) visit(t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
-    };
-    for_each([&](std::uint32_t v, std::uint32_t, std::uint32_t) { first[v + 1] += 2; });
-    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    all.resize(first.back());
-    std::pmr::vector<std::uint32_t> next(first.begin(), first.end() - 1, memory);
-    for_each([&](std::uint32_t v, std::uint32_t a, std::uint32_t b) {
-      all[next[v]++] = a;
-      all[next[v]++] = b;
-    });
-  }
-  std::span<const std::uint32_t> of(std::size_t v) const {
-    return std::span(all).subspan(first[v], first[v + 1] - first[v]);
-  }
-  std::pmr::vector<std::uint32_t> first, all;
-};
+Groups neighbours_of(const FaceMesh& mesh, std::span<const std::uint8_t> known,
+                     std::pmr::memory_resource* memory) {
+  Groups neighbours(memory);
+  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (known[t[i]] == 0) add(t[i], t[(i + 1) % 3]), add(t[i], t[(i + 2) % 3]);
+  });
+  return neighbours;
+}
 
 // Unknown vertices in the order in which the known ones reach them, coloured by those that came before.
 std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std::uint8_t> known,
-                                      const Neighbours& neighbours, std::span<VertexColour> colours,
+                                      const Groups& neighbours, std::span<VertexColour> colours,
                                       std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint8_t> done(known.begin(), known.end(), memory);
   std::pmr::vector<std::uint32_t> order(memory);
@@ -51,7 +41,7 @@ std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std:
     const auto take = [&](std::uint32_t v) {
       VertexColour sum{0, 0, 0};
       float count = 0;
-      for (const std::uint32_t n : neighbours.of(v)) {
+      for (const std::uint32_t n : neighbours[v]) {
         if (done[n] != 1) continue;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colours[n][c];
         count += 1;
@@ -66,7 +56,7 @@ std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std:
         if (done[v] == 0) take(v);
     } else {
       for (std::size_t i = ring_begin; i < ring_end; ++i)
-        for (const std::uint32_t n : neighbours.of(order[i]))
+        for (const std::uint32_t n : neighbours[order[i]])
           if (done[n] == 0) take(n);
     }
     for (std::size_t i = ring_end; i < order.size(); ++i) done[order[i]] = 1;
@@ -109,11 +99,11 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v] == 0) colours[v] = mean;
   if (std::find(known.begin(), known.end(), std::uint8_t{1}) == known.end()) return;
-  const Neighbours neighbours(mesh, known, &context.scratch);
+  const Groups neighbours = neighbours_of(mesh, known, &context.scratch);
   const std::pmr::vector<std::uint32_t> order = reach(mesh, known, neighbours, colours, &context.scratch);
   float moved = 0;
   const auto relax = [&](std::uint32_t v) {
-    const auto around = neighbours.of(v);
+    const auto around = neighbours[v];
     const float share = 1 / static_cast<float>(around.size());
     for (std::size_t c = 0; c < 3; ++c) {
       float sum = 0;

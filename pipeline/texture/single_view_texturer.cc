@@ -7,17 +7,14 @@
 namespace relievo::pipeline {
 
 Result<void> SingleViewTexturerOptions::check() const {
-  if (max_atlas_px < 64 || max_atlas_px > 8192)
-    return Error{Errc::InvalidInput, "max_atlas_px must lie in 64 .. 8192"}.at("texturer.single-view");
-  if (margin_px < 0 || margin_px > 256 || 4 * margin_px > max_atlas_px)
-    return Error{Errc::InvalidInput, "margin_px must lie in 0 .. 256 and within a quarter of max_atlas_px"}
-        .at("texturer.single-view");
+  if (4 * margin_px > max_atlas_px)
+    return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at("single-view");
   return {};
 }
 
 Result<TextureAtlas> SingleViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                                  StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "single-view"));
   LayerOptions layer;
   layer.chart = {options_.max_atlas_px, options_.margin_px};
   layer.shot.left_only = true;

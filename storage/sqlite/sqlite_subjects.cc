@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kSubjects =
     "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id), "
-    "coalesce(receipt, 0) FROM subject ";
+    "receipt FROM subject ";
 
 std::string_view name_in(const Statement& query) {
   const auto bytes = query.blob(1);

@@ -16,7 +16,7 @@
 #include <map>
 
 #include "firmware/measure/true_surface.h"
-#include "firmware/measure/vector3.h"
+#include "pipeline/model/vector3.h"
 #include "tests/bench/frame_trial.h"
 #include "tests/bench/recognition/enrolment.h"
 
@@ -30,9 +30,8 @@ Result<Photograph> look_at(const std::filesystem::path& folder, test::StageBench
   RELIEVO_TRY_ASSIGN(photo.true_surface, firmware::measure::read_true_surface(folder / "head.ply"));
   RELIEVO_TRY_ASSIGN(const SeenSurface seen, surface_of(folder, room));
   photo.across = seen.across;
-  auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) {
-    return find_head_frame(seen.mesh, {}, c, photo.across);
-  });
+  auto frame = pipeline::run_stage(
+      room.context, [&](pipeline::StageContext& c) { return find_head_frame(seen.mesh, c, photo.across); });
   if (!frame) return frame.error();
   photo.frame = *frame;
   return photo;
@@ -53,7 +52,7 @@ void compare(const std::vector<Photograph>& photos, Tally& tally) {
   for (std::size_t i = 0; i < photos.size(); ++i)
     for (std::size_t j = i + 1; j < photos.size(); ++j) {
       const Apart apart = between(photos[i], photos[j], a_from_b(photos[i], photos[j]));
-      const double mm = firmware::measure::length(apart.origin_mm);
+      const double mm = pipeline::length(apart.origin_mm);
       std::printf("%-8s %-6s %-6s  %5.2f mm (%5.2f %5.2f %5.2f)  %5.2f deg (%5.2f %5.2f %5.2f)%s\n",
                   photos[i].person.c_str(), photos[i].pose.c_str(), photos[j].pose.c_str(), mm,
                   apart.origin_mm.x, apart.origin_mm.y, apart.origin_mm.z, apart.turned_deg,

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "pipeline/match/window/ssd_matcher.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -29,6 +32,7 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
 
 TEST(Algorithms, EachSaysWhatItIsAndWhereItComesFrom) {
   for (const OptionDescription& kind : describe_algorithms()) {
+    if (kind.is_option()) continue;
     ASSERT_EQ(kind.algorithms.size(), kind.names.size()) << kind.key;
     for (std::size_t k = 0; k < kind.names.size(); ++k) {
       EXPECT_EQ(kind.algorithms[k].name, kind.names[k]);
@@ -42,7 +46,7 @@ TEST(Algorithms, EachSaysWhatItIsAndWhereItComesFrom) {
 TEST(Algorithms, OptionsBearTheNameOfTheirAlgorithm) {
   const auto all = describe_algorithms();
   for (const OptionDescription& option : all) {
-    if (!option.names.empty()) continue;
+    if (!option.is_option()) continue;
     const std::string section = option.key.substr(0, option.key.find('.'));
     const bool named = std::any_of(all.begin(), all.end(), [&](const OptionDescription& kind) {
       return std::find(kind.names.begin(), kind.names.end(), section) != kind.names.end();
@@ -70,7 +74,7 @@ TEST(Algorithms, DefaultsLieInTheirOwnRange) {
 TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
   for (const OptionDescription& option : describe_algorithms()) {
     if (!option.names.empty() || option.text) continue;
-    for (const double value : {option.least, option.most}) {
+    for (const double value : {option.range.least, option.range.most}) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, std::to_string(value))) << option.key;
       EXPECT_TRUE(make_preprocessor(set)) << option.key << " = " << value;
@@ -81,6 +85,32 @@ TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
       EXPECT_TRUE(make_constraints(set)) << option.key << " = " << value;
     }
   }
+}
+
+TEST(Algorithms, WhatIsOutOfRangeIsNamedWithItsValueAndItsRange) {
+  EXPECT_TRUE(check_options(SsdMatcherOptions{}, "ssd"));
+  const auto even = check_options(SsdMatcherOptions{.window_px = 10}, "ssd");
+  ASSERT_FALSE(even);
+  EXPECT_EQ(even.error().code, Errc::InvalidInput);
+  EXPECT_EQ(even.error().where(), "ssd.window_px = 10 (3 to 63 in steps of 2)");
+  EXPECT_FALSE(check_options(SsdMatcherOptions{.max_difference = NAN}, "ssd"));
+  const auto set = AlgorithmSet{}.set("ssd.window_px", "10");
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().where(), even.error().where()) << "one range, wherever it is asked";
+}
+
+TEST(Algorithms, ModesAreChosenByName) {
+  AlgorithmSet set;
+  EXPECT_EQ(set.get("opencv-sgbm.mode"), "3way");
+  ASSERT_TRUE(set.set("opencv-sgbm.mode", "hh"));
+  ASSERT_TRUE(set.set("matcher", "opencv-sgbm"));
+  EXPECT_TRUE(make_matcher(set));
+  for (const char* number : {"1", "2", "", "HH"}) {
+    const auto refused = set.set("opencv-sgbm.mode", number);
+    ASSERT_FALSE(refused) << number;
+    EXPECT_NE(refused.error().where().find("3way or hh"), std::string_view::npos) << number;
+  }
+  EXPECT_EQ(set.get("opencv-sgbm.mode"), "hh");
 }
 
 TEST(Algorithms, ConstraintsAreJoinedAndKeepTheirOrder) {
@@ -105,7 +135,7 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   ASSERT_FALSE(unknown_option);
   EXPECT_NE(unknown_option.error().where().find("window_px"), std::string_view::npos);
   for (const OptionDescription& option : describe_algorithms()) {
-    if (!option.names.empty()) continue;
+    if (!option.is_option()) continue;
     const std::string misspelt = option.key.substr(0, option.key.find('.')) + ".misspelt";
     const auto refused = set.set(misspelt, "1");
     ASSERT_FALSE(refused);

@@ -102,19 +102,6 @@ pipeline::StereoCalibration sample_calibration() {
   return c;
 }
 
-std::vector<std::byte> calibration_of_first_form(const pipeline::StereoCalibration& calibration) {
-  const auto now = encode_calibration(calibration);
-  constexpr std::ptrdiff_t kNewer =
-      8 + 1 + 3 * 8 +
-      2 * (pipeline::kMaxCameraWords + 1);  // the shift, the grade, three figures, the cameras' names
-  std::vector<std::byte> before(now.begin(),
-                                now.end() - static_cast<std::ptrdiff_t>(sizeof(Sha256)) - kNewer);
-  before[8] = std::byte{1};
-  const Sha256 digest = sha256(before);
-  ByteWriter(before).put(digest);
-  return before;
-}
-
 NewEnrolment sample_enrolment(const FaceModel& model) {
   return {.model = model,
           .consent = {"2026-03", "en", WallTime(std::chrono::milliseconds(1'772'000'000'000))},

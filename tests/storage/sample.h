@@ -32,8 +32,6 @@ class StillClock final : public hal::Clock {
 pipeline::FaceModel sample_model(int side = 12, unsigned seed = 1);
 pipeline::RecognitionImages sample_images();  // a few pixels of every kind
 pipeline::StereoCalibration sample_calibration();
-// The record of it as stores of before migration 3 hold it.
-std::vector<std::byte> calibration_of_first_form(const pipeline::StereoCalibration& calibration);
 NewEnrolment sample_enrolment(const pipeline::FaceModel& model);
 
 // Every bit of every field.

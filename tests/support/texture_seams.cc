@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "tests/support/colour_difference.h"
 
 namespace relievo::test {
@@ -124,8 +125,7 @@ std::optional<double> across(const Reader& judged, const std::optional<Reader>& 
 
 SeamFigures figures_of(std::vector<double>& all) {
   if (all.empty()) return {};
-  std::sort(all.begin(), all.end());
-  return {all.size(), all[all.size() / 2], all[all.size() * 95 / 100]};
+  return {all.size(), median(all), percentile(all, 0.95)};
 }
 
 }  // namespace

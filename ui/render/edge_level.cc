@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "hal/base/groups.h"
+
 namespace relievo::ui {
 namespace {
 
@@ -45,23 +47,19 @@ std::vector<std::uint32_t> spaced(const pipeline::FaceMesh& mesh, float least_mm
 }
 
 // The neighbours of every vertex, one list after the other; each twice where two triangles share the side.
-struct Neighbours {
-  explicit Neighbours(const pipeline::FaceMesh& mesh) : first(mesh.vertices_mm.size() + 1, 0) {
-    for (const auto& t : mesh.triangles)
-      for (const std::uint32_t v : t) first[v + 1] += 2;
-    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    all.resize(first.back());
-    std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
+Groups neighbours_of(const pipeline::FaceMesh& mesh) {
+  Groups neighbours;
+  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
     for (const auto& t : mesh.triangles)
       for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 1; j < 3; ++j) all[at[t[i]]++] = t[(i + j) % 3];
-  }
-  std::vector<std::uint32_t> first, all;
-};
+        for (std::size_t j = 1; j < 3; ++j) add(t[i], t[(i + j) % 3]);
+  });
+  return neighbours;
+}
 
 // The chosen vertex that is nearest to each along the mesh.
 std::vector<std::uint32_t> nearest(const pipeline::FaceMesh& mesh, const std::vector<std::uint32_t>& chosen) {
-  const Neighbours neighbours(mesh);
+  const Groups neighbours = neighbours_of(mesh);
   const std::size_t count = mesh.vertices_mm.size();
   std::vector<std::uint32_t> owner(count);
   std::vector<float> far(count, HUGE_VALF);
@@ -76,8 +74,7 @@ std::vector<std::uint32_t> nearest(const pipeline::FaceMesh& mesh, const std::ve
     const auto [so_far, v] = queue.top();
     queue.pop();
     if (so_far > far[v]) continue;
-    for (std::uint32_t k = neighbours.first[v]; k < neighbours.first[v + 1]; ++k) {
-      const std::uint32_t to = neighbours.all[k];
+    for (const std::uint32_t to : neighbours[v]) {
       const float reached = so_far + distance(mesh.vertices_mm[v], mesh.vertices_mm[to]);
       if (reached >= far[to]) continue;
       far[to] = reached;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "hal/picture_file.h"
 
 namespace relievo::firmware::compare {
@@ -96,12 +97,7 @@ Reach reach_of(const DisparityMap& map) {
   for (const float d : map.values)
     if (!std::isnan(d)) known.push_back(d);
   if (known.empty()) return {};
-  const auto at = [&known](double share) {
-    const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
-    std::nth_element(known.begin(), known.begin() + k, known.end());
-    return static_cast<double>(known[static_cast<std::size_t>(k)]);
-  };
-  const Reach reach{std::floor(at(0.005)), std::ceil(at(0.995))};
+  const Reach reach{std::floor(percentile(known, 0.005)), std::ceil(percentile(known, 0.995))};
   return reach.most_px > reach.least_px ? reach : Reach{reach.least_px, reach.least_px + 1};
 }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -75,9 +77,7 @@ void drop_strays(Lattice& lattice, double least_px) {
       if (guess) usual.push_back(off.back());
     }
   if (usual.empty()) return;
-  const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
-  std::nth_element(usual.begin(), middle, usual.end());
-  const double limit = std::max(least_px, kStrayFactor * *middle);
+  const double limit = std::max(least_px, kStrayFactor * median(usual));
   for (int row = 0; row < lattice.rows(); ++row)
     for (int column = 0; column < lattice.columns(); ++column)
       if (off[static_cast<std::size_t>(row) * static_cast<std::size_t>(lattice.columns()) +

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "pipeline/calibrate/fit/board_bend.h"
 #include "pipeline/calibrate/fit/relation_evidence.h"
 #include "pipeline/calibrate/quality/held_out_shift.h"
@@ -57,10 +58,7 @@ double tilt_spread(const std::vector<Eigen::Vector3d>& normals) {
   for (std::size_t i = 0; i < normals.size(); ++i)
     for (std::size_t j = i + 1; j < normals.size(); ++j)
       angles.push_back(std::acos(std::clamp(normals[i].dot(normals[j]), -1.0, 1.0)) * kDegrees);
-  if (angles.empty()) return 0;
-  const auto half = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), half, angles.end());
-  return *half;
+  return angles.empty() ? 0 : median(angles);
 }
 
 // What a view misses its epipolar lines by when it had no part in the fit.
@@ -117,9 +115,7 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
     distances.push_back(view.distance_mm);
     normals.emplace_back(pose.rotation.col(2));
   }
-  const auto half = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), half, distances.end());
-  q.working_distance_mm = *half;
+  q.working_distance_mm = median(distances);
   q.tilt_spread_deg = tilt_spread(normals);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
@@ -86,10 +87,9 @@ std::string map_figure(const CalibrationReport& r, std::size_t eye, const Scale&
                colour(scale.share(map.at(column, row))));
   d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
   legend(d, scale, height + 14);
-  std::vector<double> sorted = map.sigma_px;
-  std::sort(sorted.begin(), sorted.end());
-  const double middle = sorted.empty() ? 0 : sorted[sorted.size() / 2];
-  const double worst = sorted.empty() ? 0 : sorted.back();
+  std::vector<double> sigmas = map.sigma_px;
+  const double middle = sigmas.empty() ? 0 : median(sigmas);
+  const double worst = sigmas.empty() ? 0 : percentile(sigmas, 1);
   return figure_of(d.svg(), kCameraNames[eye],
                    "Median " + figure(middle, decimals_for(middle)) + " px, worst " +
                        figure(worst, decimals_for(worst)) + " px.");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/drawing.h"
@@ -29,11 +30,7 @@ double usual_length(const CalibrationReport& r) {
   std::vector<double> lengths;
   for (const std::size_t eye : {0U, 1U})
     for_each_used(r, eye, [&](const CornerResidual& c) { lengths.push_back(std::hypot(c.off.x, c.off.y)); });
-  if (lengths.empty()) return 1;
-  const auto at =
-      lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lengths.size() - 1));
-  std::nth_element(lengths.begin(), at, lengths.end());
-  return std::max(*at, 1e-9);
+  return lengths.empty() ? 1 : std::max(percentile(lengths, 0.95), 1e-9);
 }
 
 void arrow(Strokes& strokes, Vec2d base, Vec2d by) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/rectify/rectified_geometry.h"
 #include "pipeline/match/region/three_terms.h"
 #include "pipeline/model/vector3.h"
@@ -159,9 +160,7 @@ double quantile(const FaceWindow& window, const WindowBox& box, double share, St
   values.reserve(static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1)));
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) values.push_back(window.at(x, y));
-  const auto k = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), k, values.end());
-  return static_cast<double>(*k);
+  return percentile(values, share);
 }
 
 }  // namespace relievo::pipeline

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "hal/base/statistics.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -72,12 +73,6 @@ Line strongest_line(const Profile& p, const FaceWindow& w, double from, double t
   for (double down = from; down <= to; down += FaceWindow::kStepMm)
     if (const double strength = line_strength(p, w, down); strength > best.strength) best = {down, strength};
   return best;
-}
-
-template <std::size_t N>
-double median(std::array<double, N> values) {
-  std::nth_element(values.begin(), values.begin() + N / 2, values.end());
-  return values[N / 2];
 }
 
 // The line that most strips share, each a little higher or lower.

@@ -82,7 +82,7 @@ MirrorPlane refine(const Search& search, MirrorPlane best, std::array<double, 3>
 
 HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm) {
   HeadAxes axes;
-  axes.away = unit({at.x - baseline_mm / 2, at.y, at.z});
+  axes.away = unit(Vec3d{at.x - baseline_mm / 2, at.y, at.z});
   axes.right = unit(along({1, 0, 0}, -axes.away.x, axes.away));
   axes.down = cross(axes.away, axes.right);
   return axes;
@@ -90,8 +90,8 @@ HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm) {
 
 Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes) {
   const double yaw = plane.yaw_deg * kDegree, roll = plane.roll_deg * kDegree;
-  const Vec3d turned = along(scaled(axes.right, std::cos(yaw)), std::sin(yaw), axes.away);
-  return along(scaled(turned, std::cos(roll)), -std::sin(roll), axes.down);
+  const Vec3d turned = along(times(axes.right, std::cos(yaw)), std::sin(yaw), axes.away);
+  return along(times(turned, std::cos(roll)), -std::sin(roll), axes.down);
 }
 
 std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points,

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/match/region/three_terms.h"
 #include "pipeline/model/vector3.h"
@@ -64,8 +65,8 @@ struct HeldAxes {
   Vec3d right, down, out;
   explicit HeldAxes(const HeadSight& head) : right(head.right) {
     const double pitch = head.pitch_deg * std::numbers::pi / 180;
-    down = along(scaled(head.down, std::cos(pitch)), std::sin(pitch), head.away);
-    out = along(scaled(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
+    down = along(times(head.down, std::cos(pitch)), std::sin(pitch), head.away);
+    out = along(times(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
   }
   NosePoint of(const Vec3d& d) const { return {dot(d, right), dot(d, down), dot(d, out)}; }
 };
@@ -186,9 +187,7 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
     for (int x = box.x0; x <= box.x1; ++x)
       if (relief.known(x, y)) depth.push_back(relief.depth_mm[relief.index(x, y)]);
   if (depth.size() < kLeastPoints || depth.size() < box.room() / 4) return false;
-  const auto median = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
-  std::nth_element(depth.begin(), median, depth.end());
-  const double z = static_cast<double>(*median);
+  const double z = median(depth);
   // Most of what is there: a box as wide as a face of this distance, or it is none.
   const double width_mm = w * z / relief.focal_px;
   if (width_mm < 85 || width_mm > 260) return false;

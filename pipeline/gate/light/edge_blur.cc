@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/rectify/rectified_geometry.h"
 
 namespace relievo::pipeline {
@@ -144,10 +145,7 @@ double edge_blur(std::pmr::vector<Slope>& edges, double noise, double little_px,
     if (std::abs(b) >= least) ratio.push_back((a * a - n1 * n1) / (b * b - n2 * n2));
   }
   if (ratio.size() < kLeastEdges) return 1e9;
-  const auto middle =
-      ratio.begin() + static_cast<std::ptrdiff_t>(kSharpest * static_cast<double>(ratio.size() - 1));
-  std::nth_element(ratio.begin(), middle, ratio.end());
-  const double r = std::max(*middle, 1 + 1e-6);
+  const double r = std::max(percentile(ratio, kSharpest), 1 + 1e-6);
   return std::max(0.0, (much_px * much_px - r * little_px * little_px) / (r - 1) - kOwnBlur);
 }
 

@@ -8,13 +8,6 @@
 
 namespace relievo::pipeline {
 
-Result<void> ContinuityConstraintOptions::check() const {
-  if (!(max_step > 0) || least_support < 1 || least_support > 8)
-    return Error{Errc::InvalidInput,
-                 "continuity: max_step must be positive and least_support between 1 and 8"};
-  return {};
-}
-
 void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px,
                                  std::uint16_t bit, StageContext& context) const {
   if (lattice_step_px <= 0) return;

@@ -14,7 +14,6 @@ namespace relievo::pipeline {
 struct ContinuityConstraintOptions {
   float max_step = 2.0F;  // disparity difference per pixel of distance: beyond 63 degrees of slant
   int least_support = 3;  // of the eight neighbours
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -42,14 +42,6 @@ Answer ask_back(const Match& match, const LeftRightConstraintOptions& options, P
 
 }  // namespace
 
-Result<void> LeftRightConstraintOptions::check() const {
-  if (window_px < 3 || window_px > 63 || window_px % 2 == 0)
-    return Error{Errc::InvalidInput, "left-right: window_px must be odd, 3 to 63"};
-  if (search_px < 2 || search_px > 128 || !(limit_px > 0))
-    return Error{Errc::InvalidInput, "left-right: search_px must lie in 2 .. 128 and limit_px be positive"};
-  return {};
-}
-
 void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matches, int, std::uint16_t bit,
                                 StageContext& context) const {
   if (matches.empty() || pair.left.grey.empty() || pair.right.grey.empty()) return;

@@ -17,12 +17,12 @@ struct LeftRightConstraintOptions {
   int window_px = 15;  // odd
   int search_px = 8;   // to each side
   float limit_px = 1;
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(LeftRightConstraintOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63}, "side of the window that is searched for, pixels, odd");
+  field("window_px", o.window_px, OptionRange{3, 63, 2},
+        "side of the window that is searched for, pixels, odd");
   field("search_px", o.search_px, OptionRange{2, 128}, "how far it is searched for to each side, pixels");
   field("limit_px", o.limit_px, OptionRange{0.05, 64}, "how far from the keypoint it may be found, pixels");
 }

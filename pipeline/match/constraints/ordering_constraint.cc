@@ -51,11 +51,6 @@ class RowJudge {
 
 }  // namespace
 
-Result<void> OrderingConstraintOptions::check() const {
-  if (!(slack >= 0 && slack <= 1)) return Error{Errc::InvalidInput, "ordering: slack must lie in 0 .. 1"};
-  return {};
-}
-
 void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                StageContext& context) const {
   Arena::Mark mark(context.scratch);

@@ -15,7 +15,6 @@ namespace relievo::pipeline {
 
 struct OrderingConstraintOptions {
   float slack = 0.1F;  // 0: strict order; a disparity gradient up to 1 + slack along the row is in order
-  Result<void> check() const;
 };
 
 template <typename Field>

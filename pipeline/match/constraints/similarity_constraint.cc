@@ -4,11 +4,6 @@
 
 namespace relievo::pipeline {
 
-Result<void> SimilarityConstraintOptions::check() const {
-  if (!(max_cost >= 0)) return Error{Errc::InvalidInput, "similarity: max_cost must not be negative"};
-  return {};
-}
-
 void SimilarityConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                  StageContext&) const {
   for (Match& match : matches)

@@ -15,7 +15,6 @@ namespace relievo::pipeline {
 struct SimilarityConstraintOptions {
   float max_cost =
       0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
-  Result<void> check() const;
 };
 
 template <typename Field>

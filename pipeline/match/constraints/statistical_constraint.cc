@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
+#include "pipeline/base/cells.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -20,60 +23,36 @@ struct Spread {
 
 // Changes the order of the values.
 Spread spread_of(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const float median = *middle;
-  for (float& v : values) v = std::abs(v - median);
-  std::nth_element(values.begin(), middle, values.end());
-  return {median, kMadToSigma * *middle};
+  const auto middle = static_cast<float>(median(values));
+  for (float& v : values) v = std::abs(v - middle);
+  return {middle, kMadToSigma * static_cast<float>(median(values))};
 }
 
+int cell_of(float at_px, float radius) { return std::max(0, static_cast<int>(at_px / radius)); }
+
 // Accepted matches in square cells of one radius.
-struct Cells {
-  Cells(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory)
-      : size(radius), first(memory), members(memory) {
-    float right = 0;
-    float bottom = 0;
-    std::size_t count = 0;
-    for (const Match& m : matches) {
-      if (m.rejected_by != 0) continue;
-      right = std::max(right, m.left_px.x);
-      bottom = std::max(bottom, m.left_px.y);
-      ++count;
-    }
-    columns = static_cast<int>(right / size) + 1;
-    rows = static_cast<int>(bottom / size) + 1;
-    first.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 2, 0U);
-    members.assign(count, 0U);
-    // Counting sort; shifted by two so that filling leaves each start in place.
-    for (const Match& m : matches)
-      if (m.rejected_by == 0) ++first[cell(m) + 2];
-    for (std::size_t k = 2; k < first.size(); ++k) first[k] += first[k - 1];
+Cells cells_of(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory) {
+  float right = 0;
+  float bottom = 0;
+  for (const Match& m : matches) {
+    if (m.rejected_by != 0) continue;
+    right = std::max(right, m.left_px.x);
+    bottom = std::max(bottom, m.left_px.y);
+  }
+  Cells cells(memory);
+  cells.fill(cell_of(right, radius) + 1, cell_of(bottom, radius) + 1, [&](auto&& add) {
     for (std::uint32_t k = 0; k < matches.size(); ++k)
-      if (matches[k].rejected_by == 0) members[first[cell(matches[k]) + 1]++] = k;
-  }
-  int column(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.x / size)); }
-  int row(const Match& m) const { return std::max(0, static_cast<int>(m.left_px.y / size)); }
-  std::size_t cell(const Match& m) const {
-    return static_cast<std::size_t>(row(m)) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column(m));
-  }
-  std::span<const std::uint32_t> at(int c, int r) const {
-    if (c < 0 || r < 0 || c >= columns || r >= rows) return {};
-    const std::size_t k =
-        static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
-    return {members.data() + first[k], first[k + 1] - first[k]};
-  }
-  float size;
-  int columns = 0, rows = 0;
-  std::pmr::vector<std::uint32_t> first, members;
-};
+      if (const Match& m = matches[k]; m.rejected_by == 0)
+        add(cell_of(m.left_px.x, radius), cell_of(m.left_px.y, radius), k);
+  });
+  return cells;
+}
 
 bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& cells,
                 const StatisticalConstraintOptions& options) {
   const Match& m = matches[k];
-  const int c = cells.column(m);
-  const int r = cells.row(m);
+  const int c = cell_of(m.left_px.x, options.radius_px);
+  const int r = cell_of(m.left_px.y, options.radius_px);
   std::size_t around = 0;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) around += cells.at(c + i, r + j).size();
@@ -98,14 +77,6 @@ bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& ce
 
 }  // namespace
 
-Result<void> StatisticalConstraintOptions::check() const {
-  if (!(global_sigmas >= 0 && local_sigmas >= 0))
-    return Error{Errc::InvalidInput, "statistical: sigmas must not be negative"};
-  if (!(radius_px >= 1 && floor_px > 0))
-    return Error{Errc::InvalidInput, "statistical: radius_px must be at least 1 and floor_px positive"};
-  return {};
-}
-
 void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                   StageContext& context) const {
   Arena::Mark mark(context.scratch);
@@ -116,7 +87,7 @@ void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches
   if (all.size() < kFewest) return;
   const Spread whole = spread_of(all);
   std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
-  const Cells cells(matches, options_.radius_px, &context.scratch);
+  const Cells cells = cells_of(matches, options_.radius_px, &context.scratch);
   context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int) {
     for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop();
          ++k) {

@@ -21,7 +21,6 @@ struct StatisticalConstraintOptions {
   float local_sigmas = 4;
   float radius_px = 10;
   float floor_px = 0.5F;  // neighbours that agree better than this do not make the rule stricter
-  Result<void> check() const;
 };
 
 template <typename Field>

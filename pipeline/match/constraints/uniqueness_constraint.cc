@@ -9,11 +9,6 @@
 
 namespace relievo::pipeline {
 
-Result<void> UniquenessConstraintOptions::check() const {
-  if (!(margin_px >= 0)) return Error{Errc::InvalidInput, "uniqueness: margin_px must not be negative"};
-  return {};
-}
-
 void UniquenessConstraint::judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px,
                                  std::uint16_t bit, StageContext& context) const {
   Arena::Mark mark(context.scratch);

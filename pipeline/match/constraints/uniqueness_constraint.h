@@ -13,7 +13,6 @@ namespace relievo::pipeline {
 
 struct UniquenessConstraintOptions {
   float margin_px = 1.5F;  // a slanted surface may land twice on one pixel
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/bending/bending_system.h"
 
 namespace relievo::pipeline {
@@ -24,12 +25,6 @@ constexpr double kLeastShare = 0.5;
 constexpr double kReach = 1.0 / 6;  // of the face's width
 
 using Numbers = std::pmr::vector<double>;
-
-double median(Numbers& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Node {
   int x, y;

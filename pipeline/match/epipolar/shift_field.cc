@@ -10,6 +10,8 @@
 
 #include <Eigen/Dense>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -21,12 +23,6 @@ constexpr double kMedianOfAbsolute = 0.6745;
 constexpr double kLeastScalePx = 1e-6;  // perfect measurements divide nothing by zero
 
 using Numbers = std::pmr::vector<double>;
-
-double median(Numbers& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The face's points: middle, spread and correlation, by weight.
 void describe_face(std::span<const LocalShift> locals, const Numbers& weight, EpipolarShift& face) {

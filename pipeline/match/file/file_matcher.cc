@@ -99,11 +99,6 @@ std::string line_name(const std::string& path, int line) { return path + " line 
 
 }  // namespace
 
-Result<void> FileMatcherOptions::check() const {
-  if (!(sigma_px > 0)) return Error{Errc::InvalidInput, "sigma_px must be positive"}.at("file-matches");
-  return {};
-}
-
 Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
                                     StageContext& context) const {
   if (pair.width_px <= 0 || pair.height_px <= 0 || pair.left.grey.empty() || pair.right.grey.empty())

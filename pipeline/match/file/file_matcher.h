@@ -24,7 +24,6 @@ namespace relievo::pipeline {
 struct FileMatcherOptions {
   std::string path;       // none: matching fails and says so
   float sigma_px = 0.5F;  // where the file has none: what a careful hand reaches
-  Result<void> check() const;
 };
 
 template <typename Field>

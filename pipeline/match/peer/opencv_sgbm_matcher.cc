@@ -64,25 +64,14 @@ cv::Mat compute(const RectifiedPair& pair, const SgbmMatcherOptions& options, co
   const int area = options.window_px * options.window_px;
   const auto sgbm = cv::StereoSGBM::create(
       first, count, options.window_px, 8 * area, 32 * area, options.max_lr_px, 63, options.uniqueness,
-      options.speckle_px, 2, options.mode == 1 ? cv::StereoSGBM::MODE_SGBM_3WAY : cv::StereoSGBM::MODE_HH);
+      options.speckle_px, 2,
+      options.mode == SgbmMode::ThreeWay ? cv::StereoSGBM::MODE_SGBM_3WAY : cv::StereoSGBM::MODE_HH);
   cv::Mat disparity;
   sgbm->compute(grey_of(pair, pair.left, crop, left), grey_of(pair, pair.right, crop, right), disparity);
   return disparity;
 }
 
 }  // namespace
-
-Result<void> SgbmMatcherOptions::check() const {
-  if (window_px < 1 || window_px > 31 || window_px % 2 == 0)
-    return Error{Errc::InvalidInput, "window_px must be odd, 1 to 31"}.at("opencv-sgbm");
-  if (mode != 1 && mode != 2)
-    return Error{Errc::InvalidInput, "mode must be 1 (3way) or 2 (hh)"}.at("opencv-sgbm");
-  if (uniqueness < 0 || uniqueness > 100 || max_lr_px < 0 || speckle_px < 0)
-    return Error{Errc::InvalidInput,
-                 "uniqueness must lie in 0 .. 100, max_lr_px and speckle_px not be negative"}
-        .at("opencv-sgbm");
-  return {};
-}
 
 Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                     StageContext& context) const {
@@ -102,10 +91,10 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
         "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)"};
   // Its own volumes: two of 16 bits.
   const double bytes = 4.0 * crop.width * crop.height * count;
-  if (options_.mode == 2 && bytes > kMostBytes)
+  if (options_.mode == SgbmMode::HH && bytes > kMostBytes)
     return Error{
         Errc::OutOfMemory,
-        "opencv-sgbm: hh would need more than 2 GiB here: choose mode 1 or narrow the volume (--near, --far)"};
+        "opencv-sgbm: hh would need more than 2 GiB here: choose 3way or narrow the volume (--near, --far)"};
   if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;

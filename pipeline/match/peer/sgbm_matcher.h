@@ -17,19 +17,22 @@
 
 namespace relievo::pipeline {
 
+enum class SgbmMode { ThreeWay, HH };  // three paths (MODE_SGBM_3WAY), eight (MODE_HH)
+inline constexpr const char* kSgbmModes[] = {"3way", "hh"};
+
 struct SgbmMatcherOptions {
-  int window_px = 5;     // odd
-  int mode = 1;          // 1: MODE_SGBM_3WAY, 2: MODE_HH
+  int window_px = 5;  // odd
+  SgbmMode mode = SgbmMode::ThreeWay;
   int uniqueness = 10;   // per cent by which the best candidate must win
   int max_lr_px = 1;     // left-right check
   int speckle_px = 100;  // smaller patches of one disparity go; 0 keeps them
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(SgbmMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{1, 31}, "side of the window, pixels, odd");
-  field("mode", o.mode, OptionRange{1, 2}, "1: three paths (MODE_SGBM_3WAY), 2: eight paths (MODE_HH)");
+  field("window_px", o.window_px, OptionRange{1, 31, 2}, "side of the window, pixels, odd");
+  field("mode", o.mode, OptionRange{.names = kSgbmModes},
+        "3way: three paths (MODE_SGBM_3WAY), hh: eight paths (MODE_HH)");
   field("uniqueness", o.uniqueness, OptionRange{0, 100}, "per cent by which the best candidate must win");
   field("max_lr_px", o.max_lr_px, OptionRange{0, 64}, "how far the two views may disagree, pixels");
   field("speckle_px", o.speckle_px, OptionRange{0, 100000},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/preprocess/grey_histogram.h"
 #include "pipeline/match/preprocess/plane_filters.h"
@@ -151,9 +152,8 @@ float dull_ratio(const Part& skin, const Light& light, double dull, std::pmr::me
       if (all >= kLit && colour >= kColoured) ratios.push_back(all / colour);
     }
   if (ratios.empty()) return 0;
-  const auto at = ratios.begin() + static_cast<std::ptrdiff_t>(dull * static_cast<double>(ratios.size() - 1));
-  std::nth_element(ratios.begin(), at, ratios.end());
-  return *at * kLeastColour < 1 ? *at : 0;
+  const auto ratio = static_cast<float>(percentile(ratios, dull));
+  return ratio * kLeastColour < 1 ? ratio : 0;
 }
 
 // Lips, blemishes and many a nose are redder than the rest of a face, so that a lamp upon them would pass for
@@ -252,17 +252,8 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& optio
 
 }  // namespace
 
-Result<void> HighlightRemoverOptions::check() const {
-  if (!(radius_px >= 0.5 && radius_px <= 10) || !(dull >= 0.05 && dull <= 0.95) ||
-      !(least >= 0 && least <= 64))
-    return Error{
-        Errc::InvalidInput,
-        "remove-highlights: radius_px must lie in 0.5 .. 10, dull in 0.05 .. 0.95, least in 0 .. 64"};
-  return {};
-}
-
 Result<void> HighlightRemover::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "remove-highlights"));
   RELIEVO_TRY(check_pixels(pair));
   if (pair.region.empty()) return {};  // no face is looked for: what is known of skin says nothing of leaves
   const Gaussian gaussian(options_.radius_px / kCell);

@@ -26,7 +26,6 @@ struct HighlightRemoverOptions {
       2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
   double dull = 0.5;
   double least = 10;
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -8,14 +8,8 @@
 
 namespace relievo::pipeline {
 
-Result<void> HistogramNormaliserOptions::check() const {
-  if (!(equalise >= 0 && equalise <= 1) || !(tail >= 0 && tail <= 0.2))
-    return Error{Errc::InvalidInput, "histogram-normalise: equalise must lie in 0 .. 1 and tail in 0 .. 0.2"};
-  return {};
-}
-
 Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "histogram-normalise"));
   RELIEVO_TRY(check_pixels(pair));
   for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};

@@ -18,7 +18,6 @@ namespace relievo::pipeline {
 struct HistogramNormaliserOptions {
   double equalise = 1;
   double tail = 0.005;
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -32,14 +32,8 @@ struct Overlap {
 
 }  // namespace
 
-Result<void> HistogramTransferOptions::check() const {
-  if (!(strength >= 0 && strength <= 1))
-    return Error{Errc::InvalidInput, "histogram-match: strength must lie in 0 .. 1"};
-  return {};
-}
-
 Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "histogram-match"));
   RELIEVO_TRY(check_pixels(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
   const Overlap overlap(pair);

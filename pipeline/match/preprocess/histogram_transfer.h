@@ -17,7 +17,6 @@ namespace relievo::pipeline {
 
 struct HistogramTransferOptions {
   double strength = 1;
-  Result<void> check() const;
 };
 
 template <typename Field>

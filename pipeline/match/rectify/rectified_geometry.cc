@@ -85,7 +85,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   if (baseline.x <= 0 && -baseline.x >= std::abs(baseline.y))
     return Error{Errc::InvalidInput,
                  "the right camera must stand to the right of the left one: are the cameras swapped?"};
-  const Vec3d x = scaled(baseline, 1 / baseline_mm);
+  const Vec3d x = times(baseline, 1 / baseline_mm);
   const Vec3d right_axis = apply(left_from_right.rotation, {0, 0, 1});
   Vec3d z = {right_axis.x, right_axis.y, right_axis.z + 1};
   z = unit(along(z, -dot(z, x), x));

@@ -104,13 +104,6 @@ void read_matches(const SurfaceField& field, const Keypoints& keypoints, const R
 
 }  // namespace
 
-Result<void> RefinedMatcherOptions::check() const {
-  RELIEVO_TRY(refiner.check());
-  if (coarse.band < 4 || !(sigma_limit_px > 0))
-    return Error{Errc::InvalidInput, "refined: band must be at least 4 and sigma_limit_px positive"};
-  return {};
-}
-
 Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {
   if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())

@@ -22,7 +22,6 @@ struct RefinedMatcherOptions {
   float sigma_limit_px = 1.9F;    // a place less certain than this has no match
   float align_beyond_px = 0.03F;  // the rows are realigned on the face itself where they disagree by more
   int follow_motion = 1;          // whether what moved across the rows between the exposures is followed
-  Result<void> check() const;
 };
 
 template <typename Field>

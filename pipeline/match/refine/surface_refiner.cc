@@ -171,14 +171,6 @@ int steps_at(int level, int steps) {
 
 }  // namespace
 
-Result<void> SurfaceRefinerOptions::check() const {
-  if (!(bending > 0 && crease > 0 && wrinkle >= 0 && local_window_px >= 5 && steps >= 1 && solver_steps >= 1))
-    return Error{
-        Errc::InvalidInput,
-        "refined: bending, crease, steps and solver_steps must be positive, wrinkle not negative, local_window_px at least 5"};
-  return {};
-}
-
 Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
                             StageContext& context, SurfaceField& field) {
   const Extent extent = extent_of(field, scene);

@@ -38,7 +38,6 @@ struct SurfaceRefinerOptions {
   int smallest_window_px = 9;  // and at least this many pixels of a smaller level
   int steps = 5;               // warps at full size; one less at half, twice that at a quarter of it
   int solver_steps = 60;       // conjugate-gradient steps a warp
-  Result<void> check() const;
 };
 
 struct RefinerScene {

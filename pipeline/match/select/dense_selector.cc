@@ -6,13 +6,8 @@
 
 namespace relievo::pipeline {
 
-Result<void> DenseSelectorOptions::check() const {
-  if (step_px < 1) return Error{Errc::InvalidInput, "dense: step_px must be at least 1"};
-  return {};
-}
-
 Result<Keypoints> DenseSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "dense"));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
   RELIEVO_TRY(check_pixels_of_left(pair));
   return lattice_keypoints(pair, options_.step_px, {0, 0, pair.width_px - 1, pair.height_px - 1}, context);

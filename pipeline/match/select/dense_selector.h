@@ -12,7 +12,6 @@ namespace relievo::pipeline {
 
 struct DenseSelectorOptions {
   int step_px = 2;
-  Result<void> check() const;
 };
 
 template <typename Field>

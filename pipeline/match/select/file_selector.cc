@@ -15,8 +15,6 @@ constexpr std::size_t kMostPoints = 4'000'000;  // more than a picture has pixel
 
 }  // namespace
 
-Result<void> FileSelectorOptions::check() const { return {}; }
-
 Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};

@@ -18,7 +18,6 @@ namespace relievo::pipeline {
 
 struct FileSelectorOptions {
   std::string path;
-  Result<void> check() const;
 };
 
 template <typename Field>

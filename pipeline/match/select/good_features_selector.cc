@@ -80,16 +80,13 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
 }  // namespace
 
 Result<void> GoodFeaturesSelectorOptions::check() const {
-  if (window_px < 3 || window_px > 31 || window_px % 2 == 0 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput,
-                 "good-features: window_px must be odd, 3 .. 31, and max_points 1 .. 1000000"};
   if (const auto read = read_levels(levels); !read) return read.error();
   if (const auto read = read_thresholds(binary_thresholds); !read) return read.error();
   return {};
 }
 
 Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "good-features"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;

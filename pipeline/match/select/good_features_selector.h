@@ -35,7 +35,7 @@ void describe(GoodFeaturesSelectorOptions& o, Field&& field) {
         "QUALITY:DISTANCE_PX joined by '+': corners this good keep this distance; united");
   field("binary_thresholds", o.binary_thresholds, OptionRange{0, 0},
         "grey levels joined by '+' at which black and white outlines are searched too, or none");
-  field("window_px", o.window_px, OptionRange{3, 31},
+  field("window_px", o.window_px, OptionRange{3, 31, 2},
         "side of the window a corner is judged in, pixels; odd");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
 }

@@ -14,15 +14,8 @@ int last_of(int first, int length, int view) { return length == 0 ? view - 1 : f
 
 }  // namespace
 
-Result<void> GridSelectorOptions::check() const {
-  if (step_px < 1 || left_px < 0 || top_px < 0 || width_px < 0 || height_px < 0)
-    return Error{Errc::InvalidInput,
-                 "grid-points: step_px must be at least 1, and the rectangle's numbers not negative"};
-  return {};
-}
-
 Result<Keypoints> GridSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "grid-points"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
   const LatticeArea area{options_.left_px, options_.top_px,

@@ -17,7 +17,6 @@ struct GridSelectorOptions {
   int step_px = 8;
   int left_px = 0, top_px = 0;      // the rectangle's corner
   int width_px = 0, height_px = 0;  // 0: to the view's edge
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -96,17 +96,8 @@ void mark_peaks(const Octave& octave, const Selectable& selectable, Plane<float>
 
 }  // namespace
 
-Result<void> HaarSelectorOptions::check() const {
-  if (octaves < 1 || octaves > 4 || !(quality > 0 && quality <= 1))
-    return Error{Errc::InvalidInput, "haar: octaves must lie in 1 .. 4 and quality above 0 to 1"};
-  if (min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput,
-                 "haar: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
-  return {};
-}
-
 Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "haar"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;

@@ -22,7 +22,6 @@ struct HaarSelectorOptions {
   double quality = 0.005;
   int min_distance_px = 3;
   int max_points = 20'000;
-  Result<void> check() const;
 };
 
 template <typename Field>

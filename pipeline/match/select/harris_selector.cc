@@ -8,19 +8,8 @@
 
 namespace relievo::pipeline {
 
-Result<void> HarrisSelectorOptions::check() const {
-  if (!(sensitivity >= 0.01 && sensitivity <= 0.24) || !(quality > 0 && quality <= 1))
-    return Error{Errc::InvalidInput, "harris: sensitivity must lie in 0.01 .. 0.24 and quality above 0 to 1"};
-  if (window_px < 3 || window_px > 15 || min_distance_px < 1 || min_distance_px > 64 || max_points < 1 ||
-      max_points > 1'000'000)
-    return Error{Errc::InvalidInput,
-                 "harris: window_px 3 .. 15, min_distance_px 1 .. 64, max_points 1 .. 1000000"};
-  if (window_px % 2 == 0) return Error{Errc::InvalidInput, "harris: window_px must be odd"};
-  return {};
-}
-
 Result<Keypoints> HarrisSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "harris"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;

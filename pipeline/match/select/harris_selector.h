@@ -21,14 +21,14 @@ struct HarrisSelectorOptions {
   int window_px = 3;
   int min_distance_px = 4;
   int max_points = 20'000;
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(HarrisSelectorOptions& o, Field&& field) {
   field("sensitivity", o.sensitivity, OptionRange{0.01, 0.24}, "how much an edge counts against a corner");
   field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest corner's");
-  field("window_px", o.window_px, OptionRange{3, 15}, "side of each of the three running means, pixels; odd");
+  field("window_px", o.window_px, OptionRange{3, 15, 2},
+        "side of each of the three running means, pixels; odd");
   field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "corners keep this distance, pixels");
   field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
 }

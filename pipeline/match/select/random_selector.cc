@@ -9,15 +9,8 @@
 
 namespace relievo::pipeline {
 
-Result<void> RandomSelectorOptions::check() const {
-  if (max_points < 1 || max_points > 1'000'000 || seed < 0)
-    return Error{Errc::InvalidInput,
-                 "random: max_points must lie in 1 .. 1000000 and seed must not be negative"};
-  return {};
-}
-
 Result<Keypoints> RandomSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "random"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
   const Selectable selectable(pair, &context.scratch);

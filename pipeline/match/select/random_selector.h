@@ -15,7 +15,6 @@ namespace relievo::pipeline {
 struct RandomSelectorOptions {
   int max_points = 20'000;
   int seed = 1;
-  Result<void> check() const;
 };
 
 template <typename Field>

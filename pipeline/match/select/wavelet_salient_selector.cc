@@ -37,17 +37,8 @@ void mark_ends(const SalientTracks& tracks, const Selectable& selectable, Thread
 
 }  // namespace
 
-Result<void> WaveletSalientSelectorOptions::check() const {
-  if (scales < 1 || scales > 8 || !(quality > 0 && quality <= 1))
-    return Error{Errc::InvalidInput, "wavelet-salient: scales must lie in 1 .. 8 and quality above 0 to 1"};
-  if (min_distance_px < 1 || min_distance_px > 64 || max_points < 1 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput,
-                 "wavelet-salient: min_distance_px must lie in 1 .. 64 and max_points in 1 .. 1000000"};
-  return {};
-}
-
 Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "wavelet-salient"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;

@@ -22,7 +22,6 @@ struct WaveletSalientSelectorOptions {
   double quality = 0.01;
   int min_distance_px = 4;
   int max_points = 20'000;
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -13,9 +13,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 32;
-constexpr int kMostSamples = 21 * 21;
-constexpr int kMostCandidates = 8;
-constexpr int kMostScales = 6;
+using Most = WaveletMatcherOptions;
+constexpr int kMostSamples = (2 * Most::kMostRadius + 1) * (2 * Most::kMostRadius + 1);
 constexpr int kStacked = 2;  // scales that make the last comparison
 
 using Scales = std::pmr::vector<Plane<Vec2f>>;
@@ -108,8 +107,8 @@ class Place {
   int radius_;
   int x_ = 0, y_ = 0;
   float tx_ = 0, ty_ = 0;
-  std::array<double, kMostScales> energy_{};
-  std::array<std::array<Vec2f, kMostSamples>, kMostScales> patch_{};
+  std::array<double, Most::kMostScales> energy_{};
+  std::array<std::array<Vec2f, kMostSamples>, Most::kMostScales> patch_{};
 };
 
 struct Candidate {
@@ -119,7 +118,7 @@ struct Candidate {
 };
 
 struct Candidates {
-  std::array<Candidate, kMostCandidates> best{};
+  std::array<Candidate, Most::kMostCandidates> best{};
   int count = 0;
   // In falling order; the worst falls out.
   void offer(const Candidate& one, int most) {
@@ -206,17 +205,6 @@ Fitted match_place(const Place& place, const DisparityRange& range, const Wavele
 }
 
 }  // namespace
-
-Result<void> WaveletMatcherOptions::check() const {
-  if (scales < 2 || scales > kMostScales || radius < 1 || radius > 10 || candidates < 1 ||
-      candidates > kMostCandidates)
-    return Error{Errc::InvalidInput, "scales must lie in 2 .. 6, radius in 1 .. 10, candidates in 1 .. 8"}.at(
-        "wavelet");
-  if (!(min_score >= 0 && min_score <= 1) || !(sigma_limit_px > 0))
-    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at(
-        "wavelet");
-  return {};
-}
 
 Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {

@@ -26,19 +26,21 @@
 namespace relievo::pipeline {
 
 struct WaveletMatcherOptions {
+  static constexpr int kMostScales = 6, kMostRadius = 10, kMostCandidates = 8;
   int scales = 4;
   int radius = 4;            // samples to each side
   int candidates = 4;        // that are followed from the coarsest scale
   float min_score = 0.3F;    // mean correlation over the scales
   float sigma_limit_px = 1;  // a place less certain than this has no match
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(WaveletMatcherOptions& o, Field&& field) {
-  field("scales", o.scales, OptionRange{2, 6}, "dyadic scales: the coarsest is 2 to this power, pixels");
-  field("radius", o.radius, OptionRange{1, 10}, "samples to each side of a place, half a scale apart");
-  field("candidates", o.candidates, OptionRange{1, 8},
+  field("scales", o.scales, OptionRange{2, o.kMostScales},
+        "dyadic scales: the coarsest is 2 to this power, pixels");
+  field("radius", o.radius, OptionRange{1, o.kMostRadius},
+        "samples to each side of a place, half a scale apart");
+  field("candidates", o.candidates, OptionRange{1, o.kMostCandidates},
         "disparities followed from the coarsest scale to the finest");
   field("min_score", o.min_score, OptionRange{0, 1},
         "mean correlation over the scales below which there is no match");

@@ -6,13 +6,6 @@
 
 namespace relievo::pipeline {
 
-Result<void> SsdMatcherOptions::check() const {
-  if (auto window = check_window(window_px, channels); !window) return window.error().at("ssd");
-  if (!(max_difference > 0) || !(sigma_limit_px > 0))
-    return Error{Errc::InvalidInput, "max_difference and sigma_limit_px must be positive"}.at("ssd");
-  return {};
-}
-
 Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                    StageContext& context) const {
   WindowRule rule;

@@ -21,13 +21,12 @@ struct SsdMatcherOptions {
   int channels = 1;           // 1: grey, 3: the three colours together
   float max_difference = 20;  // grey levels, rms over the window: less alike is no match
   float sigma_limit_px = 1;   // a place less certain than this has no match
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(SsdMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63}, "side of the window, pixels, odd");
-  field("channels", o.channels, OptionRange{1, 3}, "1: grey values, 3: the three colours together");
+  field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+  field("channels", o.channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
   field("max_difference", o.max_difference, OptionRange{0.01, 255},
         "rms difference of the windows above which there is no match, grey levels");
   field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},

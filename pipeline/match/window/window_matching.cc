@@ -149,14 +149,6 @@ double method_bias_px(const RectifiedPair& pair, int window_px) {
   return std::hypot(kFitBiasPx, flattened);
 }
 
-Result<void> check_window(int window_px, int channels) {
-  if (window_px < 3 || window_px > 63 || window_px % 2 == 0)
-    return Error{Errc::InvalidInput, "window_px must be odd, 3 to 63"};
-  if (channels != 1 && channels != 3)
-    return Error{Errc::InvalidInput, "channels must be 1 (grey) or 3 (colours)"};
-  return {};
-}
-
 Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
                                StageContext& context) {
   const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);

@@ -36,7 +36,4 @@ Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypo
 // `bias` above, pixels: of a window this wide on a face before this rig.
 double method_bias_px(const RectifiedPair& pair, int window_px);
 
-// Errors: InvalidInput (an even window, or channels other than 1 and 3).
-Result<void> check_window(int window_px, int channels);
-
 }  // namespace relievo::pipeline

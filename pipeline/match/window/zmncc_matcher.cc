@@ -6,14 +6,6 @@
 
 namespace relievo::pipeline {
 
-Result<void> ZmnccMatcherOptions::check() const {
-  if (auto window = check_window(window_px, channels); !window) return window.error().at("zmncc");
-  if (!(min_score >= 0 && min_score <= 1) || !(sigma_limit_px > 0))
-    return Error{Errc::InvalidInput, "min_score must lie in 0 .. 1 and sigma_limit_px be positive"}.at(
-        "zmncc");
-  return {};
-}
-
 Result<MatchSet> ZmnccMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                      StageContext& context) const {
   WindowRule rule;

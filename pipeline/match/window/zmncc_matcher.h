@@ -21,13 +21,12 @@ struct ZmnccMatcherOptions {
   float min_score = 0.4F;    // correlation, -1 .. 1
   int equiangular = 0;       // 1: two lines of equal slope instead of a parabola
   float sigma_limit_px = 1;  // a place less certain than this has no match
-  Result<void> check() const;
 };
 
 template <typename Field>
 void describe(ZmnccMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63}, "side of the window, pixels, odd");
-  field("channels", o.channels, OptionRange{1, 3}, "1: grey values, 3: the three colours together");
+  field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+  field("channels", o.channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
   field("min_score", o.min_score, OptionRange{0, 1}, "correlation below which there is no match");
   field("equiangular", o.equiangular, OptionRange{0, 1},
         "fit between pixels: 0 a parabola, 1 two lines of equal slope");

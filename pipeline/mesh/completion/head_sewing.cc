@@ -11,7 +11,7 @@
 #include "pipeline/mesh/completion/gap_triangulation.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -74,8 +74,7 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
 // What the gap's triangles may be: short edges, seen from outside, and no edge that the surface has already.
 bool fits(const FaceMesh& mesh, const Triangle& t, float longest_mm) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (mesh::squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) >
-        longest_mm * longest_mm)
+    if (squared_distance(mesh.vertices_mm[t[k]], mesh.vertices_mm[t[(k + 1) % 3]]) > longest_mm * longest_mm)
       return false;
   return true;
 }
@@ -138,7 +137,7 @@ Result<FaceMesh> complete_head(FaceMesh mesh, const Vec3d& across, double cell_m
                                const std::function<SewingRules(UnrolledHead&)>& propose,
                                StageContext& context) {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, {}, context, across);
+  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
   if (!frame) {
     if (frame.error().code == Errc::PoorGeometry) return mesh;
     return frame.error();

@@ -8,45 +8,37 @@ namespace relievo::pipeline {
 
 CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles,
                          std::pmr::memory_resource* memory)
-    : triangles_(triangles),
-      first_(vertices + 1, 0U, memory),
-      around_(3 * triangles.size(), 0U, memory),
-      touched_(vertices, 0, memory) {}
+    : triangles_(triangles), around_(memory), touched_(vertices, 0, memory) {}
 
 void CornerIndex::build(std::span<const std::uint8_t> fixed) {
   std::erase_if(triangles_, [](const Corners& t) { return t[0] == kGoneVertex; });
   if (fixed.empty()) std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
   else std::copy(fixed.begin(), fixed.end(), touched_.begin());
-  std::fill(first_.begin(), first_.end(), 0U);
-  for (const Corners& t : triangles_)
-    for (const std::uint32_t v : t) ++first_[v + 1];
-  for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-    for (const std::uint32_t v : triangles_[t]) around_[first_[v]++] = t;
-  // Filling moved each start to its end, which is the next one's start.
-  std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-  first_[0] = 0;
+  around_.sort(touched_.size(), [this](auto&& add) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (const std::uint32_t v : triangles_[t]) add(v, t);
+  });
 }
 
 CornerIndex::Ring CornerIndex::ring(std::uint32_t v) const {
   Ring result;
-  if (touched_[v] || first_[v + 1] - first_[v] > kMostAround) return result;
-  for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) result.at[result.count++] = around_[i];
+  if (touched_[v] || around_[v].size() > kMostAround) return result;
+  for (const std::uint32_t t : around_[v]) result.at[result.count++] = t;
   return result;
 }
 
 std::uint32_t CornerIndex::across(std::uint32_t a, std::uint32_t b) const {
-  for (std::uint32_t i = first_[b]; i < first_[b + 1]; ++i) {
-    const Corners& t = triangles_[around_[i]];
+  for (const std::uint32_t of_b : around_[b]) {
+    const Corners& t = triangles_[of_b];
     for (std::size_t k = 0; k < 3; ++k)
-      if (t[k] == b && t[(k + 1) % 3] == a) return around_[i];
+      if (t[k] == b && t[(k + 1) % 3] == a) return of_b;
   }
   return kGoneVertex;
 }
 
 bool CornerIndex::on_border(std::uint32_t v) const {
-  for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
-    for (const std::uint32_t n : triangles_[around_[i]])
+  for (const std::uint32_t t : around_[v])
+    for (const std::uint32_t n : triangles_[t])
       if (n != v && border_edge(v, n)) return true;
   return false;
 }

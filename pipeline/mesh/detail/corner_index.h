@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/groups.h"
+
 namespace relievo::pipeline {
 
 inline constexpr std::uint32_t kGoneVertex = 0xFFFFFFFFU;
@@ -58,8 +60,7 @@ class CornerIndex {
   std::size_t common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a, std::uint32_t b) const;
 
   std::pmr::vector<Corners>& triangles_;
-  std::pmr::vector<std::uint32_t> first_,
-      around_;  // triangles around vertex v: around_[first_[v] .. first_[v + 1])
+  Groups around_;  // triangles around each vertex
   std::pmr::vector<std::uint8_t> touched_;
 };
 

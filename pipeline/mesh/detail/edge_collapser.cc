@@ -8,12 +8,11 @@
 
 #include "pipeline/mesh/detail/corner_index.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::cross, mesh::dot, mesh::length, mesh::minus;
 using Ring = CornerIndex::Ring;
 
 constexpr float kBarDeg = 12;           // no triangle gets a smaller angle unless it had one
@@ -102,20 +101,15 @@ class Collapser {
     return {static_cast<double>(vertices_[v].x) - middle_.x, static_cast<double>(vertices_[v].y) - middle_.y,
             static_cast<double>(vertices_[v].z) - middle_.z};
   }
-  static Vec3d minus_d(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  static Vec3d cross_d(const Vec3d& a, const Vec3d& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-  static double dot_d(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
   void add_quadrics() {
     for (const Triangle& t : triangles_) {
       const Vec3d a = at(t[0]);
-      Vec3d n = cross_d(minus_d(at(t[1]), a), minus_d(at(t[2]), a));
-      const double twice_area = std::sqrt(dot_d(n, n));
+      Vec3d n = cross(minus(at(t[1]), a), minus(at(t[2]), a));
+      const double twice_area = std::sqrt(dot(n, n));
       if (!(twice_area > 0)) continue;
       n = {n.x / twice_area, n.y / twice_area, n.z / twice_area};
-      for (const std::uint32_t v : t) quadrics_[v].add_plane(n, -dot_d(n, a), twice_area / 6);
+      for (const std::uint32_t v : t) quadrics_[v].add_plane(n, -dot(n, a), twice_area / 6);
       for (std::size_t k = 0; k < 3; ++k)
         if (index_.across(t[k], t[(k + 1) % 3]) == kGoneVertex) add_border(t[k], t[(k + 1) % 3], n);
     }
@@ -123,13 +117,13 @@ class Collapser {
 
   // A plane through the border's edge, upright on the surface.
   void add_border(std::uint32_t from, std::uint32_t to, const Vec3d& surface_normal) {
-    const Vec3d along = minus_d(at(to), at(from));
-    Vec3d n = cross_d(along, surface_normal);
-    const double l = std::sqrt(dot_d(n, n));
+    const Vec3d along = minus(at(to), at(from));
+    Vec3d n = cross(along, surface_normal);
+    const double l = std::sqrt(dot(n, n));
     if (!(l > 0)) return;
     n = {n.x / l, n.y / l, n.z / l};
     for (const std::uint32_t v : {from, to})
-      quadrics_[v].add_plane(n, -dot_d(n, at(from)), kBorderWeight * dot_d(along, along));
+      quadrics_[v].add_plane(n, -dot(n, at(from)), kBorderWeight * dot(along, along));
   }
 
   void mark_border() {
@@ -143,8 +137,7 @@ class Collapser {
     Quadric sum = quadrics_[gone];
     sum.add(quadrics_[kept]);
     const double square = std::max(sum.at(at(kept)), 0.0) / std::max(sum.weight, 1e-12);
-    return static_cast<float>(square) +
-           kLengthWeight * mesh::squared_distance(vertices_[gone], vertices_[kept]);
+    return static_cast<float>(square) + kLengthWeight * squared_distance(vertices_[gone], vertices_[kept]);
   }
 
   // Each edge once, in its cheaper direction.

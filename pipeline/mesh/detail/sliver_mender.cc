@@ -9,12 +9,10 @@
 
 #include "pipeline/mesh/detail/corner_index.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-using mesh::cross, mesh::dot, mesh::length, mesh::minus;
 
 constexpr int kMostPasses = 8;
 
@@ -61,9 +59,9 @@ class Mender {
 
   // The smallest angle lies opposite the shortest edge (law of cosines, without a root).
   bool is_sliver(const Triangle& t) const {
-    float a = mesh::squared_distance(vertices_[t[0]], vertices_[t[1]]);
-    float b = mesh::squared_distance(vertices_[t[1]], vertices_[t[2]]);
-    float c = mesh::squared_distance(vertices_[t[2]], vertices_[t[0]]);
+    float a = squared_distance(vertices_[t[0]], vertices_[t[1]]);
+    float b = squared_distance(vertices_[t[1]], vertices_[t[2]]);
+    float c = squared_distance(vertices_[t[2]], vertices_[t[0]]);
     if (a < c) std::swap(a, c);
     if (b < c) std::swap(b, c);
     const float twice = a + b - c;
@@ -77,7 +75,7 @@ class Mender {
       if (v == kGoneVertex || index_.touched(v)) return false;
     std::array<std::size_t, 3> by_length{0, 1, 2};  // edge k runs from corner k to the next
     const auto squared = [&](std::size_t k) {
-      return mesh::squared_distance(vertices_[corners[k]], vertices_[corners[(k + 1) % 3]]);
+      return squared_distance(vertices_[corners[k]], vertices_[corners[(k + 1) % 3]]);
     };
     std::sort(by_length.begin(), by_length.end(),
               [&](std::size_t i, std::size_t j) { return squared(i) < squared(j); });

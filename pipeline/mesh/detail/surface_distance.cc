@@ -7,12 +7,12 @@
 #include <limits>
 #include <vector>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/base/cells.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::cross, mesh::dot, mesh::minus;
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr float kTrianglesPerCell = 2;
@@ -21,7 +21,7 @@ float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   const Vec3f along = minus(b, a);
   const float square = dot(along, along);
   const float share = square > 0 ? std::clamp(dot(minus(p, a), along) / square, 0.0F, 1.0F) : 0;
-  return mesh::squared_distance(p, mesh::plus(a, mesh::times(along, share)));
+  return squared_distance(p, plus(a, times(along, share)));
 }
 
 // Cells over x/z, y/z, each with the triangles that touch it.
@@ -29,7 +29,7 @@ class CellIndex {
  public:
   CellIndex(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
             std::pmr::memory_resource* memory)
-      : vertices_(vertices), triangles_(triangles), first_(memory), members_(memory) {
+      : vertices_(vertices), triangles_(triangles), cells_(memory) {
     float right = -std::numeric_limits<float>::max();
     float bottom = right;
     for (const Vec3f& v : vertices) {
@@ -41,26 +41,26 @@ class CellIndex {
     }
     const float area = std::max((right - left_) * (bottom - top_), 1e-9F);
     side_ = std::sqrt(area * kTrianglesPerCell / static_cast<float>(triangles.size()));
-    columns_ = static_cast<int>((right - left_) / side_) + 1;
-    rows_ = static_cast<int>((bottom - top_) / side_) + 1;
-    fill();
+    fill(static_cast<int>((right - left_) / side_) + 1, static_cast<int>((bottom - top_) / side_) + 1);
   }
 
   double squared_distance(const Vec3f& p) const {
     const int c = static_cast<int>(std::floor((p.x / p.z - left_) / side_));
     const int r = static_cast<int>(std::floor((p.y / p.z - top_) / side_));
     double best = std::numeric_limits<double>::max();
-    const int most = std::max({std::abs(c), std::abs(c - columns_), std::abs(r), std::abs(r - rows_)}) + 1;
-    for (int ring = 0; ring <= most; ++ring) {
+    const int most =
+        std::max({std::abs(c), std::abs(c - cells_.columns()), std::abs(r), std::abs(r - cells_.rows())}) + 1;
+    const auto done = [&](int ring) {
       // What lies beyond this ring is further away across the line of sight alone.
       const double beyond = static_cast<double>(ring - 1) *
                             static_cast<double>(side_ * kObliquity * std::min(nearest_mm_, p.z));
-      if (ring > 0 && beyond > 0 && best <= beyond * beyond) break;
-      for (int y = r - ring; y <= r + ring; ++y)
-        for (int x = c - ring; x <= c + ring;
-             x += (y == r - ring || y == r + ring || ring == 0) ? 1 : 2 * ring)
-          look(x, y, p, best);
-    }
+      return ring > most || (ring > 0 && beyond > 0 && best <= beyond * beyond);
+    };
+    cells_.by_rings(c, r, done, [&](std::uint32_t k) {
+      const Triangle& t = triangles_[k];
+      best =
+          std::min(best, squared_distance_to_triangle(p, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]));
+    });
     return best;
   }
 
@@ -68,43 +68,23 @@ class CellIndex {
   // A step in x/z is at least so much of an angle within 60 degrees of the axis.
   static constexpr float kObliquity = 0.5F;
 
-  template <typename Visit>
-  void for_each_cell(const Triangle& t, Visit&& visit) const {
-    float l = std::numeric_limits<float>::max(), u = l, r = -l, d = -l;
-    for (const std::uint32_t v : t) {
-      l = std::min(l, vertices_[v].x / vertices_[v].z);
-      r = std::max(r, vertices_[v].x / vertices_[v].z);
-      u = std::min(u, vertices_[v].y / vertices_[v].z);
-      d = std::max(d, vertices_[v].y / vertices_[v].z);
-    }
-    const auto cell = [this](float at, float from, int count) {
-      return std::clamp(static_cast<int>((at - from) / side_), 0, count - 1);
-    };
-    for (int y = cell(u, top_, rows_); y <= cell(d, top_, rows_); ++y)
-      for (int x = cell(l, left_, columns_); x <= cell(r, left_, columns_); ++x)
-        visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
-  }
-
-  void fill() {
-    first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0U);
-    for (const Triangle& t : triangles_) for_each_cell(t, [this](std::size_t k) { ++first_[k + 1]; });
-    for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
-    members_.assign(first_.back(), 0U);
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for_each_cell(triangles_[t], [this, t](std::size_t k) { members_[first_[k]++] = t; });
-    std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-    first_[0] = 0;
-  }
-
-  void look(int x, int y, const Vec3f& p, double& best) const {
-    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
-    const std::size_t k =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-    for (std::uint32_t i = first_[k]; i < first_[k + 1]; ++i) {
-      const Triangle& t = triangles_[members_[i]];
-      best =
-          std::min(best, squared_distance_to_triangle(p, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]));
-    }
+  void fill(int columns, int rows) {
+    cells_.fill(columns, rows, [&](auto&& add) {
+      for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
+        float l = std::numeric_limits<float>::max(), u = l, r = -l, d = -l;
+        for (const std::uint32_t v : triangles_[k]) {
+          l = std::min(l, vertices_[v].x / vertices_[v].z);
+          r = std::max(r, vertices_[v].x / vertices_[v].z);
+          u = std::min(u, vertices_[v].y / vertices_[v].z);
+          d = std::max(d, vertices_[v].y / vertices_[v].z);
+        }
+        const auto cell = [this](float at, float from, int count) {
+          return std::clamp(static_cast<int>((at - from) / side_), 0, count - 1);
+        };
+        for (int y = cell(u, top_, rows); y <= cell(d, top_, rows); ++y)
+          for (int x = cell(l, left_, columns); x <= cell(r, left_, columns); ++x) add(x, y, k);
+      }
+    });
   }
 
   std::span<const Vec3f> vertices_;
@@ -112,8 +92,7 @@ class CellIndex {
   float left_ = std::numeric_limits<float>::max(), top_ = std::numeric_limits<float>::max();
   float nearest_mm_ = std::numeric_limits<float>::max();
   float side_ = 1;
-  int columns_ = 0, rows_ = 0;
-  std::pmr::vector<std::uint32_t> first_, members_;
+  Cells cells_;
 };
 
 }  // namespace

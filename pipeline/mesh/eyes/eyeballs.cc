@@ -12,8 +12,9 @@
 #include <optional>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/eyes/lid_finder.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -123,9 +124,7 @@ void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_h
     depths.push_back(p.z);
   }
   eye.middle /= static_cast<double>(eye.seen.size());
-  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
-                   depths.end());
-  eye.middle.z() = depths[depths.size() / 2];
+  eye.middle.z() = median(depths);
 }
 
 // What spans from lid to lid: every vertex lies as high as its neighbours do in the mean, the nearer the
@@ -164,13 +163,13 @@ void turn_normals(FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& moved) {
     if (moved[v] != 0) mesh.normals[v] = {};
   for (const auto& t : mesh.triangles) {
     if ((moved[t[0]] | moved[t[1]] | moved[t[2]]) == 0) continue;
-    const Vec3f across = mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], mesh.vertices_mm[t[0]]),
-                                     mesh::minus(mesh.vertices_mm[t[2]], mesh.vertices_mm[t[0]]));
+    const Vec3f across = cross(minus(mesh.vertices_mm[t[1]], mesh.vertices_mm[t[0]]),
+                               minus(mesh.vertices_mm[t[2]], mesh.vertices_mm[t[0]]));
     for (const std::uint32_t v : t)
-      if (moved[v] != 0) mesh.normals[v] = mesh::plus(mesh.normals[v], across);
+      if (moved[v] != 0) mesh.normals[v] = plus(mesh.normals[v], across);
   }
   for (std::uint32_t v = 0; v < moved.size(); ++v)
-    if (moved[v] != 0) mesh.normals[v] = mesh::unit(mesh.normals[v]);
+    if (moved[v] != 0) mesh.normals[v] = unit(mesh.normals[v]);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/landmarks/face_relief.h"
 #include "pipeline/model/photo_sampler.h"
 
@@ -61,13 +62,6 @@ struct Window {
   }
 };
 
-double quantile(std::pmr::vector<float> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
-
 void blur(std::pmr::vector<float>& v, int columns, int rows) {
   const auto along = [&](int lines, int length, int line_step, int step) {
     for (int l = 0; l < lines; ++l) {
@@ -117,14 +111,15 @@ bool tell_skin(Window& w, Arena& scratch) {
   for (const float v : w.red)
     if (!std::isnan(v)) known.push_back(v);
   if (known.size() * 2 < w.red.size()) return false;
-  w.skin = quantile(known, 0.5);
+  w.skin = median(known);
   for (float& v : w.red)
     if (std::isnan(v)) v = static_cast<float>(w.skin);
   blur(w.red, w.columns, w.rows);
-  const double least_red = quantile(w.red, 0.02);
+  std::pmr::vector<float> reds(w.red, &scratch);
+  const double least_red = percentile(reds, 0.02);
   if (!(w.skin - least_red > kLeastChroma)) return false;
   for (float& v : known) v = static_cast<float>(std::abs(static_cast<double>(v) - w.skin));
-  const double scale = std::max(kNoise * quantile(known, 0.5), kShare * (w.skin - least_red));
+  const double scale = std::max(kNoise * median(known), kShare * (w.skin - least_red));
   w.unlike_skin.reserve(w.red.size());
   for (const float red : w.red) {
     const double unlike = (w.skin - static_cast<double>(red)) / scale;
@@ -187,8 +182,7 @@ bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
     }
   if (red.empty() || inside == 0 || outside == 0 || within / inside - around / outside < kLeastShare)
     return false;
-  return quantile(red, 0.5) < kWhiteRed * w.skin ||
-         quantile(light, 0.9) > kIrisContrast * quantile(light, 0.1);
+  return median(red) < kWhiteRed * w.skin || percentile(light, 0.9) > kIrisContrast * percentile(light, 0.1);
 }
 
 // Of all almonds the best, within a millimetre or two.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/landmarks/face_core.h"
 #include "pipeline/mesh/landmarks/nose_tip.h"
 #include "pipeline/mesh/landmarks/symmetry_plane.h"
@@ -59,6 +60,7 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
   return points;
 }
 
+constexpr int kSamplePoints = 6000;  // of the surface, that vote on the frame
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
 constexpr double kWorthOfProtrusion =
@@ -102,12 +104,6 @@ void move_into(Points& points, const Frame& frame) {
 // `second` is given in the coordinates that `first` leads to.
 Frame chained(const Frame& first, const Frame& second) {
   return {second.rows * first.rows, first.origin + first.rows.transpose() * second.origin};
-}
-
-double percentile(std::pmr::vector<double>& values, double share) {
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  return values[static_cast<std::size_t>(k)];
 }
 
 double extent(std::span<const SurfacePoint> points, int axis, Arena& scratch) {
@@ -240,17 +236,9 @@ HeadFrame measured(const Points& points, const Frame& frame, StageContext& conte
 
 }  // namespace
 
-Result<void> HeadFrameOptions::check() const {
-  if (sample_points < 500 || sample_points > 100'000)
-    return Error{Errc::InvalidInput, "sample_points must lie in 500 .. 100000"}.at("head-frame");
-  return {};
-}
-
-Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options,
-                                  StageContext& context, const Vec3d& across) {
-  RELIEVO_TRY(options.check());
+Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context, const Vec3d& across) {
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-  Points points = sample(mesh, options.sample_points, context.scratch);
+  Points points = sample(mesh, kSamplePoints, context.scratch);
   if (points.size() < 400)
     return Error{Errc::PoorGeometry, "too little measured surface to tell how the head is turned"};
 
@@ -270,7 +258,7 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& 
 HeadFrame frame_as_seen(const FaceMesh& mesh, StageContext& context) {
   Frame frame;
   frame.rows = Vector3d(1, -1, -1).asDiagonal();
-  Points points = sample(mesh, HeadFrameOptions{}.sample_points, context.scratch);
+  Points points = sample(mesh, kSamplePoints, context.scratch);
   if (points.empty()) return {to_transform(frame)};
   for (const SurfacePoint& p : points) frame.origin += p.at_mm / static_cast<double>(points.size());
   move_into(points, frame);

@@ -12,24 +12,11 @@
 // symmetry in it), Cancelled; throws std::bad_alloc as every stage does. Thread: any.
 #pragma once
 
-#include "pipeline/base/options.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
-
-struct HeadFrameOptions {
-  int sample_points = 6000;  // points of the surface that vote
-
-  Result<void> check() const;
-};
-
-template <typename Field>
-void describe(HeadFrameOptions& o, Field&& field) {
-  field("sample_points", o.sample_points, OptionRange{500, 100000},
-        "points of the surface that fix the head's frame");
-}
 
 struct HeadFrame {
   RigidTransform head_from_camera;
@@ -42,8 +29,8 @@ struct HeadFrame {
 
 // `mesh` in the left camera's frame, normals out of the face. Only measured vertices count. `across`: the
 // first guess of which way runs across the person, from the left camera to the right one.
-Result<HeadFrame> find_head_frame(const FaceMesh& mesh, const HeadFrameOptions& options,
-                                  StageContext& context, const Vec3d& across = {1, 0, 0});
+Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context,
+                                  const Vec3d& across = {1, 0, 0});
 
 // For a surface that need not be a head: as the left camera sees it, upright, about the middle of what was
 // measured.

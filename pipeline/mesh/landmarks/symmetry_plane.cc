@@ -9,6 +9,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -180,9 +182,7 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 ||
       std::abs(plane.offset_mm) > 20)
     return none;
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
-                   distances.end());
-  plane.residual_mm = distances[distances.size() / 2];
+  plane.residual_mm = median(distances);
   return plane;
 }
 

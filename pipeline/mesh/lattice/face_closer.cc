@@ -203,7 +203,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
                                              StageContext& context) {
   Arena& scratch = context.scratch;
   const FaceMesh rough = rough_surface(seen, seen_surface, scratch);
-  const auto head = find_head_frame(rough, {}, context, right_camera_mm);
+  const auto head = find_head_frame(rough, context, right_camera_mm);
   if (!head && head.error().code == Errc::Cancelled) return head.error();
   if (!head) return std::optional<ClosedFace>{};
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);

@@ -10,12 +10,12 @@
 
 #include "pipeline/mesh/lattice/cell_filler.h"
 #include "pipeline/mesh/sight_edge.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::edge_between, mesh::minus, mesh::plus, mesh::SightEdge, mesh::times;
+using mesh::edge_between, mesh::SightEdge;
 
 struct Cell {
   int c, r;

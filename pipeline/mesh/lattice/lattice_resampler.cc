@@ -8,12 +8,10 @@
 #include <cstdint>
 
 #include "pipeline/mesh/triangle_raster.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-using mesh::plus, mesh::times;
 
 constexpr double kFarthest = 190;  // mm on a chart: behind the ears
 constexpr double kEvenPart = 0.4;  // of an axis, about its middle, that has cells of one size
@@ -221,7 +219,7 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, f
     const bool completed = l.node[a] == Node::Filled || l.node[a + 1] == Node::Filled ||
                            l.node[below] == Node::Filled || l.node[below + 1] == Node::Filled;
     if (cut != 0 || !closed || !completed) return cut;
-    return mesh::squared_distance(p, d) <= mesh::squared_distance(q, o) ? kFalling : kRising;
+    return squared_distance(p, d) <= squared_distance(q, o) ? kFalling : kRising;
   }
   const float min_cosine = cosine_of_slope(max_slope);
   if ((parts & kUnder) && facing(p, o, d, min_cosine)) return kUnder;
@@ -282,7 +280,7 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
   float below = 0;
   for (std::size_t k = 0; k < old.size(); ++k) {
     if (old.node[k] == Node::Empty) continue;
-    const Vec2d p = chart.place(mesh::minus(old.at_mm[k], centre));
+    const Vec2d p = chart.place(minus(old.at_mm[k], centre));
     place[k] = {static_cast<float>(p.x / step), static_cast<float>(p.y / step)};
     aside = std::max(aside, std::abs(place[k].x));
     above = std::max(above, -place[k].y);
@@ -322,8 +320,8 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
       const Node node = reader.read(
           reader.place(wa * oa.x + wb * ob.x + wc * oc.x, wa * oa.y + wb * ob.y + wc * oc.y), at, sigma);
       if (node != Node::Measured) return;
-      at = mesh::minus(at, centre);
-      const float away = mesh::length(at);
+      at = minus(at, centre);
+      const float away = length(at);
       if (away <= radius[k]) return;  // where surface stands before surface the outer one counts
       radius[k] = away;
       made.node[k] = node;

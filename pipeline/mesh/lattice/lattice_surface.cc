@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "pipeline/mesh/sight_edge.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::cross, mesh::dot, mesh::minus, mesh::plus, mesh::squared_distance;
 using mesh::edge_between, mesh::SightEdge;
 
 // Tests whether two neighbours continue one surface. A depth step is not known by its size alone: the

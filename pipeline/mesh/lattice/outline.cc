@@ -6,12 +6,10 @@
 #include <cmath>
 
 #include "pipeline/mesh/lattice/cell_filler.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-using mesh::cross, mesh::dot, mesh::length, mesh::minus, mesh::plus;
 
 constexpr float kSlopeRadiusMm = 1.5F;         // a cell's slope is the mean so far around it
 constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much must be in to gain a cell, or

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-using mesh::minus, mesh::plus, mesh::times;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr float kInsetCells = 0.6F;   // how far inside a straight edge a line runs at least ...
@@ -190,9 +189,7 @@ class Cutter {
     visit(std::array<Place, 3>{pa, over_[b] < 0 ? Place{a, b} : pb, over_[c] < 0 ? Place{a, c} : pc});
   }
 
-  float squared(const Place& a, const Place& b) const {
-    return mesh::squared_distance(at(a).at_mm, at(b).at_mm);
-  }
+  float squared(const Place& a, const Place& b) const { return squared_distance(at(a).at_mm, at(b).at_mm); }
 
   Point at(const Place& p) const {
     if (p.from != p.to) return between(p.from, p.to, over_[p.from] / (over_[p.from] - over_[p.to]));

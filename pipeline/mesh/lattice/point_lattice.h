@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipeline/mesh/lattice/head_chart.h"
-#include "pipeline/mesh/vector_math.h"
 #include "pipeline/model/point_cloud.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 
@@ -53,7 +53,7 @@ struct PointLattice {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(column);
   }
-  double radius_mm(std::size_t k) const { return static_cast<double>(mesh::length(at_mm[k])); }
+  double radius_mm(std::size_t k) const { return static_cast<double>(length(at_mm[k])); }
   // Where a chart's node stands at that distance from its centre.
   Vec3f on_ray(std::size_t k, double radius_mm) const {
     const auto w = static_cast<std::size_t>(columns);

@@ -17,8 +17,6 @@ struct AdvancingFrontMesherOptions {
   double max_edge_mm = 5;     // longest edge
   double max_edge_ratio = 6;  // longest edge, in usual distances between neighbours
   FinishOptions finish;
-
-  Result<void> check() const;
 };
 
 template <typename Field>

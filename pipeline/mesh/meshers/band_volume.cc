@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -151,9 +151,9 @@ class Walker {
   // A diagonal between two crossings of one ambiguous face would lie in the neighbour's way.
   void cut_to_centre(std::span<const Crossing> loop) {
     Vec3f sum{};
-    for (const Crossing c : loop) sum = mesh::plus(sum, place(c));
+    for (const Crossing c : loop) sum = plus(sum, place(c));
     const Crossing centre = kCentre + centres_.size();
-    centres_.push_back(mesh::times(sum, 1 / static_cast<float>(loop.size())));
+    centres_.push_back(times(sum, 1 / static_cast<float>(loop.size())));
     for (std::size_t k = 0; k < loop.size(); ++k)
       for (const Crossing c : {centre, loop[(k + 1) % loop.size()], loop[k]}) corners_.push_back(c);
   }
@@ -167,7 +167,7 @@ class Walker {
     float least = std::numeric_limits<float>::max();
     for (std::size_t i = 0; n > 3 && i < n; ++i) {
       float sum = 0;  // of the diagonals
-      for (std::size_t k = 2; k + 1 < n; ++k) sum += mesh::squared_distance(at[i], at[(i + k) % n]);
+      for (std::size_t k = 2; k + 1 < n; ++k) sum += squared_distance(at[i], at[(i + k) % n]);
       if (sum >= least) continue;
       least = sum;
       best = i;

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/detail/corner_index.h"
 #include "pipeline/mesh/detail/edge_collapser.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 #include "pipeline/mesh/meshers/nearest_vertex.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -74,11 +75,8 @@ float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory) {
   std::pmr::vector<float> lengths(memory);
   lengths.reserve(base.triangles.size());
   for (const Triangle& t : base.triangles)
-    lengths.push_back(mesh::length(mesh::minus(base.vertices_mm[t[1]], base.vertices_mm[t[0]])));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+    lengths.push_back(length(minus(base.vertices_mm[t[1]], base.vertices_mm[t[0]])));
+  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
 }
 
 FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resource* memory) {
@@ -86,8 +84,8 @@ FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resour
   const auto visit = [&](auto&& add) {
     for (const Triangle& t : base.triangles) {
       const Vec3f &a = base.vertices_mm[t[0]], &b = base.vertices_mm[t[1]], &c = base.vertices_mm[t[2]];
-      const float longest = std::sqrt(std::max(
-          {mesh::squared_distance(a, b), mesh::squared_distance(b, c), mesh::squared_distance(c, a)}));
+      const float longest =
+          std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
       const int parts = static_cast<int>(std::ceil(longest / spacing_mm));
       for (int i = 0; parts > 1 && i < parts; ++i)
         for (int j = 0; i + j < parts; ++j)
@@ -102,26 +100,13 @@ FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resour
   dense.sigma_mm.reserve(count);
   visit([&](const Triangle& t, float u, float v) {
     const auto mixed = [&](const auto& of) {
-      return mesh::plus(mesh::times(of[t[0]], 1 - u - v),
-                        mesh::plus(mesh::times(of[t[1]], u), mesh::times(of[t[2]], v)));
+      return plus(times(of[t[0]], 1 - u - v), plus(times(of[t[1]], u), times(of[t[2]], v)));
     };
     dense.vertices_mm.push_back(mixed(base.vertices_mm));
-    dense.normals.push_back(mesh::unit(mixed(base.normals)));
+    dense.normals.push_back(unit(mixed(base.normals)));
     dense.sigma_mm.push_back(std::max({base.sigma_mm[t[0]], base.sigma_mm[t[1]], base.sigma_mm[t[2]]}));
   });
   return dense;
-}
-
-Result<void> FinishOptions::check(const char* place) const {
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at(place);
-  if (!(max_gap_mm >= 0.1 && max_gap_mm <= 50))
-    return Error{Errc::InvalidInput, "max_gap_mm must lie in 0.1 .. 50"}.at(place);
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at(place);
-  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at(place);
-  return {};
 }
 
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices,

@@ -41,8 +41,6 @@ struct FinishOptions {
   double max_gap_mm = 3;          // surface further than this from every measured point is cut off
   double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
   double min_area_mm2 = 2500;     // less surface than this is no face
-
-  Result<void> check(const char* place) const;
 };
 
 template <typename Field>

@@ -18,8 +18,6 @@ struct BezierMesherOptions {
   double patch_mm = 1.5;     // side of a patch, where the face's usual depth is
   double bending = 0.003;    // weight of the bending term against the points'
   SheetOptions sheet;
-
-  Result<void> check() const;
 };
 
 template <typename Field>

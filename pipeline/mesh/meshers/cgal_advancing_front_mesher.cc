@@ -60,17 +60,8 @@ std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageCo
 
 }  // namespace
 
-Result<void> AdvancingFrontMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.advancing-front");
-  if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
-    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
-        "mesher.advancing-front");
-  return finish.check("mesher.advancing-front");
-}
-
 Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "advancing-front"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   const double longest =

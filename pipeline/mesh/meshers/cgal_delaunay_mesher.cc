@@ -10,10 +10,11 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/meshers/delaunay_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -53,17 +54,14 @@ float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Tr
                     Arena& scratch) {
   std::pmr::vector<float> lengths(&scratch);
   lengths.reserve(triangles.size());
-  for (const Triangle& t : triangles) lengths.push_back(mesh::length(mesh::minus(at[t[1]], at[t[0]])));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  for (const Triangle& t : triangles) lengths.push_back(length(minus(at[t[1]], at[t[0]])));
+  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
 }
 
 bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
   const float longest = longest_mm * longest_mm;
-  return mesh::squared_distance(a, b) <= longest && mesh::squared_distance(b, c) <= longest &&
-         mesh::squared_distance(c, a) <= longest;
+  return squared_distance(a, b) <= longest && squared_distance(b, c) <= longest &&
+         squared_distance(c, a) <= longest;
 }
 
 // How far the points would lie from one another, spread evenly over the surface as the camera sees it: a
@@ -76,9 +74,8 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
   for (const Triangle& t : triangles) {
     const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
     if (!shorter(a, b, c, longest_mm)) continue;
-    area += static_cast<double>(std::abs(mesh::dot(mesh::cross(mesh::minus(b, a), mesh::minus(c, a)),
-                                                   mesh::unit(mesh::plus(mesh::plus(a, b), c))))) /
-            2;
+    area +=
+        static_cast<double>(std::abs(dot(cross(minus(b, a), minus(c, a)), unit(plus(plus(a, b), c))))) / 2;
     ++count;
   }
   return count > 0 ? std::sqrt(2 * area / static_cast<double>(count)) : 0;  // there are two triangles a point
@@ -86,11 +83,10 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
 
 bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
   if (!shorter(a, b, c, longest_mm)) return false;
-  const Vec3f n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
-  const Vec3f sight = mesh::plus(mesh::plus(a, b), c);
-  const float towards = -mesh::dot(n, sight);
-  return towards > 0 &&
-         towards * towards >= min_cosine * min_cosine * mesh::dot(n, n) * mesh::dot(sight, sight);
+  const Vec3f n = cross(minus(b, a), minus(c, a));
+  const Vec3f sight = plus(plus(a, b), c);
+  const float towards = -dot(n, sight);
+  return towards > 0 && towards * towards >= min_cosine * min_cosine * dot(n, n) * dot(sight, sight);
 }
 
 // All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs
@@ -114,7 +110,7 @@ template <typename Longest>
 Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& options, StageContext& context,
                       Longest&& longest_mm) {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(options.check());
+  RELIEVO_TRY(check_options(options, "delaunay"));
   if (context.stop()) return stopped;
   if (cloud.points.size() < 3) return no_surface();
   std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
@@ -143,21 +139,6 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& opti
 }
 
 }  // namespace
-
-Result<void> DelaunayMesherOptions::check() const {
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.delaunay");
-  if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
-    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
-        "mesher.delaunay");
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.delaunay");
-  if (ear_passes < 0 || ear_passes > 16 || normal_passes < 0 || normal_passes > 16 ||
-      !(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "ear_passes and normal_passes 0 .. 16, min_area_mm2 0 .. 1000000"}.at(
-        "mesher.delaunay");
-  return {};
-}
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   return join(cloud, options_, context, [&](const auto& at, const auto& triangles) {

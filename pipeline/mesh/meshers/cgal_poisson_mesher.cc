@@ -72,17 +72,9 @@ void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* m
 
 }  // namespace
 
-Result<void> PoissonMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.poisson");
-  if (!(voxel_mm >= 0.3 && voxel_mm <= 10) || !(band_voxels >= 1.8 && band_voxels <= 5))
-    return Error{Errc::InvalidInput, "voxel_mm 0.3 .. 10, band_voxels 1.8 .. 5"}.at("mesher.poisson");
-  return finish.check("mesher.poisson");
-}
-
 Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "poisson"));
   if (context.stop()) return stopped;
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   const float voxel =

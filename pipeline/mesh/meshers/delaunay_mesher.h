@@ -25,8 +25,6 @@ struct DelaunayMesherOptions {
   int ear_passes = 3;             // how often triangles that hang on by one edge are trimmed; 0 to 16
   int normal_passes = 1;          // how often normals are averaged over the neighbours; 0 to 16
   double min_area_mm2 = 2500;     // less surface than this is no face
-
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/mesh/meshers/nearest_vertex.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -33,8 +33,8 @@ void add_row(const FaceMesh& base, const DepthSamples& samples, const NearestVer
                    static_cast<float>(v / samples.usual_depth_mm * depths[i]), static_cast<float>(depths[i])};
     const auto hit = nearest.find(at, 3 * reach + 2 * kDisagreeMm);
     if (hit.vertex == NearestVertex::kNone) continue;
-    const Vec3f from = mesh::minus(at, base.vertices_mm[hit.vertex]);
-    const float off = std::abs(mesh::dot(from, base.normals[hit.vertex]));
+    const Vec3f from = minus(at, base.vertices_mm[hit.vertex]);
+    const float off = std::abs(dot(from, base.normals[hit.vertex]));
     if (off > kDisagreeMm + kDisagreeSigmas * base.sigma_mm[hit.vertex] ||
         hit.squared_mm - off * off > reach * reach)
       continue;
@@ -45,16 +45,6 @@ void add_row(const FaceMesh& base, const DepthSamples& samples, const NearestVer
 }
 
 }  // namespace
-
-Result<void> SheetOptions::check(const char* place) const {
-  if (!(step_mm >= 0.2 && step_mm <= 10))
-    return Error{Errc::InvalidInput, "step_mm must lie in 0.2 .. 10"}.at(place);
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at(place);
-  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at(place);
-  return {};
-}
 
 DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memory) {
   DepthSamples samples(memory);
@@ -71,7 +61,7 @@ DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memo
     samples.v.push_back(samples.usual_depth_mm * static_cast<double>(p.y) / z);
     samples.depth.push_back(z);
     // The base's sigma is perpendicular; along the line of sight it is larger where the surface is steep.
-    const double cosine = std::abs(static_cast<double>(mesh::dot(base.normals[i], mesh::unit(p))));
+    const double cosine = std::abs(static_cast<double>(dot(base.normals[i], unit(p))));
     samples.sigma.push_back(static_cast<double>(base.sigma_mm[i]) / std::max(cosine, 0.1));
     samples.left = std::min(samples.left, samples.u.back());
     samples.right = std::max(samples.right, samples.u.back());

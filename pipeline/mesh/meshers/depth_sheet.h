@@ -31,8 +31,6 @@ struct SheetOptions {
   double step_mm = 0.7;  // from node to node, where the face's usual depth is
   int max_triangles = 320'000;
   double min_area_mm2 = 2500;  // less surface than this is no face
-
-  Result<void> check(const char* place) const;
 };
 
 template <typename Field>

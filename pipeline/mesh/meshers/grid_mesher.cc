@@ -16,7 +16,7 @@
 #include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -50,7 +50,7 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
 void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
   const Vec3f centre{static_cast<float>(centre_mm.x), static_cast<float>(centre_mm.y),
                      static_cast<float>(centre_mm.z)};
-  for (Vec3f& v : cut.at_mm) v = mesh::plus(v, centre);
+  for (Vec3f& v : cut.at_mm) v = plus(v, centre);
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
 
@@ -97,45 +97,9 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
 
 }  // namespace
 
-Result<void> GridMesherOptions::check() const {
-  if (max_triangles < 1000 || max_triangles > 10'000'000)
-    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.grid");
-  if (!(finest_cells >= 0.5 && finest_cells <= 4))
-    return Error{Errc::InvalidInput, "finest_cells must lie in 0.5 .. 4"}.at("mesher.grid");
-  if (!(edge_cells >= 1 && edge_cells <= 4))
-    return Error{Errc::InvalidInput, "edge_cells must lie in 1 .. 4"}.at("mesher.grid");
-  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
-    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.grid");
-  if (!(step_sigmas >= 0 && step_sigmas <= 100) || !(step_slope_ratio >= 1 && step_slope_ratio <= 100) ||
-      !(min_step_mm >= 0 && min_step_mm <= 100))
-    return Error{Errc::InvalidInput, "step_sigmas 0 .. 100, step_slope_ratio 1 .. 100, min_step_mm 0 .. 100"}
-        .at("mesher.grid");
-  if (!(max_hole_mm >= 0 && max_hole_mm <= 50))
-    return Error{Errc::InvalidInput, "max_hole_mm must lie in 0 .. 50"}.at("mesher.grid");
-  if (!(min_width_mm >= 0 && min_width_mm <= 50))
-    return Error{Errc::InvalidInput, "min_width_mm must lie in 0 .. 50"}.at("mesher.grid");
-  if (!(gap_bend_deg >= 0 && gap_bend_deg <= 80))
-    return Error{Errc::InvalidInput, "gap_bend_deg must lie in 0 .. 80"}.at("mesher.grid");
-  if (!(max_rim_deg >= 30 && max_rim_deg <= 90))
-    return Error{Errc::InvalidInput, "max_rim_deg must lie in 30 .. 90"}.at("mesher.grid");
-  if (!(outline_smoothing_mm >= 0 && outline_smoothing_mm <= 10) ||
-      !(rim_smoothing_mm >= 0 && rim_smoothing_mm <= 10))
-    return Error{Errc::InvalidInput, "outline_smoothing_mm and rim_smoothing_mm must lie in 0 .. 10"}.at(
-        "mesher.grid");
-  if (!(outline_wave_mm >= 0 && outline_wave_mm <= 30))
-    return Error{Errc::InvalidInput, "outline_wave_mm must lie in 0 .. 30"}.at("mesher.grid");
-  if (normal_passes < 0 || normal_passes > 16)
-    return Error{Errc::InvalidInput, "normal_passes must lie in 0 .. 16"}.at("mesher.grid");
-  if (!(measured_sigma_mm > 0))
-    return Error{Errc::InvalidInput, "measured_sigma_mm must be positive"}.at("mesher.grid");
-  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
-    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at("mesher.grid");
-  return {};
-}
-
 Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "grid"));
   if (context.stop()) return stopped;
   if (cloud.points.empty()) return no_surface();
   if (cloud.lattice_step_px <= 0)

@@ -41,8 +41,6 @@ struct GridMesherOptions {
   double measured_sigma_mm =
       0.75;                    // what is less certain along the line of sight is shown, but not as measured
   double min_area_mm2 = 6000;  // less surface than this is no face: a third of a child's
-
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "pipeline/mesh/meshers/band_volume.h"
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -25,10 +25,10 @@ void splat(const FaceMesh& points, float share, float radius, BandVolume& volume
     const float sigma = std::max(points.sigma_mm[i], kLeastSigmaMm);
     const float sure = share * kLeastSigmaMm * kLeastSigmaMm / (sigma * sigma);
     for_each_voxel_near(volume, p, radius, [&](int x, int y, int z) {
-      const Vec3f from = mesh::minus(volume.at(x, y, z), p);
-      const float w = sure * std::exp(-narrow * mesh::dot(from, from));
+      const Vec3f from = minus(volume.at(x, y, z), p);
+      const float w = sure * std::exp(-narrow * dot(from, from));
       const std::size_t k = volume.index(x, y, z);
-      volume.value[k] += w * mesh::dot(from, points.normals[i]);
+      volume.value[k] += w * dot(from, points.normals[i]);
       weight[k] += w;
     });
   }
@@ -47,16 +47,8 @@ void fill_field(const FaceMesh& base, const FaceMesh& between, float radius, Ban
 
 }  // namespace
 
-Result<void> MarchingCubesMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.marching-cubes");
-  if (!(voxel_mm >= 0.3 && voxel_mm <= 10) || !(band_voxels >= 1.8 && band_voxels <= 5))
-    return Error{Errc::InvalidInput, "voxel_mm 0.3 .. 10, band_voxels 1.8 .. 5"}.at("mesher.marching-cubes");
-  return finish.check("mesher.marching-cubes");
-}
-
 Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "marching-cubes"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.

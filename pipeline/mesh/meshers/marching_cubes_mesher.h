@@ -18,8 +18,6 @@ struct MarchingCubesMesherOptions {
   double voxel_mm = 0.8;
   double band_voxels = 2.5;  // how far from a point the field reaches
   FinishOptions finish;
-
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/cells.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -29,8 +30,7 @@ class NearestVertex {
  private:
   std::span<const Vec3f> points_;
   float left_ = 0, top_ = 0, side_ = 1;
-  int columns_ = 1, rows_ = 1;
-  std::pmr::vector<std::uint32_t> first_, members_;  // points of cell k: members_[first_[k] .. first_[k + 1])
+  Cells cells_;
 };
 
 }  // namespace relievo::pipeline

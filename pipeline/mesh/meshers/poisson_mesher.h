@@ -18,8 +18,6 @@ struct PoissonMesherOptions {
   double voxel_mm = 1;
   double band_voxels = 2.5;  // how far from a point its surface is looked for
   FinishOptions finish;
-
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -158,18 +158,8 @@ class Rbf {
 
 }  // namespace
 
-Result<void> RbfMesherOptions::check() const {
-  if (max_points < 1000 || max_points > 1'000'000)
-    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.rbf");
-  if (max_centres < 20 || max_centres > 4000)
-    return Error{Errc::InvalidInput, "max_centres must lie in 20 .. 4000"}.at("mesher.rbf");
-  if (!(accuracy_mm >= 0.001 && accuracy_mm <= 10) || !(smoothing >= 0 && smoothing <= 1000))
-    return Error{Errc::InvalidInput, "accuracy_mm 0.001 .. 10, smoothing 0 .. 1000"}.at("mesher.rbf");
-  return sheet.check("mesher.rbf");
-}
-
 Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check_options(options_, "rbf"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);

@@ -21,8 +21,6 @@ struct RbfMesherOptions {
   double smoothing =
       0.02;  // how much a point's sigma lets the function leave it; 0 goes through every centre
   SheetOptions sheet;
-
-  Result<void> check() const;
 };
 
 template <typename Field>

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <span>
 
-#include "pipeline/mesh/vector_math.h"
 #include "pipeline/model/photo_sampler.h"
+#include "pipeline/model/vector3.h"
 #include "pipeline/texture/chart/box_window.h"
 
 namespace relievo::pipeline {
@@ -63,7 +63,7 @@ std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
   for (std::uint32_t v = 0; v < border.size(); ++v)
     if (turn[v] != 0 && completed(v)) border[v] = v;
   const auto squared_mm = [&](std::uint32_t v, std::uint32_t at_border) {
-    return mesh::squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]);
+    return squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[at_border]);
   };
   sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
     if (border[from] == kNone || border[to] == border[from] || !completed(to)) return false;

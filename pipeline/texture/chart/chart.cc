@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -19,7 +19,7 @@ bool all_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 bool frames(const FaceMesh& mesh, std::size_t v) {
   constexpr float kLeastCosine = 0.2F;
   return mesh.measured.empty() || mesh.measured[v] != 0 ||
-         -mesh::dot(mesh.normals[v], mesh.vertices_mm[v]) > kLeastCosine * mesh::length(mesh.vertices_mm[v]);
+         -dot(mesh.normals[v], mesh.vertices_mm[v]) > kLeastCosine * length(mesh.vertices_mm[v]);
 }
 
 // Where every vertex falls, in pixels of the middle view; placed: inside both windows.

@@ -7,24 +7,19 @@ namespace relievo::pipeline {
 RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr::memory_resource* memory)
     : bands_(std::clamp(bands, 1, std::max(chart.height_px, 1))),
       height_(chart.height_px),
-      first_(static_cast<std::size_t>(bands_) + 1, 0, memory),
       triangles_(memory) {
-  const auto for_each_band = [&](const std::array<std::uint32_t, 3>& t, auto&& visit) {
-    if (!chart.placed_all(t)) return;
-    const float a = chart.texel[t[0]].y;
-    const float b = chart.texel[t[1]].y;
-    const float c = chart.texel[t[2]].y;
-    const int last = band_of(std::max({a, b, c}) + 1);
-    for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band)
-      visit(static_cast<std::size_t>(band));
-  };
-  for (const auto& t : mesh.triangles) for_each_band(t, [&](std::size_t band) { ++first_[band + 1]; });
-  for (std::size_t band = 1; band < first_.size(); ++band) first_[band] += first_[band - 1];
-  triangles_.resize(first_.back());
-  std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, memory);
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
-    for_each_band(mesh.triangles[k],
-                  [&](std::size_t band) { triangles_[next[band]++] = static_cast<std::uint32_t>(k); });
+  triangles_.sort(static_cast<std::size_t>(bands_), [&](auto&& add) {
+    for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+      const auto& t = mesh.triangles[k];
+      if (!chart.placed_all(t)) continue;
+      const float a = chart.texel[t[0]].y;
+      const float b = chart.texel[t[1]].y;
+      const float c = chart.texel[t[2]].y;
+      const int last = band_of(std::max({a, b, c}) + 1);
+      for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band)
+        add(static_cast<std::size_t>(band), k);
+    }
+  });
 }
 
 // The band whose rows hold this one; as rows() cuts them.

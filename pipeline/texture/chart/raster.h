@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/groups.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/texture/chart/chart.h"
@@ -24,15 +25,13 @@ class RowBands {
   int count() const { return bands_; }
   RowRange rows(int band) const { return {height_ * band / bands_, height_ * (band + 1) / bands_}; }
   std::span<const std::uint32_t> triangles(int band) const {
-    const std::size_t b = static_cast<std::size_t>(band);
-    return std::span(triangles_).subspan(first_[b], first_[b + 1] - first_[b]);
+    return triangles_[static_cast<std::size_t>(band)];
   }
 
  private:
   int band_of(float y) const;
   int bands_, height_;
-  std::pmr::vector<std::uint32_t> first_;
-  std::pmr::vector<std::uint32_t> triangles_;
+  Groups triangles_;
 };
 
 inline constexpr float kNoDisparity = -1e30F;

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/vector_math.h"
+#include "hal/base/groups.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -22,8 +23,7 @@ struct Piece {
 Vec3f normal_of(const FaceMesh& mesh, std::uint32_t triangle) {
   const auto& t = mesh.triangles[triangle];
   const Vec3f& a = mesh.vertices_mm[t[0]];
-  return mesh::unit(
-      mesh::cross(mesh::minus(mesh.vertices_mm[t[1]], a), mesh::minus(mesh.vertices_mm[t[2]], a)));
+  return unit(cross(minus(mesh.vertices_mm[t[1]], a), minus(mesh.vertices_mm[t[2]], a)));
 }
 
 class Builder {
@@ -33,28 +33,19 @@ class Builder {
       : mesh_(mesh),
         kept_(kept),
         photographed_(photographed),
-        first_(mesh.vertices_mm.size() + 1, 0, memory),
         around_(memory),
         taken_(kept.begin(), kept.end(), memory),
         pieces_(memory) {
-    const auto for_each_side = [&](auto&& visit) {
+    around_.sort(mesh.vertices_mm.size(), [&](auto&& add) {
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        if (kept[t] == 0) visit(t);
-    };
-    for_each_side([&](std::uint32_t t) {
-      for (const std::uint32_t v : mesh.triangles[t]) ++first_[v + 1];
-    });
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    around_.resize(first_.back());
-    std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, memory);
-    for_each_side([&](std::uint32_t t) {
-      for (const std::uint32_t v : mesh.triangles[t]) around_[next[v]++] = t;
+        if (kept[t] == 0)
+          for (const std::uint32_t v : mesh.triangles[t]) add(v, t);
     });
   }
 
   void grow_all(SideCharts& sides) {
-    sides.triangles.reserve(around_.size() / 3);
-    sides.corner.reserve(around_.size());
+    sides.triangles.reserve(around_.members() / 3);
+    sides.corner.reserve(around_.members());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       if (taken_[t] == 0) grow(t, sides);
   }
@@ -76,11 +67,10 @@ class Builder {
     for (std::size_t next = from; next < sides.triangles.size(); ++next) {
       const auto& t = mesh_.triangles[sides.triangles[next]];
       for (const std::uint32_t v : t)
-        for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-          const std::uint32_t other = around_[i];
+        for (const std::uint32_t other : around_[v]) {
           if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other]))
             continue;
-          if (mesh::dot(normal_of(mesh_, other), axis) < kSameWay) continue;
+          if (dot(normal_of(mesh_, other), axis) < kSameWay) continue;
           taken_[other] = 1;
           sides.triangles.push_back(other);
         }
@@ -96,14 +86,14 @@ class Builder {
 
   void lay_flat(const Vec3f& axis, std::size_t from, SideCharts& sides) {
     // Down the picture stays down, so that charts are as high as they are wide or higher.
-    Vec3f across = mesh::cross(Vec3f{0, 1, 0}, axis);
-    across = mesh::dot(across, across) > 1e-6F ? mesh::unit(across) : Vec3f{1, 0, 0};
-    const Vec3f down = mesh::cross(axis, across);
+    Vec3f across = cross(Vec3f{0, 1, 0}, axis);
+    across = dot(across, across) > 1e-6F ? unit(across) : Vec3f{1, 0, 0};
+    const Vec3f down = cross(axis, across);
     Vec2f low{1e30F, 1e30F};
     Vec2f high{-1e30F, -1e30F};
     for (std::size_t k = from; k < sides.triangles.size(); ++k)
       for (const std::uint32_t v : mesh_.triangles[sides.triangles[k]]) {
-        const Vec2f at{mesh::dot(mesh_.vertices_mm[v], across), mesh::dot(mesh_.vertices_mm[v], down)};
+        const Vec2f at{dot(mesh_.vertices_mm[v], across), dot(mesh_.vertices_mm[v], down)};
         sides.corner.push_back(at);
         low = {std::min(low.x, at.x), std::min(low.y, at.y)};
         high = {std::max(high.x, at.x), std::max(high.y, at.y)};
@@ -117,7 +107,7 @@ class Builder {
 
   const FaceMesh& mesh_;
   std::span<const std::uint8_t> kept_, photographed_;
-  std::pmr::vector<std::uint32_t> first_, around_;  // side triangles around each vertex
+  Groups around_;  // side triangles around each vertex
   std::pmr::vector<std::uint8_t> taken_;
   std::pmr::vector<Piece> pieces_;
 };

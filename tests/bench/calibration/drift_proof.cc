@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/calibrator.h"
@@ -54,11 +55,7 @@ struct Tally {
     residuals.push_back(j.residual_px);
   }
   double share() const { return cases > 0 ? static_cast<double>(noticed) / cases : 0; }
-  static double quantile(std::vector<double> of, double q) {
-    if (of.empty()) return 0;
-    std::sort(of.begin(), of.end());
-    return of[static_cast<std::size_t>(q * static_cast<double>(of.size() - 1))];
-  }
+  static double quantile(std::vector<double> of, double q) { return of.empty() ? 0 : percentile(of, q); }
 };
 
 class Proof {

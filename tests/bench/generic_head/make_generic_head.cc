@@ -49,7 +49,7 @@ bool learn(std::uint32_t seed, relievo::test::StageBench& room, Eigen::Ref<Eigen
   const PointCloud cloud = head.cloud({}, room.pool, 0);
   const auto mesh = run_stage(room.context, [&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
   if (!mesh) return false;
-  const auto frame = run_stage(room.context, [&](StageContext& c) { return find_head_frame(*mesh, {}, c); });
+  const auto frame = run_stage(room.context, [&](StageContext& c) { return find_head_frame(*mesh, c); });
   if (!frame) return false;
   const RigidTransform camera_from_head = inverse(frame->head_from_camera);
   const RigidTransform sim_from_camera = inverse(pipeline::test::FieldHead::camera_from_head({}));

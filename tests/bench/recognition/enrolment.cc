@@ -20,7 +20,7 @@ Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageB
 Result<pipeline::ComparableFace> enrol(const std::filesystem::path& folder, test::StageBench& room) {
   RELIEVO_TRY_ASSIGN(const SeenSurface surface, surface_of(folder, room));
   const auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) {
-    return find_head_frame(surface.mesh, {}, c, surface.across);
+    return find_head_frame(surface.mesh, c, surface.across);
   });
   if (!frame) return frame.error();
   std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();

@@ -20,9 +20,9 @@ std::vector<Vec3d> cap(int count, double noise_mm) {
   std::vector<Vec3d> points;
   while (static_cast<int>(points.size()) < count) {
     const Vec3d d{random.normal(), random.normal(), random.normal()};
-    const Vec3d out = scaled(d, 1 / length(d));
+    const Vec3d out = times(d, 1 / length(d));
     if (out.z > -0.5) continue;
-    points.push_back(sum(kCentre, scaled(out, kRadius + noise_mm * random.normal())));
+    points.push_back(plus(kCentre, times(out, kRadius + noise_mm * random.normal())));
   }
   return points;
 }
@@ -74,15 +74,15 @@ TEST(ReadForm, TheRangeIsThatOfThePointsThatWereKept) {
 TEST(ReadForm, FourOutliersAreOneMoreThanMayGo) {
   std::vector<Vec3d> points = cap(1000, 0);
   for (std::size_t k : {3U, 77U, 500U, 900U})
-    points[k] = sum(kCentre, scaled(difference(points[k], kCentre), 1.1));
+    points[k] = plus(kCentre, times(minus(points[k], kCentre), 1.1));
   const auto most = read_sphere(points, 0.003);
   ASSERT_TRUE(most);
   EXPECT_NEAR(most->range_mm, 0.1 * kRadius, 0.1);
 }
 
 TEST(ReadForm, DeviationsAreSignedOutwards) {
-  EXPECT_GT(deviation(Sphere{kCentre, kRadius}, sum(kCentre, {0, 0, -31})), 0);
-  EXPECT_LT(deviation(Sphere{kCentre, kRadius}, sum(kCentre, {0, 0, -29})), 0);
+  EXPECT_GT(deviation(Sphere{kCentre, kRadius}, plus(kCentre, {0, 0, -31})), 0);
+  EXPECT_LT(deviation(Sphere{kCentre, kRadius}, plus(kCentre, {0, 0, -29})), 0);
 }
 
 TEST(ReadForm, PointsThatDetermineNothingAreAnError) {

@@ -88,19 +88,18 @@ pipeline::FaceMesh mesh_of(const Surface& s, double error_mm, float sigma_mm) {
 }
 
 double to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d ab = difference(b, a);
-  const double t = std::clamp(dot(difference(p, a), ab) / dot(ab, ab), 0.0, 1.0);
-  return distance(p, sum(a, scaled(ab, t)));
+  const Vec3d ab = minus(b, a);
+  const double t = std::clamp(dot(minus(p, a), ab) / dot(ab, ab), 0.0, 1.0);
+  return distance(p, plus(a, times(ab, t)));
 }
 
 // The slow twin: the foot on the plane where it lies inside, else the nearest edge.
 double to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d n = cross(difference(b, a), difference(c, a));
+  const Vec3d n = cross(minus(b, a), minus(c, a));
   const auto side = [&](const Vec3d& from, const Vec3d& to) {
-    return dot(cross(difference(to, from), difference(p, from)), n);
+    return dot(cross(minus(to, from), minus(p, from)), n);
   };
-  if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0)
-    return std::abs(dot(difference(p, a), n)) / length(n);
+  if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0) return std::abs(dot(minus(p, a), n)) / length(n);
   return std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "firmware/work/jobs.h"
+#include "hal/base/statistics.h"
 #include "tests/firmware/work/lit_board.h"
 #include "tests/support/head_album.h"
 
@@ -81,10 +82,7 @@ class PoseMetering : public testing::Test {
       for (int u = static_cast<int>(x - 45 * a_mm); u < static_cast<int>(x + 45 * a_mm); ++u)
         values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kWidth + u)) *
                          board.right_camera.factor());
-    const auto place =
-        values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
+    return percentile(values, 0.95);
   }
 
   hal::sim::HeadPose standing = test::standing(640, -45, 20);  // not quite in the middle

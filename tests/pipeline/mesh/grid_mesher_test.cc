@@ -40,7 +40,7 @@ TEST(GridMesher, ClosesASmallHoleWithTheCurvatureOfItsRim) {
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     if (result->measured[v]) continue;
     ++filled;
-    EXPECT_NEAR(mesh::length(mesh::minus(result->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.03);
+    EXPECT_NEAR(length(minus(result->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.03);
     EXPECT_GT(result->sigma_mm[v], 0.02F) << "a guess is less certain than a measurement";
   }
   EXPECT_GT(filled, 5U);
@@ -225,13 +225,13 @@ TEST(GridMesher, NoSlivers) {
 }
 
 TEST(GridMesher, OptionsHaveLimits) {
-  EXPECT_TRUE(GridMesherOptions{}.check());
+  EXPECT_TRUE(check_options(GridMesherOptions{}, "grid"));
   GridMesherOptions options;
   options.max_incidence_deg = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "grid"));
   options = {};
   options.max_triangles = 0;
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "grid"));
 }
 
 // Slow and obvious: each vertex against the truth it was made from; only the cut along the outline makes new

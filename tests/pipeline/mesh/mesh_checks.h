@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/mesh/vector_math.h"
 #include "pipeline/model/face_mesh.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline::test {
 
@@ -34,7 +34,7 @@ inline void expect_whole_arrays(const FaceMesh& m) {
     }
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "vertices without a triangle";
   for (std::size_t v = 0; v < n; ++v) {
-    EXPECT_NEAR(mesh::length(m.normals[v]), 1, 1e-3);
+    EXPECT_NEAR(length(m.normals[v]), 1, 1e-3);
     EXPECT_GE(m.sigma_mm[v], 0);
   }
 }
@@ -76,10 +76,10 @@ inline void expect_one_manifold_surface(const FaceMesh& m) {
 inline void expect_facing_the_camera(const FaceMesh& m) {
   for (const auto& t : m.triangles) {
     const Vec3f& a = m.vertices_mm[t[0]];
-    const Vec3f n = mesh::cross(mesh::minus(m.vertices_mm[t[1]], a), mesh::minus(m.vertices_mm[t[2]], a));
-    EXPECT_LT(mesh::dot(n, a), 0);
+    const Vec3f n = cross(minus(m.vertices_mm[t[1]], a), minus(m.vertices_mm[t[2]], a));
+    EXPECT_LT(dot(n, a), 0);
   }
-  for (std::size_t v = 0; v < m.normals.size(); ++v) EXPECT_LT(mesh::dot(m.normals[v], m.vertices_mm[v]), 0);
+  for (std::size_t v = 0; v < m.normals.size(); ++v) EXPECT_LT(dot(m.normals[v], m.vertices_mm[v]), 0);
 }
 
 inline void expect_clean(const FaceMesh& m) {
@@ -93,8 +93,8 @@ inline double smallest_angle_deg(const FaceMesh& m) {
   double smallest = 180;
   for (const auto& t : m.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f u = mesh::unit(mesh::minus(m.vertices_mm[t[(k + 1) % 3]], m.vertices_mm[t[k]]));
-      const Vec3f v = mesh::unit(mesh::minus(m.vertices_mm[t[(k + 2) % 3]], m.vertices_mm[t[k]]));
+      const Vec3f u = unit(minus(m.vertices_mm[t[(k + 1) % 3]], m.vertices_mm[t[k]]));
+      const Vec3f v = unit(minus(m.vertices_mm[t[(k + 2) % 3]], m.vertices_mm[t[k]]));
       const double cosine = static_cast<double>(u.x) * static_cast<double>(v.x) +
                             static_cast<double>(u.y) * static_cast<double>(v.y) +
                             static_cast<double>(u.z) * static_cast<double>(v.z);

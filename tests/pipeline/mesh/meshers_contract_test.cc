@@ -120,9 +120,8 @@ TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
   EXPECT_GT(
       area,
       truth * 0.925);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
-  const Vec3f normal = mesh::unit({0.3F, -0.2F, -1});
-  for (const Vec3f& n : result->normals)
-    EXPECT_GT(mesh::dot(n, normal), expected_of(GetParam()).plane_normal);
+  const Vec3f normal = unit({0.3F, -0.2F, -1});
+  for (const Vec3f& n : result->normals) EXPECT_GT(dot(n, normal), expected_of(GetParam()).plane_normal);
 }
 
 TEST_P(MesherContract, SphereKeepsItsShape) {
@@ -133,11 +132,11 @@ TEST_P(MesherContract, SphereKeepsItsShape) {
   EXPECT_LE(test::boundary_loops(*result), expected_of(GetParam()).borders);
   const Expected expected = expected_of(GetParam());
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
-    const Vec3f out = mesh::minus(result->vertices_mm[v], Vec3f{0, 0, 600});
-    const float cosine = std::abs(mesh::dot(mesh::unit(result->vertices_mm[v]), mesh::unit(out)));
-    EXPECT_NEAR(mesh::length(out), 90, cosine < 0.5F ? expected.steep_off_mm : expected.off_mm);
+    const Vec3f out = minus(result->vertices_mm[v], Vec3f{0, 0, 600});
+    const float cosine = std::abs(dot(unit(result->vertices_mm[v]), unit(out)));
+    EXPECT_NEAR(length(out), 90, cosine < 0.5F ? expected.steep_off_mm : expected.off_mm);
     if (cosine < 0.5F) continue;  // the rim, where the lattice is coarse
-    EXPECT_GT(mesh::dot(mesh::unit(out), result->normals[v]), expected.normal);
+    EXPECT_GT(dot(unit(out), result->normals[v]), expected.normal);
     EXPECT_NEAR(result->sigma_mm[v], 0.02F * cosine, 0.002F);
   }
   // The cap 40 mm high, well inside the rim: 2 pi r h (Archimedes).
@@ -158,7 +157,7 @@ TEST_P(MesherContract, NoiseAndDropoutsStillGiveOneCleanSurface) {
   for (CloudPoint& p : cloud.points)
     if (random() % 40 == 0) {
       const float push = 1 + static_cast<float>(static_cast<int>(random() % 200) - 100) / 1000;
-      p.at_mm = mesh::times(p.at_mm, push);
+      p.at_mm = times(p.at_mm, push);
     }
   const auto result = mesh(cloud, room);
   ASSERT_TRUE(result);

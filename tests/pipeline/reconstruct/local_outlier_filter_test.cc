@@ -138,7 +138,7 @@ TEST(OutlierFilter, EmptyCancelledTinyArenaAndOptions) {
   EXPECT_EQ(cancelled.error().code, Errc::Cancelled);
   LocalOutlierFilterOptions options;
   options.min_support = 2;
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "local"));
 }
 
 TEST(OutlierFilter, RenderedHead) {

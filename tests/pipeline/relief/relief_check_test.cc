@@ -241,9 +241,9 @@ TEST(ReliefCheck, KeepsTheStagesContract) {
 
 TEST(ReliefCheck, TakesNoOptionsBelowNothing) {
   ReliefOptions options;
-  EXPECT_TRUE(options.check());
+  EXPECT_TRUE(check_options(options, "relief"));
   options.least_sigmas = -1;
-  EXPECT_FALSE(options.check());
+  EXPECT_FALSE(check_options(options, "relief"));
 }
 
 }  // namespace

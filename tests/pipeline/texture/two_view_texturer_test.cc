@@ -191,14 +191,14 @@ TEST(TwoViewTexturer, WhatTheRightViewCannotSeeIsTakenFromTheLeft) {
 }
 
 TEST(Texturers, OptionsHaveLimits) {
-  EXPECT_TRUE(TwoViewTexturerOptions{}.check());
-  EXPECT_TRUE(SingleViewTexturerOptions{}.check());
+  EXPECT_TRUE(check_options(TwoViewTexturerOptions{}, "two-view"));
+  EXPECT_TRUE(check_options(SingleViewTexturerOptions{}, "single-view"));
   TwoViewTexturerOptions two;
   two.angle_power = -1;
-  EXPECT_FALSE(two.check());
+  EXPECT_FALSE(check_options(two, "two-view"));
   SingleViewTexturerOptions one;
   one.margin_px = 1000;
-  EXPECT_FALSE(one.check());
+  EXPECT_FALSE(check_options(one, "single-view"));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What lies over a page of visitors and staff: help, languages, "leave?", "still there?". Thread: main. Errors:
-// none.
+// What lies over a page of visitors and staff: help, languages, "leave?", "still there?". Thread: main.
+// Errors: none.
 #pragma once
 
 #include "ui/screens/parts/page.h"

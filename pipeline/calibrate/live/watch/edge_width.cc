@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -109,13 +111,6 @@ double width_of(const Profile& profile, int count, double least_contrast) {
   return (down + up - 1) * kStepPx;
 }
 
-double median(std::vector<double>& of) {
-  if (of.empty()) return 0;
-  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
-  std::nth_element(of.begin(), middle, of.end());
-  return *middle;
-}
-
 }  // namespace
 
 double edge_width_px(const ImageView& picture, const BoardCorners& corners, const BoardPattern& pattern) {
@@ -141,7 +136,10 @@ double edge_width_px(const ImageView& picture, const BoardCorners& corners, cons
         const double width = width_of(profile, count, kMinContrast * brightness.full_scale());
         if (width > 0) widths[down ? 1 : 0].push_back(width);
       }
-  return std::max(median(widths[0]), median(widths[1]));
+  double widest = 0;
+  for (std::vector<double>& way : widths)
+    if (!way.empty()) widest = std::max(widest, median(way));
+  return widest;
 }
 
 }  // namespace relievo::pipeline

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/preprocess/highlight_remover.h"
+#include "hal/base/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -118,8 +119,7 @@ TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
   RectifiedPair pair = bench.skin(0);
   std::vector<std::uint8_t> reds;
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k) reds.push_back(pair.left.rgb[3 * k]);
-  std::nth_element(reds.begin(), reds.begin() + static_cast<std::ptrdiff_t>(reds.size() / 2), reds.end());
-  const double gain = 262.0 / reds[reds.size() / 2];
+  const double gain = 262.0 / median(reds);
   for (std::uint8_t& v : pair.left.rgb) v = static_cast<std::uint8_t>(std::min(255L, std::lround(gain * v)));
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k)
     pair.left.grey[k] =

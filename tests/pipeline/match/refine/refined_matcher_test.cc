@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/refine/refined_matcher.h"
+#include "hal/base/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -240,9 +241,7 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
           scene.moved(m.left_px.x - m.disparity_px, m.left_px.y) > 2)
         errors.push_back(std::abs(m.disparity_px - scene.disparity(m.left_px.x, m.left_px.y)));
     EXPECT_GT(errors.size(), 300U);
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                     errors.end());
-    return errors[errors.size() / 2];
+    return median(errors);
   };
   EXPECT_LT(off_there(*followed), 0.1);
   EXPECT_GT(off_there(*ignored), 2 * off_there(*followed));

@@ -185,8 +185,8 @@ TEST(WindowMatchers, NoWindowLooksAtPixelsThatAreNotThere) {
 }
 
 TEST(WindowMatchers, EvenWindowsAndTwoChannelsAreRefused) {
-  EXPECT_FALSE(SsdMatcherOptions{.window_px = 10}.check());
-  EXPECT_FALSE(ZmnccMatcherOptions{.channels = 2}.check());
+  EXPECT_FALSE(check_options(SsdMatcherOptions{.window_px = 10}, "ssd"));
+  EXPECT_FALSE(check_options(ZmnccMatcherOptions{.channels = 2}, "zmncc"));
 }
 
 }  // namespace

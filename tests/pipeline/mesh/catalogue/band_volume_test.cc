@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -43,17 +43,16 @@ void expect_closed(const Polygonised& surface) {
 
 TEST(BandVolume, ABallIsABall) {
   const Vec3f middle{10.3F, 10.6F, 9.8F};
-  const BandVolume volume = filled(20, [&](int x, int y, int z, const BandVolume& v) {
-    return mesh::length(mesh::minus(v.at(x, y, z), middle)) - 7;
-  });
+  const BandVolume volume = filled(
+      20, [&](int x, int y, int z, const BandVolume& v) { return length(minus(v.at(x, y, z), middle)) - 7; });
   const Polygonised ball = polygonise(volume, std::pmr::get_default_resource());
   expect_closed(ball);
-  for (const Vec3f& v : ball.vertices_mm) EXPECT_NEAR(mesh::length(mesh::minus(v, middle)), 7, 0.03);
+  for (const Vec3f& v : ball.vertices_mm) EXPECT_NEAR(length(minus(v, middle)), 7, 0.03);
   double volume_mm3 = 0;
   for (const Triangle& t : ball.triangles)
-    volume_mm3 += static_cast<double>(mesh::dot(mesh::minus(ball.vertices_mm[t[0]], middle),
-                                                mesh::cross(mesh::minus(ball.vertices_mm[t[1]], middle),
-                                                            mesh::minus(ball.vertices_mm[t[2]], middle)))) /
+    volume_mm3 += static_cast<double>(dot(
+                      minus(ball.vertices_mm[t[0]], middle),
+                      cross(minus(ball.vertices_mm[t[1]], middle), minus(ball.vertices_mm[t[2]], middle)))) /
                   6;
   EXPECT_NEAR(volume_mm3, 4.0 / 3 * 3.14159265 * 343, 25) << "positive: counter-clockwise seen from outside";
   EXPECT_EQ(static_cast<long>(ball.vertices_mm.size()) - static_cast<long>(ball.triangles.size()) / 2, 2)
@@ -85,8 +84,7 @@ TEST(BandVolume, TheSaddleDecides) {
     ASSERT_EQ(surface.triangles.size(), 8U);
     for (const Triangle& t : surface.triangles) {
       Vec3f middle{};
-      for (const std::uint32_t v : t)
-        middle = mesh::plus(middle, mesh::times(surface.vertices_mm[v], 1 / 3.0F));
+      for (const std::uint32_t v : t) middle = plus(middle, times(surface.vertices_mm[v], 1 / 3.0F));
       const bool beside_an_inner_corner = std::abs(middle.x - middle.y) > std::abs(middle.x + middle.y - 1);
       EXPECT_EQ(beside_an_inner_corner, high > 1) << "the saddle is (high^2 - 1) / (2 high + 2)";
     }

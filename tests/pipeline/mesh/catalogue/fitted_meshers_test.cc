@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "hal/base/statistics.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/mesh/meshers/bezier_net.h"
 #include "pipeline/mesh/meshers/nearest_vertex.h"
@@ -82,9 +83,9 @@ TEST(NearestVertex, IsTheNearestOfAll) {
   for (int i = 0; i < 300; ++i) {
     const Vec3f p{1.5F * at(random), at(random), 300 + at(random)};
     float least = 900;
-    for (const Vec3f& q : points) least = std::min(least, mesh::squared_distance(p, q));
+    for (const Vec3f& q : points) least = std::min(least, squared_distance(p, q));
     const auto hit = nearest.find(p, 30);
-    if (least < 900) EXPECT_NEAR(mesh::squared_distance(points[hit.vertex], p), least, 1e-3F);
+    if (least < 900) EXPECT_NEAR(squared_distance(points[hit.vertex], p), least, 1e-3F);
     else EXPECT_EQ(hit.vertex, NearestVertex::kNone);
   }
 }
@@ -122,13 +123,11 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
       const Vec3f& p = result->vertices_mm[v];
       const auto hit = nearest.find(p, 3);
       if (hit.vertex == NearestVertex::kNone || !result->measured[v]) continue;
-      off.push_back(
-          std::abs(static_cast<double>(mesh::dot(mesh::minus(p, truth[hit.vertex]), result->normals[v]))));
+      off.push_back(std::abs(static_cast<double>(dot(minus(p, truth[hit.vertex]), result->normals[v]))));
     }
-    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-    std::cout << name << ": median " << off[off.size() / 2] << " mm, " << result->triangles.size()
-              << " triangles\n";
-    EXPECT_LT(off[off.size() / 2], median_mm) << name;
+    const double half = median(off);
+    std::cout << name << ": median " << half << " mm, " << result->triangles.size() << " triangles\n";
+    EXPECT_LT(half, median_mm) << name;
   }
 }
 

@@ -63,10 +63,9 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
     // The ball itself is the truth: vertices are the model's, and between them it is as round as stated.
     double worst = 0;
     for (const auto& t : m.triangles) {
-      const Vec3f middle = mesh::times(
-          mesh::plus(mesh::plus(m.vertices_mm[t[0]], m.vertices_mm[t[1]]), m.vertices_mm[t[2]]), 1 / 3.0F);
-      worst =
-          std::max(worst, std::abs(90 - static_cast<double>(mesh::length(mesh::minus(middle, {0, 0, 600})))));
+      const Vec3f middle =
+          times(plus(plus(m.vertices_mm[t[0]], m.vertices_mm[t[1]]), m.vertices_mm[t[2]]), 1 / 3.0F);
+      worst = std::max(worst, std::abs(90 - static_cast<double>(length(minus(middle, {0, 0, 600})))));
     }
     EXPECT_LT(worst, light->max_error_mm + 0.12) << "noise is 0.02 mm";
     // A texture coordinate still says where its vertex lies, on its side of the seam.

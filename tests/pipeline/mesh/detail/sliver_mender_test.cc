@@ -34,7 +34,7 @@ struct Sheet {
       }
   }
   void add(const Triangle& t) {
-    const Vec3f n = mesh::cross(mesh::minus(at[t[1]], at[t[0]]), mesh::minus(at[t[2]], at[t[0]]));
+    const Vec3f n = cross(minus(at[t[1]], at[t[0]]), minus(at[t[2]], at[t[0]]));
     if (n.z < 0) triangles.push_back(t);  // towards the camera; what is folded over is left out
   }
   std::size_t slivers() const {
@@ -63,10 +63,7 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
   mesh.triangles = sheet.triangles;
   test::expect_one_manifold_surface(mesh);
   for (const Triangle& t : sheet.triangles)
-    EXPECT_LT(
-        mesh::cross(mesh::minus(sheet.at[t[1]], sheet.at[t[0]]), mesh::minus(sheet.at[t[2]], sheet.at[t[0]]))
-            .z,
-        0)
+    EXPECT_LT(cross(minus(sheet.at[t[1]], sheet.at[t[0]]), minus(sheet.at[t[2]], sheet.at[t[0]])).z, 0)
         << "still towards the camera";
 }
 

@@ -37,7 +37,7 @@ struct Sitter {
     const auto matches = pipeline->match(*pair, c);
     const auto cloud = pipeline->reconstruct(*pair, *matches, c);
     mesh.emplace(*GridMesher({}).mesh(*cloud, c));
-    head = find_head_frame(*mesh, {}, c)->head_from_camera;
+    head = find_head_frame(*mesh, c)->head_from_camera;
   }
   // Of a vertex before an eyeball, to that or the skin, whichever is nearer, mm; none towards the corners of
   // the eye, which flesh fills.

@@ -87,7 +87,7 @@ FaceMesh mesh_of(const PointCloud& cloud, StageRoom& room) {
 }
 
 Result<HeadFrame> frame_of(const FaceMesh& mesh, StageRoom& room) {
-  return room.run([&](StageContext& c) { return find_head_frame(mesh, {}, c); });
+  return room.run([&](StageContext& c) { return find_head_frame(mesh, c); });
 }
 
 // The frame must move with the head: frame_after = frame_before * motion^-1.

@@ -32,7 +32,7 @@ Look look_at(const FieldHead& head, double yaw_deg, double pitch_deg, StageRoom&
   const PointCloud cloud = head.cloud(pose, room.pool);
   const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
   EXPECT_TRUE(mesh);
-  const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, {}, c); });
+  const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, c); });
   EXPECT_TRUE(frame);
   const auto landmarks =
       room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, c); });

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
@@ -37,12 +38,6 @@ FaceMesh closed_face(const test::FieldHead& head, const hal::sim::HeadPose& pose
 double off_the_head(const test::FieldHead& head, const hal::sim::HeadPose& pose, const Vec3f& v) {
   const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   return std::abs(head.field().distance(pose.world_from_head().transposed() * (p - pose.origin_mm())));
-}
-
-double percentile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0
-                        : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <memory_resource>
 
-#include "pipeline/mesh/vector_math.h"
+#include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
 
@@ -53,7 +53,7 @@ TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
   int in_front = 0;
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] != Node::Measured) continue;
-    const double off = static_cast<double>(mesh::length(mesh::minus(r.to.at_mm[k], Vec3f{0, 0, 600}))) - 90;
+    const double off = static_cast<double>(length(minus(r.to.at_mm[k], Vec3f{0, 0, 600}))) - 90;
     EXPECT_LT(std::abs(off), 0.1) << "towards the horizon cells are long";
     if (r.to.at_mm[k].z > 530) continue;
     squares += off * off;
@@ -70,7 +70,7 @@ TEST(LatticeResampler, AtOneCellRepeatsWhatCarriesTheSurface) {
   ASSERT_EQ(r.to.size(), r.from.size());
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] == Node::Empty) continue;
-    EXPECT_LT(mesh::length(mesh::minus(r.to.at_mm[k], r.from.at_mm[k])), 1e-4F);
+    EXPECT_LT(length(minus(r.to.at_mm[k], r.from.at_mm[k])), 1e-4F);
   }
 }
 

@@ -42,11 +42,10 @@ double boundary_mm(const FaceMesh& m, double* turned) {
   double sum = 0;
   *turned = 0;
   for (const auto& [from, to] : next) {
-    const Vec3f a = mesh::minus(m.vertices_mm[to], m.vertices_mm[from]);
-    const Vec3f b = mesh::minus(m.vertices_mm[next.at(to)], m.vertices_mm[to]);
-    sum += static_cast<double>(mesh::length(a));
-    *turned += std::atan2(static_cast<double>(mesh::length(mesh::cross(a, b))),
-                          static_cast<double>(mesh::dot(a, b)));
+    const Vec3f a = minus(m.vertices_mm[to], m.vertices_mm[from]);
+    const Vec3f b = minus(m.vertices_mm[next.at(to)], m.vertices_mm[to]);
+    sum += static_cast<double>(length(a));
+    *turned += std::atan2(static_cast<double>(length(cross(a, b))), static_cast<double>(dot(a, b)));
   }
   return sum;
 }
@@ -67,7 +66,7 @@ TEST(GridMesher, ClosesACrackOfAnyLengthWhereBothSidesContinue) {
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     if (result->measured[v]) continue;
     ++filled;
-    EXPECT_NEAR(mesh::length(mesh::minus(result->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.15);
+    EXPECT_NEAR(length(minus(result->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.15);
   }
   EXPECT_GT(filled, 200U);
 }
@@ -139,9 +138,9 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
   for (std::size_t v = 0; v < straight->vertices_mm.size(); ++v) {
     if (straight->measured[v]) continue;
     ++given;
-    EXPECT_NEAR(mesh::length(mesh::minus(straight->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.25)
+    EXPECT_NEAR(length(minus(straight->vertices_mm[v], Vec3f{0, 0, 600})), 90, 0.25)
         << "it goes on as the ball does";
-    const float cosine = -mesh::dot(straight->normals[v], mesh::unit(straight->vertices_mm[v]));
+    const float cosine = -dot(straight->normals[v], unit(straight->vertices_mm[v]));
     EXPECT_GT(straight->sigma_mm[v], 0.0199F * cosine) << "no more certain than what was measured";
   }
   EXPECT_GT(given, 100U);
@@ -162,7 +161,7 @@ TEST(GridMesher, TheRimThatTurnsAwayGoesAndAHoleInsideKeepsItsSurroundings) {
   double steepest = 0;
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     const Vec3f n = result->normals[v];
-    const double cosine = -static_cast<double>(mesh::dot(n, mesh::unit(result->vertices_mm[v])));
+    const double cosine = -static_cast<double>(dot(n, unit(result->vertices_mm[v])));
     steepest = std::max(steepest, std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / 3.14159265);
   }
   EXPECT_LT(steepest, 74) << "max_rim_deg is 70, a slope a mean over 3 mm";

@@ -36,7 +36,7 @@ Seen see(std::uint32_t seed, double yaw_deg, StageRoom& room) {
   pose.yaw_deg = yaw_deg;
   const PointCloud cloud = head.cloud(pose, room.pool);
   const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
-  const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, {}, c); });
+  const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, c); });
   EXPECT_TRUE(frame);
   const RigidTransform camera_from_model = FieldHead::camera_from_head(pose), &f = frame->head_from_camera;
   RigidTransform both;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/base/options.h"
+
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace relievo::pipeline {
+
+bool OptionRange::holds(double value) const {
+  return value >= least && value <= most && (step == 0 || std::remainder(value - least, step) == 0);
+}
+
+std::string OptionRange::possible() const {
+  std::string text;
+  for (const char* name : names) text += (text.empty() ? "" : " or ") + std::string(name);
+  if (!names.empty()) return text;
+  text = number_text(least) + " to " + number_text(most);
+  return step == 0 ? text : text + " in steps of " + number_text(step);
+}
+
+Error out_of_range(const std::string& option, const std::string& value, const OptionRange& range) {
+  return Error{Errc::InvalidInput, "not one of the values in brackets"}.at(option + " = " + value + " (" +
+                                                                           range.possible() + ")");
+}
+
+std::string number_text(double value, int digits) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  out << value;
+  return out.str();
+}
+
+}  // namespace relievo::pipeline
