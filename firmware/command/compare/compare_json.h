@@ -7,9 +7,11 @@
 #include <string>
 
 #include "firmware/command/compare/comparison.h"
+#include "firmware/command/compare/dissertation/dissertation.h"
 
 namespace relievo::firmware::compare {
 
 std::string comparison_json(const Comparison& comparison, const std::string& made_at);
+std::string dissertation_json(const Dissertation& dissertation, const std::string& made_at);
 
 }  // namespace relievo::firmware::compare

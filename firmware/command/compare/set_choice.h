@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/command/compare/comparison.h"
+#include "firmware/command/compare/suites.h"
 #include "firmware/command/line/command_line.h"
 #include "hal/base/result.h"
 
@@ -19,5 +20,6 @@ namespace relievo::firmware::compare {
 inline constexpr std::size_t kMostSets = 64;
 
 Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args);
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& base, const std::vector<SetWords>& words);
 
 }  // namespace relievo::firmware::compare
