@@ -115,14 +115,19 @@ std::string table_2(const CubeTable& cube) {
 }
 
 std::string scores(const std::vector<const Run*>& runs, const Comparison& c) {
+  const bool truth = c.pairs.front().truth.has_value();
   std::string rows;
-  for (const Run* run : runs)
-    rows += row(sections::name_of(c, *run),
-                run->score ? std::vector{percent(run->score->bad_limit), percent(run->score->bad_given),
-                                         percent(run->score->density)}
-                           : std::vector<std::string>{
-                                 "–", "–", percent(run->matches.accepted, run->matches.keypoints)});
-  return table({"", "bad", "bad of the given", runs.front()->score ? "density" : "matched"}, rows);
+  for (const Run* run : runs) {
+    std::vector<std::string> cells{"–", "–", "–"};
+    if (run->score)
+      cells = {percent(run->score->bad_limit), percent(run->score->bad_given), percent(run->score->density)};
+    if (!truth)
+      cells = {percent(run->matches.accepted, run->matches.keypoints),
+               run->left_right ? percent(run->left_right->within_1px) : "–"};
+    rows += row(sections::name_of(c, *run), cells);
+  }
+  return truth ? table({"", "bad", "bad of the given", "density"}, rows)
+               : table({"", "matched", "left and right agree<small>within 1 px</small>"}, rows);
 }
 
 // What a figure shows where a set failed in it.
