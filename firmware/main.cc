@@ -13,14 +13,16 @@
 #include <string>
 #include <utility>
 
-#include "firmware/allocation_count.h"
-#include "firmware/command/services.h"
-#include "firmware/work/pool_size.h"
+#include "firmware/base/allocation_count.h"
+#include "firmware/command/commands.h"
+#include "firmware/demo/hand_pairs.h"
+#include "firmware/demo/screenshots.h"
+#include "firmware/jobs/pool_size.h"
 #include "hal/linux/board.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/board.h"
-#include "hal/sim/photo/held_board.h"
+#include "hal/sim/held_board.h"
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "hal/sim/target/target_photo.h"
@@ -150,7 +152,7 @@ hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& 
       .pose(board);
 }
 
-Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {
+Result<std::unique_ptr<LivePairs>> hold_board(const CalibrateLiveArgs& args) {
   const BoardArgs& b = args.board;
   const hal::sim::BoardPattern pattern{
       b.corners_across,
@@ -166,10 +168,12 @@ Result<HeldBoard> hold_board(const CalibrateLiveArgs& args) {
   hal::sim::SensorOptions sensor;
   sensor.grey = true;
   const auto board = std::make_shared<hal::sim::HeldBoard>(rig, pattern, sensor, pool_size());
-  return HeldBoard([board, pattern](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
-    auto pair = board->photograph(pose_of(opened, pattern), pose_of(closed, pattern), number);
-    return HeldPair{std::move(pair.left), std::move(pair.right)};
-  });
+  return make_hand_pairs(
+      [board, pattern](const HeldPose& opened, const HeldPose& closed, std::uint64_t number) {
+        auto pair = board->photograph(pose_of(opened, pattern), pose_of(closed, pattern), number);
+        return HeldPair{std::move(pair.left), std::move(pair.right)};
+      },
+      args.seed);
 }
 
 }  // namespace
@@ -220,17 +224,18 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{fw::open_board,
-                        fw::open_store,
-                        fw::simulate,
-                        fw::photograph,
-                        fw::hold_board,
-                        fw::simulated_calibration,
-                        relievo::ui::open_sdl_display,
-                        console,
-                        clock,
-                        fw::set_system_clock,
-                        fw::plug_stick,
-                        fw::allocation_count()};
+  fw::Services services{.open_board = fw::open_board,
+                        .open_store = fw::open_store,
+                        .simulate = fw::simulate,
+                        .photograph = fw::photograph,
+                        .hold_board = fw::hold_board,
+                        .simulated_calibration = fw::simulated_calibration,
+                        .open_display = relievo::ui::open_sdl_display,
+                        .console = console,
+                        .clock = clock,
+                        .set_clock = fw::set_system_clock,
+                        .plug_stick = fw::plug_stick,
+                        .take_screenshots = fw::take_screenshots,
+                        .allocations = fw::allocation_count()};
   return fw::run_command(fw::parse_command_line(argc, argv), services);
 }

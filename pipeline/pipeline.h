@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/match/region/face_region.h"
 #include "pipeline/model/calibration.h"
@@ -23,7 +24,6 @@
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/stereo_frame.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

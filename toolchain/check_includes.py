@@ -7,6 +7,8 @@
 
 The rules, each with one line here and one planted violation in tests/toolchain/check_includes_test.py:
   - a room includes only the rooms in MAY (the table "Who may include whom");
+  - a folder includes only folders of lower floors of its room (the table "Floors" in the room's README.md, the
+    highest first), so that there is no circle of folders; every folder stands in that table;
   - a library's header appears only in .cc files named after the library (LIBRARIES);
   - a library that has no line here may not be used at all;
   - the folders in CHOSEN_BY are named only by the one file that chooses the implementation;
@@ -70,6 +72,8 @@ CHOSEN_BY = {
     "hal/sim/": "firmware/main.cc",
     "storage/sqlite/": "firmware/main.cc",
     "ui/platform/": "firmware/main.cc",
+    "firmware/command/": "firmware/main.cc",
+    "firmware/demo/": "firmware/main.cc",
 }
 ALGORITHMS = "pipeline/algorithms/"
 
@@ -134,8 +138,36 @@ def room_problem(here, target):
     return None
 
 
+def floors_of(readme):
+    """Folder of a room ("." is the room itself): its floor, 0 the highest, as the table "Floors" has them."""
+    _, _, section = readme.partition("\n## Floors\n")
+    rows = [line for line in section.partition("\n## ")[0].splitlines() if line.startswith("| `")]
+    return {folder: floor for floor, row in enumerate(rows) for folder in re.findall(r"`([^`]+)`", row.split("|")[1])}
+
+
+def floor_problems(root, files):
+    for room in ("hal", "pipeline", "storage", "ui", "firmware"):
+        readme = root / room / "README.md"
+        floors = floors_of(readme.read_text()) if readme.exists() else {}
+        within = lambda path: path.rpartition("/")[0][len(room) + 1:] or "."
+        folders = {within(path) for path in files if path.startswith(room + "/")}
+        yield from (f"{room}/README.md: {folder} stands on no floor of the table Floors" for folder in sorted(folders - set(floors)))
+        yield from (f"{room}/README.md: the table Floors has {folder}, which is not there" for folder in sorted(set(floors) - folders))
+        for here, text in files.items():
+            if not here.startswith(room + "/"):
+                continue
+            for number, line in enumerate(text.splitlines(), 1):
+                found = INCLUDE.match(line)
+                if not found or found[1] != '"' or not found[2].startswith(room + "/"):
+                    continue
+                home, to = within(here), within(found[2])
+                if home != to and home in floors and to in floors and floors[home] >= floors[to]:
+                    yield f"{here}:{number}: {home} may not include {to}: it does not lie below it (README.md, Floors)"
+
+
 def problems(root):
     files = dict(sources(root))
+    yield from floor_problems(root, files)
     concrete = concrete_algorithms(files)
     for here, text in files.items():
         for number, line in enumerate(text.splitlines(), 1):

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "hal/base/result.h"
-#include "ui/input.h"
+#include "ui/view/input.h"
 
 namespace relievo::ui {
 

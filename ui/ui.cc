@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {

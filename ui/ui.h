@@ -14,13 +14,13 @@
 #include <memory>
 #include <optional>
 
-#include "ui/input.h"
-#include "ui/intent.h"
-#include "ui/service.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"
-#include "ui/view_state.h"
-#include "ui/visit.h"
+#include "ui/view/input.h"
+#include "ui/view/intent.h"
+#include "ui/view/service.h"
+#include "ui/view/view_state.h"
+#include "ui/view/visit.h"
 
 namespace relievo::ui {
 

@@ -19,7 +19,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/appliance.h"
+#include "firmware/appliance/appliance.h"
 #include "firmware/bench/algorithm_desk.h"
 #include "firmware/bench/calibration_desk.h"
 #include "firmware/bench/camera_watch.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/command/calibrate/calibrate_command.h"
+#include "firmware/calibrate/calibrate_command.h"
 
 namespace relievo::firmware {
 namespace {

@@ -16,8 +16,8 @@
 #include <mutex>
 #include <optional>
 
+#include "firmware/calibrate/calibrate_live_pairs.h"
 #include "firmware/capture/live_feed.h"
-#include "firmware/command/calibrate/calibrate_live_pairs.h"
 #include "firmware/work/jobs.h"
 #include "pipeline/calibrate/live/live_calibration.h"
 #include "ui/bench/bench_cameras.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware/base/wall_time.h"
 #include "firmware/bench/calibration_stick.h"
-#include "firmware/command/calibrate/calibration_history.h"
-#include "firmware/command/wall_time.h"
+#include "firmware/calibrate/calibration_history.h"
 #include "hal/base/sentence.h"
 
 namespace relievo::firmware {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "firmware/command/output_folder.h"
+#include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "firmware/command/output_folder.h"
+#include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/picture_file.h"
 

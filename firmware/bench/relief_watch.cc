@@ -6,7 +6,7 @@
 
 #include <new>
 
-#include "firmware/boot_memory.h"
+#include "firmware/base/boot_memory.h"
 #include "firmware/capture/live_judge.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/gate/relief/live_relief.h"

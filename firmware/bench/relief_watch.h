@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
 #include "hal/base/image_view.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware/jobs/job_thread.h"
 #include "firmware/service/export_records.h"
-#include "firmware/work/job_thread.h"
 #include "hal/removable_media.h"
 
 namespace relievo::firmware {

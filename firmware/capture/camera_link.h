@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 #include "firmware/capture/grab_counts.h"
 #include "hal/camera.h"
 #include "hal/clock.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 
 namespace relievo::firmware {
 namespace {

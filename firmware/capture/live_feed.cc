@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 #include "pipeline/gate/relief/relief_picture.h"
 
 namespace relievo::firmware {

@@ -23,7 +23,7 @@
 #include <optional>
 #include <string_view>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 #include "firmware/capture/camera_link.h"
 #include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"

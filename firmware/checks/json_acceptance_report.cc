@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include "firmware/base/version.h"
 #include "firmware/checks/acceptance_report.h"
-#include "firmware/version.h"
 
 namespace relievo::firmware {
 namespace {

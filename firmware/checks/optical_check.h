@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "firmware/checks/acceptance.h"
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/calibrator.h"
 
 namespace relievo::firmware {

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "firmware/checks/optical_target.h"
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/calibrator.h"
 
 namespace relievo::firmware {

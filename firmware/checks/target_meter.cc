@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "firmware/checks/deviation_picture.h"
-#include "firmware/work/pool_size.h"
+#include "firmware/jobs/pool_size.h"
 
 namespace relievo::firmware {
 

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/boot_memory.h"
+#include "firmware/base/boot_memory.h"
 #include "firmware/checks/optical_target.h"
 #include "firmware/measure/vector3.h"
 #include "pipeline/pipeline.h"

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <string>
 
-#include "firmware/boot_memory.h"
+#include "firmware/arguments/algorithm_choice.h"
+#include "firmware/base/boot_memory.h"
+#include "firmware/base/version.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/line/algorithm_choice.h"
-#include "firmware/command/reconstruct/report.h"
-#include "firmware/version.h"
+#include "firmware/report/report.h"
 
 namespace relievo::firmware {
 namespace {

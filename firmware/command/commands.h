@@ -5,7 +5,8 @@
 // stays. Thread: main; the long ones use the worker and stop at Ctrl-C.
 #pragma once
 
-#include "firmware/command/services.h"
+#include "firmware/base/settings.h"
+#include "firmware/services/services.h"
 
 namespace relievo::firmware {
 
@@ -26,8 +27,8 @@ Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services);
 Result<void> run_memory(const MemoryArgs& args, Services& services);
 Result<void> run_version(const VersionArgs& args, Services& services);
 
-// The folder named, or the default one.
-Path store_folder(const Path& named);
+// Does what was asked for. Returns the exit code; the error, if any, is told.
+int run_command(const CommandLine& line, Services& services);
 
 // The store in it, to write. Errors: NotFound (there is none, and none is made); as Services::open_store.
 Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services);

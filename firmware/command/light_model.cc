@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory_resource>
 
-#include "firmware/version.h"
+#include "firmware/base/version.h"
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "storage/export/model_files.h"
 

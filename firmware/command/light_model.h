@@ -10,7 +10,7 @@
 
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::firmware {
 

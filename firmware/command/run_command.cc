@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <type_traits>
 
+#include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
-#include "firmware/settings.h"
 
 namespace relievo::firmware {
 namespace {
@@ -31,8 +31,6 @@ Result<void> run(const MemoryArgs& args, Services& services) { return run_memory
 Result<void> run(const VersionArgs& args, Services& services) { return run_version(args, services); }
 
 }  // namespace
-
-Path store_folder(const Path& named) { return named.empty() ? default_store_folder() : named; }
 
 Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
   // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.

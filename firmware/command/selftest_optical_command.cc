@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "firmware/base/interrupt.h"
+#include "firmware/base/output_folder.h"
 #include "firmware/checks/acceptance_report.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/interrupt.h"
-#include "firmware/command/output_folder.h"
-#include "firmware/command/watched_job.h"
+#include "firmware/jobs/watched_job.h"
 
 namespace relievo::firmware {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/base/output_folder.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/output_folder.h"
-#include "firmware/command/watched_job.h"
+#include "firmware/jobs/watched_job.h"
 
 namespace relievo::firmware {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "firmware/command/commands.h"
+#include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
-#include "firmware/service/device/touch_trial.h"
-#include "firmware/service/event_log.h"
+#include "firmware/service/touch_trial.h"
 
 namespace relievo::firmware {
 namespace {

@@ -4,15 +4,15 @@
 
 #include <string.h>
 
-#include "firmware/budget.h"
-#include "firmware/command/commands.h"
-#include "firmware/command/line/algorithm_choice.h"
-#include "firmware/command/reconstruct/report.h"
+#include "firmware/appliance/view_of.h"
+#include "firmware/arguments/algorithm_choice.h"
+#include "firmware/base/budget.h"
+#include "firmware/base/settings.h"
+#include "firmware/jobs/pool_size.h"
 #include "firmware/kiosk/code/code_guard.h"
-#include "firmware/kiosk/receipt.h"
-#include "firmware/service/device/disk_room.h"
-#include "firmware/view/view_of.h"
-#include "firmware/work/pool_size.h"
+#include "firmware/records/disk_room.h"
+#include "firmware/records/receipt.h"
+#include "firmware/report/report.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
@@ -138,8 +138,7 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
     show = [hold = services.hold_board](const BoardArgs& board) -> Result<std::unique_ptr<LivePairs>> {
       CalibrateLiveArgs held;
       held.board = board;
-      RELIEVO_TRY_ASSIGN(HeldBoard hand, hold(held));
-      return make_hand_pairs(std::move(hand), held.seed);
+      return hold(held);
     };
   }
   return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_,

@@ -16,14 +16,14 @@
 #include <optional>
 #include <string>
 
-#include "firmware/appliance.h"
-#include "firmware/capture/camera_look.h"
-#include "firmware/command/services.h"
+#include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_sight.h"
 #include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/showpiece.h"
-#include "firmware/service/desk.h"
+#include "firmware/services/services.h"
+#include "firmware/staff/desk.h"
+#include "firmware/work/camera_look.h"
 #include "firmware/work/pipeline_stages.h"
 #include "ui/ui.h"
 

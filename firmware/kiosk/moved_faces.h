@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <string>
 
+#include "firmware/records/event_log.h"
 #include "firmware/service/errands.h"
-#include "firmware/service/event_log.h"
 #include "storage/store.h"
 
 namespace relievo::firmware {

@@ -8,83 +8,28 @@
 #include <vector>
 
 #include "hal/picture_file.h"
-#include "pipeline/mesh/detail/level_of_detail.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {
-namespace {
-
-constexpr int kTriangles = 9000;  // seen from across a room
-constexpr int kTexturePx = 768;
-constexpr int kJpegPercent = 88;
-constexpr const char *kMeshFile = "showpiece.face", *kTextureFile = "showpiece.jpg";
-
-hal::Picture smaller(const pipeline::TextureAtlas& atlas) {
-  hal::Picture picture;
-  const int step = std::max(1, std::max(atlas.width_px, atlas.height_px) / kTexturePx);
-  picture.width_px = atlas.width_px / step;
-  picture.height_px = atlas.height_px / step;
-  for (int y = 0; y < picture.height_px; ++y) {
-    for (int x = 0; x < picture.width_px; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        int sum = 0;
-        for (int k = 0; k < step * step; ++k)
-          sum += atlas.rgb[3 * (static_cast<std::size_t>(y * step + k / step) *
-                                    static_cast<std::size_t>(atlas.width_px) +
-                                static_cast<std::size_t>(x * step + k % step)) +
-                           static_cast<std::size_t>(c)];
-        picture.bytes.push_back(static_cast<std::byte>(sum / (step * step)));
-      }
-    }
-  }
-  return picture;
-}
-
-Result<void> write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush())
-    return Error{Errc::IoFailed, "cannot be written: is the folder there, and is there room?"}.at(
-        file.string());
-  return {};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Result<std::unique_ptr<Showpiece>> Showpiece::read(const std::filesystem::path& folder) {
   auto piece = std::make_unique<Showpiece>();
-  std::ifstream in(folder / kMeshFile, std::ios::binary);
+  std::ifstream in(folder / kShowpieceMesh, std::ios::binary);
   if (!in)
     return Error{Errc::NotFound, "is not there: the page that invites shows no head"}.at(
-        (folder / kMeshFile).string());
+        (folder / kShowpieceMesh).string());
   const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
   RELIEVO_TRY_ASSIGN(auto model, storage::decode_model(std::as_bytes(std::span(bytes)), &piece->memory_));
-  RELIEVO_TRY_ASSIGN(const hal::Picture skin, hal::read_picture(folder / kTextureFile));
+  RELIEVO_TRY_ASSIGN(const hal::Picture skin, hal::read_picture(folder / kShowpieceTexture));
   if (skin.format != PixelFormat::Rgb8)
-    return Error{Errc::InvalidInput, "is no colour picture"}.at((folder / kTextureFile).string());
+    return Error{Errc::InvalidInput, "is no colour picture"}.at((folder / kShowpieceTexture).string());
   model.texture.width_px = skin.width_px;
   model.texture.height_px = skin.height_px;
   model.texture.rgb.resize(skin.bytes.size());
   std::memcpy(model.texture.rgb.data(), skin.bytes.data(), skin.bytes.size());
   piece->model_.emplace(std::move(model));
   return piece;
-}
-
-Result<void> Showpiece::write(const pipeline::FaceModel& model, const std::filesystem::path& folder) {
-  std::pmr::monotonic_buffer_resource memory;
-  pipeline::DetailOptions options;
-  options.triangles = kTriangles;
-  RELIEVO_TRY_ASSIGN(pipeline::LighterModel light, pipeline::lighten(model, options, &memory));
-  const hal::Picture skin = smaller(light.model.texture);
-  RELIEVO_TRY_ASSIGN(const auto jpeg, hal::encode_jpeg(skin.view(), kJpegPercent));
-  pipeline::TextureAtlas& atlas = light.model.texture;
-  atlas.width_px = atlas.height_px = 1;
-  atlas.rgb.assign(3, 0);
-  atlas.origin.clear();
-  light.model.landmarks = {};
-  RELIEVO_TRY_ASSIGN(const auto mesh, storage::encode_model(light.model));
-  RELIEVO_TRY(write_bytes(folder / kMeshFile, mesh));
-  return write_bytes(folder / kTextureFile, jpeg);
 }
 
 std::filesystem::path asset_folder() {

@@ -17,11 +17,11 @@
 
 namespace relievo::firmware {
 
+inline constexpr const char *kShowpieceMesh = "showpiece.face", *kShowpieceTexture = "showpiece.jpg";
+
 class Showpiece {
  public:
   static Result<std::unique_ptr<Showpiece>> read(const std::filesystem::path& folder);
-  // Writes a lighter form of a model; the folder must exist.
-  static Result<void> write(const pipeline::FaceModel& model, const std::filesystem::path& folder);
   const pipeline::FaceModel& model() const { return *model_; }
 
  private:

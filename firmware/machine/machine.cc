@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/machine/machine.h"
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 
 namespace relievo::firmware {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "firmware/service/pin_hash.h"
-#include "ui/service.h"
+#include "ui/view/service.h"
 
 namespace relievo::firmware {
 namespace {

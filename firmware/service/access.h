@@ -15,7 +15,7 @@
 
 #include "hal/clock.h"
 #include "storage/store.h"
-#include "ui/service_view.h"
+#include "ui/view/service_view.h"
 
 namespace relievo::firmware {
 

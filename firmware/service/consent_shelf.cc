@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/consent_shelf.h"
 
-#include "firmware/command/output_folder.h"
-#include "firmware/kiosk/consent_files.h"
+#include "firmware/base/output_folder.h"
+#include "firmware/records/consent_files.h"
 #include "firmware/service/desk_page.h"
 #include "storage/export/atomic_file.h"
 

@@ -16,11 +16,11 @@
 #include <optional>
 #include <string>
 
+#include "firmware/records/event_log.h"
 #include "firmware/service/errands.h"
-#include "firmware/service/event_log.h"
 #include "hal/removable_media.h"
-#include "ui/consent_text.h"
-#include "ui/staff_views.h"
+#include "ui/view/consent_text.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

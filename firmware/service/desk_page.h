@@ -15,17 +15,17 @@
 #include <filesystem>
 #include <string_view>
 
+#include "firmware/records/event_log.h"
 #include "firmware/service/consent_shelf.h"
-#include "firmware/service/device/device_settings.h"
-#include "firmware/service/device/retention.h"
-#include "firmware/service/device/touch_trial.h"
+#include "firmware/service/device_settings.h"
 #include "firmware/service/errands.h"
-#include "firmware/service/event_log.h"
+#include "firmware/service/retention.h"
 #include "firmware/service/statistics.h"
+#include "firmware/service/touch_trial.h"
 #include "hal/board.h"
 #include "storage/store.h"
-#include "ui/service.h"
-#include "ui/view_state.h"
+#include "ui/view/service.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
 

@@ -18,7 +18,7 @@
 #include <memory>
 #include <optional>
 
-#include "firmware/appliance.h"
+#include "firmware/appliance/appliance.h"
 
 namespace relievo::firmware {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "firmware/command/output_folder.h"
-#include "firmware/command/wall_time.h"
-#include "firmware/kiosk/receipt.h"
+#include "firmware/base/output_folder.h"
+#include "firmware/base/version.h"
+#include "firmware/base/wall_time.h"
+#include "firmware/records/receipt.h"
 #include "firmware/service/desk_page.h"
 #include "firmware/service/stick_folder.h"
-#include "firmware/version.h"
 #include "hal/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"

@@ -11,10 +11,10 @@
 
 #include <vector>
 
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
 #include "hal/removable_media.h"
 #include "storage/store.h"
-#include "ui/service_view.h"
+#include "ui/view/service_view.h"
 
 namespace relievo::firmware {
 

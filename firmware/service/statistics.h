@@ -14,7 +14,7 @@
 
 #include "firmware/machine/machine.h"
 #include "hal/base/result.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "firmware/command/output_folder.h"
+#include "firmware/base/output_folder.h"
 
 namespace relievo::firmware {
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "firmware/version.h"
+#include "firmware/base/version.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {

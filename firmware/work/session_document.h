@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "firmware/session.h"
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
+#include "firmware/session/session.h"
 #include "firmware/work/stage_record.h"
 #include "pipeline/algorithms.h"
 #include "storage/document/document.h"

@@ -8,8 +8,8 @@
 #pragma once
 
 #include "firmware/machine/transition.h"
-#include "firmware/session.h"
-#include "firmware/work/stage_pictures.h"
+#include "firmware/session/session.h"
+#include "firmware/session/stage_pictures.h"
 
 namespace relievo::firmware {
 

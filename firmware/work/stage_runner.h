@@ -7,9 +7,9 @@
 #pragma once
 
 #include "firmware/machine/transition.h"
-#include "firmware/session.h"
+#include "firmware/session/session.h"
 #include "firmware/work/stage_record.h"
-#include "pipeline/stage.h"
+#include "pipeline/base/stage.h"
 
 namespace relievo::firmware {
 

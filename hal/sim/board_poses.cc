@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/board_scene.h"
-#include "hal/sim/noise.h"
 
 namespace relievo::hal::sim {
 namespace {

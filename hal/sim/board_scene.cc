@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/board_scene.h"
 
-#include "hal/sim/noise.h"
-#include "hal/sim/photo/ray_caster.h"
+#include "hal/sim/base/noise.h"
+#include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "hal/base/result.h"
 #include "hal/sim/board_print.h"
-#include "hal/sim/rig.h"
-#include "hal/sim/scene.h"
+#include "hal/sim/optics/rig.h"
+#include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {
 

@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "hal/sim/text.h"
+#include "hal/sim/base/text.h"
 #include "hal/sim/truth.h"
 
 namespace relievo::hal::sim {

@@ -11,8 +11,8 @@
 
 #include "hal/sim/board_scene.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/photo/exposure.h"
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/exposure.h"
+#include "hal/sim/optics/rig.h"
 
 namespace relievo::hal::sim {
 

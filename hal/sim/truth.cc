@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "hal/sim/text.h"
+#include "hal/sim/base/text.h"
 #include "hal/whole_file.h"
 
 namespace relievo::hal::sim {

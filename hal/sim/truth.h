@@ -11,8 +11,8 @@
 
 #include "hal/base/result.h"
 #include "hal/base/thread_pool.h"
-#include "hal/sim/rig.h"
-#include "hal/sim/scene.h"
+#include "hal/sim/optics/rig.h"
+#include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/options.h"
+#include "pipeline/base/options.h"
 
 namespace relievo::pipeline {
 

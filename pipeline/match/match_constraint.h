@@ -9,9 +9,9 @@
 #include <span>
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -8,8 +8,8 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -7,9 +7,9 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/point_cloud.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -4,10 +4,10 @@
 // What can be said about a finished surface without knowing the truth.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/face_model.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

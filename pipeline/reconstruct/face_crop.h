@@ -7,10 +7,10 @@
 // Memory: scratch only; the cloud shrinks in place and keeps its order. Thread: any.
 #pragma once
 
+#include "pipeline/base/options.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/options.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-#include "pipeline/options.h"
+#include "pipeline/base/options.h"
 #include "pipeline/reconstruct/outlier_filter.h"
 
 namespace relievo::pipeline {

@@ -8,8 +8,8 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/point_cloud.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

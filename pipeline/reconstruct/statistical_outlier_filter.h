@@ -10,7 +10,7 @@
 // Memory: scratch only. Points that are not finite go. Results do not depend on the number of threads.
 #pragma once
 
-#include "pipeline/options.h"
+#include "pipeline/base/options.h"
 #include "pipeline/reconstruct/outlier_filter.h"
 
 namespace relievo::pipeline {

@@ -7,10 +7,10 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

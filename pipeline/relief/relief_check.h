@@ -16,11 +16,11 @@
 
 #include <cstdint>
 
+#include "pipeline/base/options.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/relief_figures.h"
-#include "pipeline/options.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -7,10 +7,10 @@
 // the rest in `scratch`. Thread: any. Throws std::bad_alloc.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/texture_atlas.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

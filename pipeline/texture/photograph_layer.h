@@ -8,8 +8,8 @@
 // does not depend on its size. Errors: InvalidInput, Cancelled; throws std::bad_alloc.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/texture_atlas.h"
-#include "pipeline/stage.h"
 #include "pipeline/texture/blend/shot_planes.h"
 #include "pipeline/texture/chart/chart.h"
 

@@ -8,7 +8,7 @@
 // Thread: any; keeps no state.
 #pragma once
 
-#include "pipeline/options.h"
+#include "pipeline/base/options.h"
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {

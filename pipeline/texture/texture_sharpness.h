@@ -7,8 +7,8 @@
 // it was. 1 minus their figure: 0 blurred to 1 sharp. Only photographed texels count.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/texture_atlas.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -7,10 +7,10 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/texture_atlas.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

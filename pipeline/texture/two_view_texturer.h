@@ -11,7 +11,7 @@
 // Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
 #pragma once
 
-#include "pipeline/options.h"
+#include "pipeline/base/options.h"
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {

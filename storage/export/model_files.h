@@ -19,7 +19,7 @@
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/recognition_images.h"
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware/command/reconstruct/picture_pair.h"
 #include "firmware/measure/rigid_fit.h"
+#include "firmware/reconstruct/picture_pair.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::bench {

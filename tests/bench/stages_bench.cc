@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
+#include "pipeline/base/workspace.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/workspace.h"
 #include "tests/bench/peer.h"
 #include "tests/support/rig_calibration.h"
 

@@ -23,7 +23,7 @@
 #include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/texture_sharpness.h"
 #include "pipeline/texture/two_view_texturer.h"
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/obj_writer.h"
 #include "storage/export/format/ply_writer.h"

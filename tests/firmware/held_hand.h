@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A printed board in a hand before a simulated rig of any size, for live calibrations: whoever holds it does
-// as told (firmware/command/calibrate/calibrate_live_hand.h).
+// as told (firmware/demo/hand_pairs.h).
 #pragma once
 
 #include <memory>
 
-#include "firmware/command/calibrate/calibrate_live_pairs.h"
-#include "hal/sim/photo/held_board.h"
+#include "firmware/demo/hand_pairs.h"
+#include "hal/sim/held_board.h"
 
 namespace relievo::firmware {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
-#include "firmware/appliance.h"
-#include "firmware/budget.h"
-#include "firmware/view/view_of.h"
+#include "firmware/appliance/appliance.h"
+#include "firmware/appliance/view_of.h"
+#include "firmware/base/budget.h"
 #include "tests/support/played_board.h"
 
 namespace relievo::firmware {

@@ -5,8 +5,8 @@
 // Thread: one caller. Errors: end the program with one line.
 #pragma once
 
+#include "pipeline/base/workspace.h"
 #include "pipeline/gate/capture_gate.h"
-#include "pipeline/workspace.h"
 #include "tests/support/head_album.h"
 
 namespace relievo::test {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 #include "pipeline/model/calibration.h"
 
 namespace relievo::test {

@@ -4,7 +4,7 @@
 // StageBench: everything a stage asks for, for tests: arenas of a chosen size, a pool, a switch.
 #pragma once
 
-#include "pipeline/workspace.h"
+#include "pipeline/base/workspace.h"
 
 namespace relievo::test {
 

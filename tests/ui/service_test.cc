@@ -3,14 +3,14 @@
 //
 // The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come
 // out.
-#include "ui/service.h"
+#include "ui/view/service.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <optional>
 
-#include "ui/view_state.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::ui {
 namespace {

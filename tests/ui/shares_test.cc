@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "ui/theme.h"
+#include "ui/draw/theme.h"
 #include "ui/tree/tree.h"
 
 namespace relievo::ui {

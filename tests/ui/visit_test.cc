@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The way through the screens, without a screen: actions and time go in, intents come out.
-#include "ui/visit.h"
+#include "ui/view/visit.h"
 
 #include <gtest/gtest.h>
 

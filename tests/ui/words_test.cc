@@ -139,7 +139,7 @@ TEST_F(WordsTest, EveryCatalogueHasTheSameTexts) {
 // What is wrong with a consent text is said by whom reads it: the sentences of its errors are keys, too.
 TEST_F(WordsTest, EveryFaultOfAConsentTextIsInTheLanguagesOfTheStaff) {
   std::set<std::string> texts;
-  for (const char* file : {"firmware/kiosk/consent_files.cc", "firmware/service/consent_shelf.cc"}) {
+  for (const char* file : {"firmware/records/consent_files.cc", "firmware/service/consent_shelf.cc"}) {
     std::ifstream in(std::filesystem::path(RELIEVO_SOURCE_DIR) / file);
     const std::string source{std::istreambuf_iterator<char>(in), {}};
     static const std::regex fault(R"rx((?:Errc::(?:InvalidInput|IoFailed), |wrong\([^"]*)"([^"]+)")rx");

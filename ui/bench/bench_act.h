@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // BenchAct: what a touch on the technician's picture pages asks of firmware's workbench, with a number
-// that says which. It is the verb of a StaffDo action (ui/service.h). Thread: any.
+// that says which. It is the verb of a StaffDo action (ui/view/service.h). Thread: any.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ enum class BenchAct : std::uint8_t {
   Load         // one of them: its row; what was captured goes when it is read
 };
 
-// What a wish of the staff's side (ui/service.h) says, once it has come to the workbench.
+// What a wish of the staff's side (ui/view/service.h) says, once it has come to the workbench.
 struct BenchOrder {
   BenchAct act = BenchAct::None;
   std::int64_t argument = 0;

@@ -16,7 +16,7 @@
 #include "ui/bench/bench_cameras.h"
 #include "ui/bench/bench_choice.h"
 #include "ui/bench/bench_result.h"
-#include "ui/service_view.h"
+#include "ui/view/service_view.h"
 
 namespace relievo::ui {
 

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "hal/base/result.h"
-#include "ui/render/draw_list.h"
+#include "ui/draw/draw_list.h"
 
 namespace relievo::ui {
 

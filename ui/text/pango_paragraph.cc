@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "ui/draw/theme.h"
 #include "ui/text/phrases.h"
-#include "ui/theme.h"
 
 namespace relievo::ui {
 namespace {

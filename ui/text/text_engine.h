@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "hal/base/result.h"
-#include "ui/render/draw_list.h"
+#include "ui/draw/draw_list.h"
 #include "ui/text/text_atlas.h"
 
 namespace relievo::ui {

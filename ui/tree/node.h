@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ui/action.h"
-#include "ui/render/draw_list.h"
+#include "ui/draw/draw_list.h"
 #include "ui/text/text_engine.h"
+#include "ui/view/action.h"
 
 namespace relievo::ui {
 
@@ -54,7 +54,7 @@ struct Node {
   Action action{};
   bool modal = false;  // nothing under it can be touched
   bool drags = false;
-  bool hold = false;        // done by a finger that rests (ui/service.h: kHold), not by a tap
+  bool hold = false;        // done by a finger that rests (ui/view/service.h: kHold), not by a tap
   bool slow_key = false;    // of such a one: a keypad waits as long, and any further key calls it back
   Colour filling{};         // of the bar that says how long one still has to hold
   Mark mark = Mark::Shape;  // Image, Face, Ring: what is drawn in the rect

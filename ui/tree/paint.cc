@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "ui/theme.h"
+#include "ui/draw/theme.h"
 #include "ui/tree/tree.h"
 
 namespace relievo::ui {

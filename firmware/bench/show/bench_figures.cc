@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "firmware/command/compare/measure/rule_figures.h"
-#include "firmware/command/compare/measure/self_agreement.h"
-#include "firmware/command/compare/page/maps.h"
+#include "firmware/compare/page/maps.h"
+#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/self_agreement.h"
 #include "hal/base/sentence.h"
 
 namespace relievo::firmware {

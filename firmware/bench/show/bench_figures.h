@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "firmware/machine/transition.h"
-#include "firmware/session.h"
+#include "firmware/session/session.h"
 #include "firmware/work/stage_record.h"
 #include "pipeline/algorithms.h"
-#include "pipeline/stage.h"
+#include "pipeline/base/stage.h"
 #include "ui/bench/bench_result.h"
 
 namespace relievo::firmware {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "firmware/command/compare/measure/disparity_map.h"
-#include "firmware/command/compare/measure/rule_figures.h"
-#include "firmware/command/compare/page/maps.h"
+#include "firmware/compare/page/maps.h"
+#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/rule_figures.h"
 #include "firmware/work/stage_drawing.h"
 
 namespace relievo::firmware {

@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "firmware/session.h"
+#include "firmware/session/session.h"
 #include "pipeline/algorithms.h"
-#include "pipeline/stage.h"
+#include "pipeline/base/stage.h"
 #include "ui/bench/bench_result.h"
 
 namespace relievo::firmware {

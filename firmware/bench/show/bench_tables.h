@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "firmware/bench/show/bench_figures.h"
-#include "firmware/session.h"
+#include "firmware/session/session.h"
 #include "pipeline/model/calibration.h"
 #include "ui/bench/bench_choice.h"
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 #include "firmware/kiosk/code/code_text.h"
 
 namespace relievo::firmware {

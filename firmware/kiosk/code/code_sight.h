@@ -13,9 +13,9 @@
 #include <optional>
 #include <string>
 
-#include "firmware/appliance.h"
+#include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_reader.h"
-#include "ui/visit.h"
+#include "ui/view/visit.h"
 
 namespace relievo::firmware {
 

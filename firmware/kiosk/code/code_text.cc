@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "ui/visit.h"
+#include "ui/view/visit.h"
 
 namespace relievo::firmware {
 namespace {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "firmware/service/desk_page.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "firmware/command/reconstruct/report.h"
+#include "firmware/report/report.h"
 #include "firmware/service/page/log_lines.h"
 
 namespace relievo::firmware {

@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "firmware/service/event_log.h"
-#include "ui/staff_views.h"
+#include "firmware/records/event_log.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

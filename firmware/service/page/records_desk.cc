@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "firmware/command/wall_time.h"
-#include "firmware/kiosk/receipt.h"
+#include "firmware/base/wall_time.h"
+#include "firmware/records/receipt.h"
 #include "firmware/service/pin_hash.h"
 
 namespace relievo::firmware {

@@ -13,7 +13,7 @@
 
 #include "firmware/service/desk_page.h"
 #include "firmware/service/export_records.h"
-#include "ui/records_view.h"
+#include "ui/view/records_view.h"
 
 namespace relievo::firmware {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "firmware/command/reconstruct/report.h"
-#include "firmware/service/device/disk_room.h"
+#include "firmware/records/disk_room.h"
+#include "firmware/report/report.h"
 #include "firmware/service/page/log_lines.h"
 
 namespace relievo::firmware {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "firmware/service/desk_page.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "firmware/service/desk_page.h"
-#include "firmware/service/device/touch_trial.h"
+#include "firmware/service/touch_trial.h"
 
 namespace relievo::firmware {
 

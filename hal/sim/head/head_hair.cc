@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/head/head_hair.h"
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/surface_mesher.h"
-#include "hal/sim/noise.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/sim/head/shape/head_field.h"
-#include "hal/sim/photo/ray_caster.h"
+#include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
 

@@ -11,7 +11,7 @@
 #include "hal/sim/head/head_look.h"
 #include "hal/sim/head/head_model.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/photo/lamps.h"
+#include "hal/sim/optics/lamps.h"
 
 namespace relievo::hal::sim {
 

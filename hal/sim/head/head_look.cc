@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/head/head_hair.h"
-#include "hal/sim/noise.h"
 
 namespace relievo::hal::sim {
 

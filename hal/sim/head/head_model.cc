@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/head/head_model.h"
 
-#include "hal/sim/noise.h"
+#include "hal/sim/base/noise.h"
 
 namespace relievo::hal::sim {
 namespace {

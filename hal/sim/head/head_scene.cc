@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/head/head_scene.h"
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/head/head_light.h"
 #include "hal/sim/head/head_model.h"
-#include "hal/sim/noise.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head/head_traits.h"
-#include "hal/sim/photo/lamps.h"
-#include "hal/sim/scene.h"
+#include "hal/sim/head/shape/head_traits.h"
+#include "hal/sim/optics/lamps.h"
+#include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {
 

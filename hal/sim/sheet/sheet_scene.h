@@ -10,8 +10,8 @@
 
 #include "hal/picture_file.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/photo/lamps.h"
-#include "hal/sim/scene.h"
+#include "hal/sim/optics/lamps.h"
+#include "hal/sim/optics/scene.h"
 #include "hal/sim/sheet/sheet_shape.h"
 
 namespace relievo::hal::sim {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hal/base/result.h"
-#include "hal/sim/photo/ray_caster.h"
-#include "hal/sim/vec3.h"
+#include "hal/sim/base/vec3.h"
+#include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
 

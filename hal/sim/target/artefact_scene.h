@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "hal/base/result.h"
-#include "hal/sim/scene.h"
-#include "hal/sim/vec3.h"
+#include "hal/sim/base/vec3.h"
+#include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "hal/sim/noise.h"
+#include "hal/sim/base/noise.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "hal/sim/vec3.h"
+#include "hal/sim/base/vec3.h"
 
 namespace relievo::hal::sim {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "pipeline/calibrate/board/grey_pyramid.h"
-#include "pipeline/calibrate/board/lattice/lattice.h"
-#include "pipeline/calibrate/board/lattice/lattice_growth.h"
+#include "pipeline/calibrate/board/lattice.h"
+#include "pipeline/calibrate/board/lattice_growth.h"
 #include "pipeline/calibrate/board/marker_reader.h"
 #include "pipeline/calibrate/board/saddle_finder.h"
 

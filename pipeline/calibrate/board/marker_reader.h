@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
-#include "pipeline/calibrate/board/lattice/lattice.h"
+#include "pipeline/calibrate/board/lattice.h"
 
 namespace relievo::pipeline {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/fit/bundle.h"
+#include "pipeline/calibrate/fit/calibrator_input.h"
 
 namespace relievo::pipeline {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "hal/base/assert.h"
-#include "pipeline/calibrate/live/plan/swapped_pair.h"
-#include "pipeline/calibrate/live/plan/view_planner.h"
+#include "pipeline/calibrate/live/swapped_pair.h"
+#include "pipeline/calibrate/live/view_planner.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include "pipeline/base/workspace.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/workspace.h"
 using namespace relievo::pipeline;  // NOLINT(google-build-using-namespace): an example, not a header
 
 relievo::Result<FaceMesh> measure(const StereoFrame& pictures, const char* rig, StageContext& context) {

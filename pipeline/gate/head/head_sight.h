@@ -14,8 +14,8 @@
 // false where there is no head.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/relief.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

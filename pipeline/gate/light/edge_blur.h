@@ -7,10 +7,10 @@
 // the face and taken off. Memory: scratch. Thread: any; deterministic. Errors: none.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/gate/head/head_sight.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

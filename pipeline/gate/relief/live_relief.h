@@ -12,11 +12,11 @@
 // (options, empty picture, size other than calibrated), OutOfMemory, Cancelled.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/relief.h"
 #include "pipeline/model/stereo_frame.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "hal/base/image_view.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/calibration.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

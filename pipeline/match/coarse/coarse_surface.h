@@ -6,9 +6,10 @@
 // views, and the one connected surface that is the face.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/pyramids.h"
-#include "pipeline/match/refine/surface_refiner.h"
+#include "pipeline/match/image/surface_field.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

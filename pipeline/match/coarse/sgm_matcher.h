@@ -13,9 +13,9 @@
 // understates an error they share). Errors: as Matcher.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -8,10 +8,10 @@
 // bytes a candidate and pixel of one size at a time. Thread: worker.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/pyramids.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -6,9 +6,9 @@
 // Memory: scratch; 2 * width * height * candidates * 3 bytes inside match_both.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/image_pyramid.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

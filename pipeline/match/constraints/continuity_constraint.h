@@ -6,8 +6,8 @@
 // scattered matches are not judged.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -8,8 +8,8 @@
 // match is rejected. Matches whose window leaves a picture cannot be asked back and stay.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -8,8 +8,8 @@
 // `slack` lets the right places fall back by that share of the left ones' distance: noise on steep surfaces.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

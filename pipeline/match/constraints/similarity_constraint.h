@@ -7,8 +7,8 @@
 // says something only below that: behind zmncc below 1 - min_score, 0.4 in the suite of the dissertation.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

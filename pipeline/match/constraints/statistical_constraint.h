@@ -11,8 +11,8 @@
 // has.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -6,8 +6,8 @@
 // hides the others: what lies behind it by more than a margin is rejected.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/match_constraint.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -14,9 +14,10 @@
 // Memory: scratch. Results do not depend on the number of threads. Thread: worker.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/epipolar/row_motion.h"
-#include "pipeline/match/refine/surface_refiner.h"
+#include "pipeline/match/image/surface_field.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 

@@ -10,9 +10,10 @@
 
 #include <span>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/epipolar/row_motion.h"
-#include "pipeline/match/refine/surface_refiner.h"
+#include "pipeline/match/image/surface_field.h"
 
 namespace relievo::pipeline {
 

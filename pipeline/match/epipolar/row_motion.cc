@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/bending/bending_system.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -15,9 +15,9 @@
 
 #include <span>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/epipolar/shift_field.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

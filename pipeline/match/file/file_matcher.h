@@ -16,8 +16,8 @@
 
 #include <string>
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

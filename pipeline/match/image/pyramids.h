@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

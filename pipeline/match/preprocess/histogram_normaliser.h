@@ -10,8 +10,8 @@
 // Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/preprocessor.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -7,9 +7,9 @@
 // Memory: the pair in `output`. Errors: InvalidInput (empty, sizes that differ, an empty range), Cancelled.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/stereo_frame.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -12,10 +12,10 @@
 // Cancelled. Thread: any; holds no state between calls.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/stereo_frame.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -9,9 +9,10 @@
 // needed.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 namespace relievo::pipeline {
 

@@ -9,7 +9,7 @@
 // Memory: scratch only. Results do not depend on the number of threads. Thread: any.
 #pragma once
 
-#include "pipeline/match/refine/bending_system.h"
+#include "pipeline/match/bending/bending_system.h"
 
 namespace relievo::pipeline {
 

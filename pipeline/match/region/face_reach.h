@@ -8,7 +8,8 @@
 
 #include <span>
 
-#include "pipeline/match/refine/surface_refiner.h"
+#include "pipeline/base/stage.h"
+#include "pipeline/match/image/surface_field.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

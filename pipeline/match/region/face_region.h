@@ -11,8 +11,8 @@
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -5,8 +5,8 @@
 // Unlike scattered selectors it keeps neighbourhoods: lattice_step_px is set.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

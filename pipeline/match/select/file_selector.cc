@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/match/file/number_table.h"
-#include "pipeline/match/select/keypoint_choice.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 namespace {

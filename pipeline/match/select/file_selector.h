@@ -11,8 +11,8 @@
 
 #include <string>
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "pipeline/match/select/keypoint_choice.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 namespace {

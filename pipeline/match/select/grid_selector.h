@@ -8,8 +8,8 @@
 // OutOfMemory, Cancelled.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

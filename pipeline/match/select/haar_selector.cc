@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/select/keypoint_choice.h"
 #include "pipeline/match/select/response/fast_hessian.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 namespace {

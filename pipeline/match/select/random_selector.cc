@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "pipeline/match/select/keypoint_choice.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 

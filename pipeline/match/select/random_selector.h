@@ -7,8 +7,8 @@
 // Errors: InvalidInput (no pixels), NoFace (an empty region), OutOfMemory, Cancelled.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

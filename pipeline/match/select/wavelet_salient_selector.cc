@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/match/select/keypoint_choice.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 #include "pipeline/match/select/response/salient_tracks.h"
 
 namespace relievo::pipeline {

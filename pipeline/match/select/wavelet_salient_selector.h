@@ -12,8 +12,8 @@
 // OutOfMemory, Cancelled. Memory: four planes of the picture's size in `scratch`.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -15,9 +15,9 @@
 
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/model/geometry.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -20,8 +20,8 @@
 // as Matcher.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

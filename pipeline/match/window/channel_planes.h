@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -10,8 +10,8 @@
 // Errors: as Matcher.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/match/matcher.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

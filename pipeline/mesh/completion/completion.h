@@ -9,8 +9,8 @@
 
 #include <string_view>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -7,8 +7,8 @@
 // what the model cannot show. Errors: those of Completion. Thread: any.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/mesh/completion/completion.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

@@ -9,9 +9,9 @@
 #include <functional>
 #include <optional>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/model/geometry.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

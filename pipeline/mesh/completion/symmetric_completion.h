@@ -7,8 +7,8 @@
 // more for every millimetre from the seam. Errors: those of Completion. Thread: any.
 #pragma once
 
+#include "pipeline/base/options.h"
 #include "pipeline/mesh/completion/completion.h"
-#include "pipeline/options.h"
 
 namespace relievo::pipeline {
 

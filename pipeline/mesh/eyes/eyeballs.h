@@ -9,9 +9,9 @@
 // stay as measured; so does an eye whose lids are not found.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -10,9 +10,9 @@
 #include <array>
 #include <optional>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

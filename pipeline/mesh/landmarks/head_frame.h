@@ -12,10 +12,10 @@
 // symmetry in it), Cancelled; throws std::bad_alloc as every stage does. Thread: any.
 #pragma once
 
+#include "pipeline/base/options.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
-#include "pipeline/options.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

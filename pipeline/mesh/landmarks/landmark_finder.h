@@ -9,9 +9,9 @@
 // A point is not found where its surroundings were not measured. Memory: scratch only. Thread: any.
 #pragma once
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/stage.h"
+#include "pipeline/base/stage.h"
 
 namespace relievo::pipeline {
 

@@ -10,9 +10,9 @@
 
 #include <optional>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/lattice/face_outline.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
-#include "pipeline/stage.h"
 
 namespace relievo::pipeline {
 

@@ -10,9 +10,9 @@
 #include <memory_resource>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/stage.h"
 #include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/triangle_raster.h"
-#include "pipeline/stage.h"
 #include "pipeline/texture/chart/chart.h"
 
 namespace relievo::pipeline {

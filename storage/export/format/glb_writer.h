@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 

@@ -6,7 +6,7 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/format/number_text.h"
-#include "storage/export/placed_landmarks.h"
+#include "storage/export/format/placed_landmarks.h"
 
 namespace relievo::storage {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/model/geometry.h"
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/board_scene.h"
-#include "hal/sim/noise.h"
-#include "hal/sim/photo/exposure.h"
+#include "hal/sim/optics/exposure.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "tests/bench/calibration/board_peers.h"
 

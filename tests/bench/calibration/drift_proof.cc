@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/drift.h"

@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-#include "firmware/command/calibrate/calibrate_live_hand.h"
+#include "firmware/demo/hand_pairs.h"
 #include "tests/pipeline/calibrate/live/held_board.h"
 
 namespace relievo::tests {

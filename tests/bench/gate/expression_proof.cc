@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/head_field.h"
-#include "hal/sim/noise.h"
 #include "tests/support/gate_bench.h"
 
 namespace relievo::bench {

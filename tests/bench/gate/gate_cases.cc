@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/gate/gate_cases.h"
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 
 namespace relievo::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "hal/sim/noise.h"
+#include "hal/sim/base/noise.h"
 #include "tests/support/gate_bench.h"
 
 namespace relievo::bench {

@@ -5,7 +5,7 @@
 // off the middle for a moment, and stand right. The others have one to four faults, stand right between them
 // now and then for less than a capture takes, and either stand right in the end or leave. The gate looks at
 // every fifth picture of simulated time: three or four a second instead of fifteen. A capture is what the
-// kiosk calls one: kHeld without a reason (ui/visit.h). That a fault was there when it began or ended is
+// kiosk calls one: kHeld without a reason (ui/view/visit.h). That a fault was there when it began or ended is
 // judged by the script; kNearly without a reason while a fault is there is counted too, long before a
 // capture.
 #pragma once

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "hal/picture_file.h"
+#include "pipeline/base/workspace.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/relief/live_relief.h"
 #include "pipeline/gate/relief/relief_picture.h"
 #include "pipeline/gate/relief/small_pair.h"
 #include "pipeline/match/rectify/rectifier.h"
-#include "pipeline/workspace.h"
 #include "tests/bench/peer.h"
 
 namespace relievo::bench {

@@ -17,8 +17,8 @@
 
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
-#include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_bench.h"
 

@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
-#include "pipeline/recognition/compare/face_comparison.h"
 #include "tests/bench/recognition/mesh_file.h"
+#include "tests/support/recognition/face_comparison.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::bench {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hal/sim/noise.h"
+#include "hal/sim/base/noise.h"
 
 namespace relievo::bench {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "hal/picture_file.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/photo/exposure.h"
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/exposure.h"
+#include "hal/sim/optics/rig.h"
 #include "hal/sim/sheet/sheet_scene.h"
 
 namespace relievo::bench {

@@ -16,7 +16,7 @@
 
 #include "hal/base/thread_pool.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::bench {

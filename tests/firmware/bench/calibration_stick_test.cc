@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"

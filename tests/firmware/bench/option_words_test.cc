@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "firmware/capture/rig_cameras.h"
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/relief/relief_check.h"
@@ -189,7 +189,7 @@ TEST(OptionWords, EveryFaultOfAFileOrAPictureIsInEveryLanguage) {
        {"hal/opencv_picture_file.cc", "hal/picture_header.cc", "hal/whole_file.cc", "hal/removable_media.cc",
         "hal/recording/recording.cc", "hal/sim/replay/replay_camera.cc", "hal/sim/replay/silent_trigger.cc",
         "hal/sim/replay/folder_media.cc", "storage/model_blob.cc", "storage/calibration_record.cc",
-        "firmware/command/output_folder.cc", "firmware/service/stick_folder.cc",
+        "firmware/base/output_folder.cc", "firmware/service/stick_folder.cc",
         "firmware/service/export_records.cc"})
     collect_faults(source / file, faults);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "storage" / "export"))

@@ -11,8 +11,8 @@
 #include <deque>
 #include <vector>
 
-#include "firmware/boot_memory.h"
-#include "firmware/session.h"
+#include "firmware/base/boot_memory.h"
+#include "firmware/session/session.h"
 #include "firmware/work/jobs.h"
 #include "tests/firmware/capture/scripted_rig.h"
 #include "tests/support/allocation_counter.h"

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 
 namespace relievo::firmware {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/capture/live_feed.h"
-#include "pipeline/workspace.h"
+#include "pipeline/base/workspace.h"
 
 namespace relievo::firmware {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "firmware/checks/acceptance_report.h"
 #include "firmware/checks/target_calibration.h"
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 #include "tests/firmware/checks/target_rig.h"
 #include "tests/support/proof.h"
 

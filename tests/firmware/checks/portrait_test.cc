@@ -8,9 +8,9 @@
 #include <string>
 
 #include "firmware/checks/target_calibration.h"
-#include "firmware/command/reconstruct/reconstruction.h"
 #include "firmware/measure/measurement.h"
 #include "firmware/measure/true_surface.h"
+#include "firmware/reconstruct/reconstruction.h"
 #include "hal/picture_file.h"
 #include "hal/sim/render.h"
 #include "pipeline/calibrate/file/calibration_file.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/console.h"
+#include "firmware/base/console.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/reconstruct/report.h"
+#include "firmware/report/report.h"
 
 namespace relievo::firmware {
 namespace {

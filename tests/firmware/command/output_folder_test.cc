@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/output_folder.h"
+#include "firmware/base/output_folder.h"
 
 #include <gtest/gtest.h>
 

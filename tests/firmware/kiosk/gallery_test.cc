@@ -3,7 +3,7 @@
 //
 // Every screen in every language, size and text size: nothing is cut, nothing overlaps, everything can
 // be touched, spoken and read. No GL.
-#include "firmware/kiosk/gallery.h"
+#include "firmware/demo/gallery.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@
 #include <string>
 #include <utility>
 
-#include "firmware/service/event_log.h"
+#include "firmware/records/event_log.h"
 #include "ui/screens/visitor/visitor_screens.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

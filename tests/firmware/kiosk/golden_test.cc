@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/kiosk/gallery.h"
+#include "firmware/demo/gallery.h"
 #include "hal/picture_file.h"
 #include "tests/support/gles_driver.h"
 #include "tests/support/tight_png.h"

@@ -22,8 +22,8 @@ class KioskCalibrationTest : public StaffHands {
       return hal::make_sim_board(options);
     };
     services.simulated_calibration = {};
-    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<HeldBoard> {
-      return held_board(kRig, held.board);
+    services.hold_board = [](const CalibrateLiveArgs& held) -> Result<std::unique_ptr<LivePairs>> {
+      return make_hand_pairs(held_board(kRig, held.board), held.seed);
     };
   }
   void open() {

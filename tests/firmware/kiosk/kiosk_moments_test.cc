@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "firmware/kiosk/kiosk.h"
-#include "firmware/kiosk/receipt.h"
+#include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/board.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -78,7 +78,7 @@ class KioskMomentsTest : public KioskHands {
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
-  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  Services services{.console = console, .clock = clock};
   KioskArgs args;
 };
 

@@ -4,7 +4,7 @@
 // The enrolment behind the pictures of all pages, on the simulated rig: what a person would pass by does not
 // end it, what nobody can pass by is told in its own words. No GL: what is written is the head of the page
 // that invites.
-#include "firmware/kiosk/screenshots.h"
+#include "firmware/demo/screenshots.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ class ScreenshotsTest : public testing::Test {
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
-  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  Services services{.console = console, .clock = clock};
   KioskArgs args;
 };
 

@@ -4,7 +4,7 @@
 // The operator's consent text, from a stick to the visitor's page: at the first start and later. What is
 // wrong with it is said, and then nothing has changed.
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

@@ -5,7 +5,7 @@
 // half-written passes for an export, and the records stay.
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
-#include "ui/records_view.h"
+#include "ui/view/records_view.h"
 
 namespace relievo::firmware {
 namespace {

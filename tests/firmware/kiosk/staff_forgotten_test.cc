@@ -4,8 +4,8 @@
 // What the staff cannot help themselves at the screen: a PIN that was forgotten, a touch screen whose
 // correction makes it unusable. `relievo staff` between two lives of the kiosk.
 #include "firmware/command/commands.h"
-#include "firmware/service/device/touch_trial.h"
-#include "firmware/service/event_log.h"
+#include "firmware/records/event_log.h"
+#include "firmware/service/touch_trial.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 
 namespace relievo::firmware {

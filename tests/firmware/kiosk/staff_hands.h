@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "firmware/kiosk/receipt.h"
+#include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/board.h"
@@ -206,7 +206,7 @@ class StaffHands : public KioskHands {
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
-  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  Services services{.console = console, .clock = clock};
   KioskArgs args;
   hal::FolderMedia* media = nullptr;
   float rests_x = 0, rests_y = 0;

@@ -3,11 +3,11 @@
 //
 // The staff's side by synthetic fingers, the whole appliance behind it: first start, both roles, their
 // pages on the real objects, and what is left when they have gone.
+#include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
-#include "firmware/service/event_log.h"
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/records_view.h"
-#include "ui/staff_views.h"
+#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

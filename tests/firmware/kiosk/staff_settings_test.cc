@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The staff's settings through their page: in force at once, kept over a restart, checked, each by who may.
-#include "firmware/service/device/device_settings.h"
-#include "firmware/service/device/retention.h"
+#include "firmware/service/device_settings.h"
+#include "firmware/service/retention.h"
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

@@ -3,7 +3,7 @@
 //
 // A panel that is mounted a quarter turn off, corrected through the page by fingers it reports wrongly; and
 // every way in which that goes wrong leaves the screen as it was.
-#include "firmware/service/device/touch_trial.h"
+#include "firmware/service/touch_trial.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 
 namespace relievo::firmware {

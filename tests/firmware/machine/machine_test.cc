@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "firmware/budget.h"
+#include "firmware/base/budget.h"
 
 namespace relievo::firmware {
 namespace {

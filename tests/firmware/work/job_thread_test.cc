@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/work/job_thread.h"
+#include "firmware/jobs/job_thread.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated cameras: what goes out through the lens comes back, and pictures show what is where.
-#include "hal/sim/rig.h"
+#include "hal/sim/optics/rig.h"
 
 #include <gtest/gtest.h>
 

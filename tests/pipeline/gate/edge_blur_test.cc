@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "hal/sim/noise.h"
-#include "pipeline/workspace.h"
+#include "hal/sim/base/noise.h"
+#include "pipeline/base/workspace.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
+#include "pipeline/base/workspace.h"
 #include "pipeline/gate/relief/live_relief.h"
-#include "pipeline/workspace.h"
 
 namespace relievo::pipeline {
 namespace {

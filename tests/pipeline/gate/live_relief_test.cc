@@ -10,8 +10,8 @@
 
 #include "hal/sim/render.h"
 #include "hal/sim/target/artefact_scene.h"
+#include "pipeline/base/workspace.h"
 #include "pipeline/gate/relief/small_pair.h"
-#include "pipeline/workspace.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 

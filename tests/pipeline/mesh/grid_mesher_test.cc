@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/mesh/detail/sliver_mender.h"
-#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/recognition/recognition_images.h"

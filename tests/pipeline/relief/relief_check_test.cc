@@ -12,7 +12,7 @@
 #include <string>
 
 #include "hal/sim/sheet/sheet_shape.h"
-#include "pipeline/mesh/delaunay_mesher.h"
+#include "pipeline/mesh/meshers/delaunay_mesher.h"
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/texture/single_view_texturer.h"

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-#include "storage/export/export_mesh.h"
+#include "storage/export/format/export_mesh.h"
 #include "storage/export/model_files.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"

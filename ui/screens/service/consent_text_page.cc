@@ -4,8 +4,8 @@
 // Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
 // step of the first start.
 #include "ui/screens/service/pin_verbs.h"
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

@@ -4,8 +4,8 @@
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
 #include "ui/screens/service/pin_verbs.h"
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

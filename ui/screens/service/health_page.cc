@@ -4,8 +4,8 @@
 // The memory plan against what was really used, disk, temperatures, the last faults.
 #include <cstdio>
 
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

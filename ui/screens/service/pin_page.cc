@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "ui/screens/service/pin_verbs.h"
-#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
 namespace {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
-#include "ui/records_view.h"
+#include "ui/view/records_view.h"
 
-#include "ui/screens/service/staff_screens.h"
-#include "ui/screens/visitor/visitor_screens.h"
+#include "ui/screens/parts/keyboard.h"
+#include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
 namespace {

@@ -5,7 +5,7 @@
 #include "ui/device/settings.h"
 
 #include "ui/screens/service/setting_words.h"
-#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
 namespace {

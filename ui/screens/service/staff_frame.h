@@ -8,8 +8,8 @@
 
 #include <string_view>
 
-#include "ui/screens/page.h"
-#include "ui/service.h"
+#include "ui/screens/parts/page.h"
+#include "ui/view/service.h"
 
 namespace relievo::ui {
 

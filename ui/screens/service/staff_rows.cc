@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "ui/screens/service/staff_frame.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 

@@ -10,7 +10,7 @@
 #include "ui/screens/service/place_words.h"
 #include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
-#include "ui/staff_views.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

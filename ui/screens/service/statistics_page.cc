@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How many came, what became of it, and how long it took: numbers, nobody's name.
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

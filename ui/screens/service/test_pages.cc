@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
-#include "ui/screens/service/staff_screens.h"
-#include "ui/staff_views.h"
+#include "ui/screens/service/staff_pages.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/visitor/visitor_screens.h"
 
-#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/staff_screens.h"
 
 namespace relievo::ui {
 namespace {

@@ -5,12 +5,11 @@
 // remembers nothing. Thread: main. Errors: none.
 #pragma once
 
-#include "ui/screens/page.h"
+#include "ui/screens/parts/keyboard.h"
+#include "ui/screens/parts/overlay.h"
+#include "ui/screens/parts/page.h"
 
 namespace relievo::ui {
-
-// Pixels of one dp on a screen of this size.
-float unit_of(const Rect& screen);
 
 // The screen of this moment, with what lies over it. Returns its palette.
 const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Visit& visit,
@@ -18,21 +17,15 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 // The pictures and the model that it shows.
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit);
 
-// The languages a visitor may choose, each in its own letters, so many abreast.
-void language_grid(Page& page, std::size_t columns);
-
 void attract_screen(Page& page);
 void consent_screen(Page& page);
 void name_screen(Page& page);
 void known_screen(Page& page);
-// `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
-void keyboard(Page& page, Action done = {ActionKind::Done, 0});
 void position_screen(Page& page);
 void working_screen(Page& page);
 void review_screen(Page& page);
 void thanks_screen(Page& page);
 void trouble_screen(Page& page);
 void starting_screen(Page& page);
-void overlay_screen(Page& page);
 
 }  // namespace relievo::ui

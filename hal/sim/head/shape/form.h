@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "hal/sim/vec3.h"
+#include "hal/sim/base/vec3.h"
 
 namespace relievo::hal::sim {
 

@@ -8,8 +8,8 @@
 
 #include <array>
 
-#include "hal/sim/head/head_traits.h"
 #include "hal/sim/head/shape/form.h"
+#include "hal/sim/head/shape/head_traits.h"
 
 namespace relievo::hal::sim {
 

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/photo/ray_caster.h"
+#include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
 

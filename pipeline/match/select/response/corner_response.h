@@ -9,9 +9,9 @@
 #include <memory_resource>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/select/keypoint_choice.h"
-#include "pipeline/stage.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 

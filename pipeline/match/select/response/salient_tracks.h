@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/select/keypoint_choice.h"
+#include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
 

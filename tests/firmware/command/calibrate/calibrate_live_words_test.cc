@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/line/command_line.h"
+#include "firmware/arguments/command_line.h"
 
 namespace relievo::tests {
 namespace {

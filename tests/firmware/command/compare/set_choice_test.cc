@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/compare/set_choice.h"
+#include "firmware/compare/set_choice.h"
 
 #include <gtest/gtest.h>
 
+#include "firmware/compare/suites.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::compare {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/line/settings_file.h"
+#include "firmware/arguments/settings_file.h"
 
 #include <gtest/gtest.h>
 

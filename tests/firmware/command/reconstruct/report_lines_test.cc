@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "firmware/command/reconstruct/report.h"
+#include "firmware/report/report.h"
 
 namespace relievo::firmware {
 namespace {

@@ -101,7 +101,7 @@ class CodeSightTest : public KioskHands {
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;
-  Services services{{}, {}, {}, {}, {}, {}, {}, console, clock};
+  Services services{.console = console, .clock = clock};
   KioskArgs args;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sensor: its noise is as large as its electrons say, and every frame's is its own.
-#include "hal/sim/photo/exposure.h"
+#include "hal/sim/optics/exposure.h"
 
 #include <gtest/gtest.h>
 

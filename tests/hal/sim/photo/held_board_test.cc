@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/photo/held_board.h"
+#include "hal/sim/held_board.h"
 
 #include <algorithm>
 #include <cmath>

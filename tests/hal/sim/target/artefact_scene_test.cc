@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "hal/sim/noise.h"
+#include "hal/sim/base/noise.h"
 #include "hal/sim/target/speckle.h"
 #include "hal/sim/target/target_photo.h"
 #include "hal/sim/truth.h"

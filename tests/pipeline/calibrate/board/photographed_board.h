@@ -10,7 +10,7 @@
 
 #include "hal/picture_file.h"
 #include "hal/sim/board_scene.h"
-#include "hal/sim/photo/exposure.h"
+#include "hal/sim/optics/exposure.h"
 #include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::tests {

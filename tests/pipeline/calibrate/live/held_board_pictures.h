@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/sim/photo/held_board.h"
+#include "hal/sim/held_board.h"
 #include "tests/pipeline/calibrate/live/held_board.h"
 
 namespace relievo::tests {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "hal/sim/head/head_traits.h"
+#include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/stage_bench.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/catalogue/band_volume.h"
+#include "pipeline/mesh/meshers/band_volume.h"
 
 #include <gtest/gtest.h>
 

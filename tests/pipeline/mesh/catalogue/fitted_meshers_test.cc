@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/mesh/catalogue/bezier_net.h"
-#include "pipeline/mesh/catalogue/nearest_vertex.h"
+#include "pipeline/mesh/meshers/bezier_net.h"
+#include "pipeline/mesh/meshers/nearest_vertex.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"

@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"

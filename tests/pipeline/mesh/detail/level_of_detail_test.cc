@@ -8,7 +8,7 @@
 #include <random>
 
 #include "pipeline/mesh/detail/surface_distance.h"
-#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"

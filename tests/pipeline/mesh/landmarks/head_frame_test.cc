@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
 

@@ -6,9 +6,9 @@
 
 #include <numbers>
 
-#include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/support/proof.h"

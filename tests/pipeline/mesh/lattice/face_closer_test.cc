@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "pipeline/mesh/grid_mesher.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"

@@ -3,7 +3,7 @@
 //
 // Faces compared whose difference is known: the same simulated head moved, turned and measured again, other
 // heads, and half a millimetre put on by hand.
-#include "pipeline/recognition/compare/face_comparison.h"
+#include "tests/support/recognition/face_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <optional>
 #include <random>
 
-#include "pipeline/mesh/grid_mesher.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/support/proof.h"

@@ -11,7 +11,7 @@
 
 #include "ui/bench/bench_act.h"
 #include "ui/bench/bench_view.h"
-#include "ui/screens/service/staff_screens.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstring>
 
-#include "firmware/command/compare/measure/disparity_truth.h"
-#include "firmware/command/compare/measure/pfm.h"
+#include "firmware/measure/disparity_truth.h"
+#include "firmware/measure/pfm.h"
 #include "hal/picture_file.h"
 #include "tests/support/temporary_folder.h"
 

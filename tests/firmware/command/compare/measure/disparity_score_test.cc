@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Maps with errors that are known because they were put in.
-#include "firmware/command/compare/measure/disparity_score.h"
+#include "firmware/measure/disparity_score.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "firmware/command/compare/measure/rule_figures.h"
+#include "firmware/measure/rule_figures.h"
 
 namespace relievo::firmware::compare {
 namespace {

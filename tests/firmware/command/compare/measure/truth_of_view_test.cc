@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "firmware/command/compare/measure/disparity_truth.h"
+#include "firmware/measure/disparity_truth.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "tests/support/stage_bench.h"

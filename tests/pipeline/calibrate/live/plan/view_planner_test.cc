@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/live/plan/view_planner.h"
+#include "pipeline/calibrate/live/view_planner.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/live/plan/candidate_poses.h"
-#include "pipeline/calibrate/live/plan/rig_problem.h"
+#include "pipeline/calibrate/live/candidate_poses.h"
+#include "pipeline/calibrate/live/rig_problem.h"
 #include "tests/pipeline/calibrate/live/held_board.h"
 
 namespace relievo::tests {

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/appliance/appliance.h"
+
+#include <string.h>
+
+#include <utility>
+
+#include "firmware/base/budget.h"
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Is the machine broken, or was it only this picture?
+bool is_fault(Errc code) {
+  switch (code) {
+    case Errc::Disconnected:
+    case Errc::NotCalibrated:
+    case Errc::InvalidState:
+    case Errc::StoreCorrupt:
+    case Errc::StoreNewer:
+      return true;
+    case Errc::InvalidInput:
+    case Errc::NotFound:
+    case Errc::Timeout:
+    case Errc::NoFace:
+    case Errc::TooFewMatches:
+    case Errc::PoorGeometry:
+    case Errc::LibraryFailed:
+    case Errc::OutOfMemory:
+    case Errc::MediaMissing:
+    case Errc::MediaFull:
+    case Errc::IoFailed:
+    case Errc::Cancelled:
+    case Errc::Unsupported:
+      break;
+  }
+  return false;
+}
+
+Event event_of(ui::Intent intent) {
+  switch (intent) {
+    case ui::Intent::Pose:
+      return Event::PoseAsked;
+    case ui::Intent::Begin:
+      return Event::Begin;
+    case ui::Intent::Accept:
+      return Event::Accept;
+    case ui::Intent::Retake:
+      return Event::Retake;
+    case ui::Intent::Cancel:
+      return Event::Cancel;
+    case ui::Intent::LookUp:
+    case ui::Intent::StillHere:
+      break;  // no event: it only gives time
+    case ui::Intent::OpenTechnician:
+      return Event::TechnicianIn;
+    case ui::Intent::LeaveTechnician:
+      return Event::TechnicianOut;
+    case ui::Intent::Calibrate:
+      return Event::CalibrateAsked;
+    case ui::Intent::Export:
+      return Event::ExportAsked;
+  }
+  return Event::Count;
+}
+
+}  // namespace
+
+Appliance::Appliance(Parts parts)
+    : board_(parts.board),
+      machine_(parts.board.clock().now()),
+      session_(parts.memory),
+      grabber_(parts.board),
+      open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
+      pose_(grabber_, session_, parts.board, parts.pool, parts.judge),
+      grab_(grabber_, session_, parts.board, pose_),
+      stage_(parts.stages, session_, parts.pool, parts.board.clock()),
+      keep_(std::move(parts.keep), session_),
+      look_up_(std::move(parts.look_up)),
+      capture_(reports_),
+      worker_(reports_),
+      keeper_(reports_) {
+  records_.reserve(4 * budget::kCaptureAttempts);
+  start(capture_, open_cameras_);
+}
+
+Appliance::~Appliance() { stop_job(); }
+
+float Appliance::progress() const { return running_ != nullptr ? running_->progress() : 0; }
+
+void Appliance::ask(ui::Intent intent) {
+  if (intent == ui::Intent::StillHere) return machine_.renew(board_.clock().now());
+  if (intent == ui::Intent::LookUp) {
+    if (machine_.state() == State::Idle && running_ == nullptr) start(keeper_, look_up_);
+    return;
+  }
+  handle(event_of(intent));
+}
+
+void Appliance::forget_subject() {
+  explicit_bzero(next_subject_.data(), next_subject_.size());
+  next_subject_.clear();
+}
+
+void Appliance::step(std::chrono::milliseconds wait) {
+  if (const auto report = reports_.take_for(wait)) heard(*report);
+  if (const auto change = machine_.tick(board_.clock().now())) {
+    if (change->to == State::Idle || change->to == State::Fault) {
+      note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
+    }
+    entered(*change);
+  }
+  board_.watchdog().kick();
+}
+
+void Appliance::handle(Event event) {
+  if (const auto change = machine_.handle(event, board_.clock().now())) entered(*change);
+}
+
+void Appliance::note(const Error& error) { problem_ = error; }
+
+void Appliance::note(const pipeline::DriftJudgement& drift) {
+  drift_ = drift;
+  if (drift.verdict == pipeline::DriftVerdict::Ok) calibration_note_.clear();
+  if (drift.verdict == pipeline::DriftVerdict::Refuse) ++moved_in_a_row_;
+  else if (drift.verdict != pipeline::DriftVerdict::Unknown) moved_in_a_row_ = 0;
+  if (drift.verdict == pipeline::DriftVerdict::Warn || drift.verdict == pipeline::DriftVerdict::Refuse)
+    calibration_note_ = pipeline::sentence(drift).packed();
+}
+
+void Appliance::calibrated_anew() {
+  drift_.reset();
+  calibration_note_.clear();
+  moved_in_a_row_ = 0;
+  if (problem_ && problem_->code == Errc::NotCalibrated) problem_.reset();
+}
+
+JobThread& Appliance::thread_at(JobPlace place) {
+  return place == JobPlace::Capture ? capture_ : place == JobPlace::Worker ? worker_ : keeper_;
+}
+
+Result<void> Appliance::start_side_job(JobPlace place, Job& job) {
+  RELIEVO_TRY_ASSIGN(side_jobs_[static_cast<std::size_t>(place)], thread_at(place).start(job));
+  return {};
+}
+
+void Appliance::cancel_side_job(JobPlace place) {
+  if (side_jobs_[static_cast<std::size_t>(place)] != 0) thread_at(place).cancel();
+}
+
+void Appliance::end_side_job(JobPlace place) {
+  if (side_jobs_[static_cast<std::size_t>(place)] == 0) return;
+  thread_at(place).cancel();
+  thread_at(place).wait_until_idle();
+  side_jobs_[static_cast<std::size_t>(place)] = 0;
+}
+
+float Appliance::side_progress(JobPlace place) const {
+  const JobThread& thread = place == JobPlace::Capture  ? capture_
+                            : place == JobPlace::Worker ? worker_
+                                                        : keeper_;
+  return side_jobs_[static_cast<std::size_t>(place)] == 0 ? 0 : thread.progress();
+}
+
+void Appliance::heard_side(std::size_t place, const JobReport& report) {
+  side_jobs_[place] = 0;
+  if (side_listener_) side_listener_(static_cast<JobPlace>(place), report.error);
+}
+
+void Appliance::heard(const JobReport& report) {
+  for (std::size_t i = 0; i < kJobPlaces; ++i) {
+    if (report.job == side_jobs_[i] && report.job != 0) return heard_side(i, report);
+  }
+  if (report.job != job_) return;  // of a state that was left
+  running_ = nullptr;
+  job_ = 0;
+  const State state = machine_.state();
+  if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
+  if (state == State::Match && session_.products().drift) note(*session_.products().drift);
+  if (report.error) {
+    note(*report.error);
+    const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
+    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed
+           : advise                                                 ? Event::AdviceGiven
+                                                                    : Event::StageFailed);
+  } else {
+    if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
+    handle(state == State::SelfTest  ? Event::Passed
+           : state == State::Capture ? Event::Triggered
+                                     : Event::StageDone);
+  }
+}
+
+void Appliance::start(JobThread& thread, Job& job) {
+  if (thread.busy()) {  // with work of the staff's pages: a visitor comes first, its report still comes
+    thread.cancel();
+    thread.wait_until_idle();
+  }
+  const Result<JobId> id = thread.start(job);
+  RELIEVO_ASSERT(id.has_value());  // entered() has stopped the job before
+  running_ = &thread;
+  job_ = *id;
+}
+
+void Appliance::stop_job() {
+  if (running_ == nullptr) return;
+  running_->cancel();
+  running_->wait_until_idle();
+  running_ = nullptr;
+  job_ = 0;
+}
+
+bool Appliance::open_session() {
+  attempt_ = 0;
+  problem_.reset();
+  drift_.reset();
+  records_.clear();
+  const Result<void> opened = session_.open(next_subject_);
+  if (opened) return true;
+  note(opened.error());
+  handle(Event::Cancel);
+  return false;
+}
+
+// The live picture. False when there is none to show; the machine has then moved on.
+bool Appliance::enter_position(const Change& change) {
+  attended_ = true;
+  if (change.from == State::Idle) {
+    if (!open_session()) return false;
+  } else {
+    session_.retake();
+  }
+  if (change.from == State::Review) {
+    attempt_ = 0;
+    problem_.reset();
+  }
+  if (attempt_ >= most_attempts_) {
+    handle(Event::Cancel);
+    return false;
+  }
+  start(capture_, pose_);
+  return true;
+}
+
+// False when there is no capture to begin; the machine has then moved on.
+bool Appliance::enter_capture(const Change& change) {
+  if (change.from == State::Idle) {
+    attended_ = false;
+    if (!open_session()) return false;
+  } else {
+    session_.retake();
+  }
+  if (change.event == Event::Retake) attempt_ = 0;
+  if (++attempt_ > most_attempts_) {
+    handle(Event::Cancel);
+    return false;
+  }
+  start(capture_, grab_);
+  return true;
+}
+
+// The technician's test capture lies in it, and the staff's pages may be at work on that.
+void Appliance::close_session() {
+  for (JobThread* thread : {&capture_, &worker_}) {
+    if (!thread->busy()) continue;
+    thread->cancel();
+    thread->wait_until_idle();
+  }
+  session_.close();
+}
+
+void Appliance::entered(const Change& change) {
+  stop_job();
+  switch (change.to) {
+    case State::SelfTest:
+      start(capture_, open_cameras_);
+      break;
+    case State::Position:
+      if (!enter_position(change)) return;
+      break;
+    case State::Capture:
+      if (!enter_capture(change)) return;
+      break;
+    case State::Match:
+    case State::Reconstruct:
+    case State::Mesh:
+    case State::Texture:
+      stage_.choose(change.to);
+      start(worker_, stage_);
+      break;
+    case State::Store:
+      problem_.reset();
+      start(keeper_, keep_);
+      break;
+    case State::Idle:
+    case State::Fault:
+      close_session();
+      break;
+    case State::Review:
+      if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
+      break;
+    case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
+    case State::Export:
+    case State::Technician:
+    case State::Count:
+      break;
+  }
+  if (listener_) listener_(change);
+}
+
+}  // namespace relievo::firmware

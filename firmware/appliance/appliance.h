@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Appliance: the state machine with everything it sets in motion. It owns the machine, the session
+// and the three threads; board, stages and store are handed in. One step() is one turn of the main
+// loop: it hears one report, looks at the clock, kicks the watchdog.
+//
+//   ask(Intent), reports of the threads, time --> Machine --> what entering the new state starts
+//
+// A state is left only when its job has stopped; a session is closed on the way to Idle and Fault.
+// Thread: main. Errors: none are returned; problem() holds the last one, for screen and command.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/machine/machine.h"
+#include "firmware/session/session.h"
+#include "firmware/work/jobs.h"
+#include "hal/board.h"
+#include "ui/view/intent.h"
+
+namespace relievo::firmware {
+
+// The three threads, as a place for work that belongs to no visitor's state.
+enum class JobPlace : std::uint8_t { Capture, Worker, Keeper };
+inline constexpr std::size_t kJobPlaces = 3;
+
+class Appliance {
+ public:
+  struct Parts {
+    hal::Board& board;
+    StageRunner& stages;
+    const BootMemory& memory;
+    ThreadPool& pool;
+    Keep keep;
+    LiveJudge* judge = nullptr;  // advice for a person at the screen; without one the picture alone is shown
+    std::function<Result<void>()> look_up = {};  // on the keeper, for Intent::LookUp: asks the records
+  };
+  explicit Appliance(Parts parts);
+  ~Appliance();
+  Appliance(const Appliance&) = delete;
+  Appliance& operator=(const Appliance&) = delete;
+
+  // Whom the next Begin enrols.
+  void set_subject(std::string_view name) { next_subject_ = name; }
+  // Nobody's name is remembered longer than a session.
+  void forget_subject();
+  void ask(ui::Intent intent);
+  // Waits at most `wait` for something to happen, and deals with it.
+  void step(std::chrono::milliseconds wait);
+
+  State state() const { return machine_.state(); }
+  float progress() const;
+  int attempt() const { return attempt_; }
+  // Refused captures, until a person is asked to come again.
+  void set_attempts(int most) { most_attempts_ = most; }
+  const std::optional<Error>& problem() const { return problem_; }
+  // Of the last face that was matched: have the cameras moved?
+  const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
+  // How many faces on end have said that they have moved too far to be measured with. Kept over visits.
+  int moved_in_a_row() const { return moved_in_a_row_; }
+  // What an earlier run of the device knew of the calibration in use; before anything runs.
+  void remember_moved(int faces, std::string note) {
+    moved_in_a_row_ = faces, calibration_note_ = std::move(note);
+  }
+  // Another calibration is in use: what was said against the one before counts no more.
+  void calibrated_anew();
+  // For the technician: what the last face that could tell said against the calibration, packed
+  // (hal/base/sentence.h); else empty.
+  std::string_view calibration_note() const { return calibration_note_; }
+  // Is a camera away, and being tried again?
+  CameraWatch cameras() const { return grabber_.watch(); }
+  const EnrolmentSession& session() const { return session_; }
+  // For the live picture, which is handed over on reading.
+  LiveFeed& live() { return session_.live(); }
+  // Of the present or last session; kept until the next begins.
+  const std::vector<StageRecord>& records() const { return records_; }
+  // Work of the staff's pages, beside the states' own (firmware/service/errands.h). InvalidState: the
+  // thread is busy. A state that needs the thread stops such work and waits for it to end.
+  Result<void> start_side_job(JobPlace place, Job& job);
+  void cancel_side_job(JobPlace place);
+  void end_side_job(JobPlace place);  // waits until it has stopped; it is not reported any more
+  float side_progress(JobPlace place) const;
+  void on_side_report(std::function<void(JobPlace, const std::optional<Error>&)> listener) {
+    side_listener_ = std::move(listener);
+  }
+  // What Calibrate or Export was entered for has ended: back to Technician.
+  void end_service_state(bool done) { handle(done ? Event::StageDone : Event::StageFailed); }
+  // For work on the capture thread.
+  StereoGrabber& grabber() { return grabber_; }
+  EnrolmentSession& session() { return session_; }
+  // Called after every change of state, when what it starts has started.
+  void on_change(std::function<void(const Change&)> listener) { listener_ = std::move(listener); }
+
+ private:
+  void handle(Event event);
+  void entered(const Change& change);
+  bool enter_position(const Change& change);
+  bool enter_capture(const Change& change);
+  bool open_session();
+  void start(JobThread& thread, Job& job);
+  void stop_job();
+  JobThread& thread_at(JobPlace place);
+  void heard_side(std::size_t place, const JobReport& report);
+  void heard(const JobReport& report);
+  void close_session();
+  void note(const Error& error);
+  void note(const pipeline::DriftJudgement& drift);
+
+  hal::Board& board_;
+  Machine machine_;
+  EnrolmentSession session_;
+  StereoGrabber grabber_;
+  OpenCamerasJob open_cameras_;
+  PoseJob pose_;
+  GrabJob grab_;
+  StageJob stage_;
+  KeepJob keep_;
+  LookUpJob look_up_;
+  std::string next_subject_;
+  int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
+  bool attended_ = false;  // a person is at the screen: advice instead of another try
+  std::optional<Error> problem_;
+  std::optional<pipeline::DriftJudgement> drift_;
+  std::string calibration_note_;
+  int moved_in_a_row_ = 0;
+  std::vector<StageRecord> records_;
+  std::function<void(const Change&)> listener_;
+  JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
+  JobId job_ = 0;
+  std::array<JobId, kJobPlaces> side_jobs_{};
+  std::function<void(JobPlace, const std::optional<Error>&)> side_listener_;
+  JobReports reports_;
+  JobThread capture_;
+  JobThread worker_;
+  JobThread keeper_;
+};
+
+}  // namespace relievo::firmware

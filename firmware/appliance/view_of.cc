@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/appliance/view_of.h"
+
+namespace relievo::firmware {
+namespace {
+
+ui::Screen screen_of(State state) {
+  switch (state) {
+    case State::SelfTest:
+      return ui::Screen::SelfTest;
+    case State::Idle:
+      return ui::Screen::Idle;
+    case State::Calibrate:
+      return ui::Screen::Calibrate;
+    case State::Position:
+      return ui::Screen::Position;
+    case State::Capture:
+      return ui::Screen::Capture;
+    case State::Match:
+      return ui::Screen::Match;
+    case State::Reconstruct:
+      return ui::Screen::Reconstruct;
+    case State::Mesh:
+      return ui::Screen::Mesh;
+    case State::Texture:
+      return ui::Screen::Texture;
+    case State::Review:
+      return ui::Screen::Review;
+    case State::Store:
+      return ui::Screen::Store;
+    case State::Export:
+      return ui::Screen::Export;
+    case State::Technician:
+      return ui::Screen::Technician;
+    case State::Fault:
+    case State::Count:
+      break;
+  }
+  return ui::Screen::Fault;
+}
+
+ui::Trouble trouble_of(const Error& problem, State state) {
+  if (state == State::Review || state == State::Store) return ui::Trouble::Storage;
+  switch (problem.code) {
+    case Errc::Disconnected:
+      return ui::Trouble::Camera;
+    case Errc::NotCalibrated:
+      return ui::Trouble::Calibration;
+    case Errc::NoFace:
+    case Errc::TooFewMatches:
+    case Errc::PoorGeometry:
+    case Errc::LibraryFailed:
+    case Errc::OutOfMemory:
+    case Errc::InvalidInput:
+      return ui::Trouble::Refused;
+    case Errc::MediaFull:
+    case Errc::MediaMissing:
+    case Errc::StoreCorrupt:
+    case Errc::StoreNewer:
+      return ui::Trouble::Storage;
+    case Errc::Timeout:
+      return ui::Trouble::TookTooLong;
+    case Errc::Cancelled:
+      return ui::Trouble::None;
+    case Errc::NotFound:
+    case Errc::IoFailed:
+    case Errc::InvalidState:
+    case Errc::Unsupported:
+      break;
+  }
+  return ui::Trouble::Other;
+}
+
+ui::LiveView live_of(const LivePicture& live) {
+  ui::LiveView view;
+  view.picture = live.picture;
+  view.number = live.number;
+  view.advice = live.guidance.advice;
+  view.face_x = static_cast<float>(live.guidance.face_x);
+  view.face_y = static_cast<float>(live.guidance.face_y);
+  view.ideal_width = static_cast<float>(live.guidance.ideal_width);
+  view.steady_s = static_cast<float>(live.guidance.steady_s);
+  return view;
+}
+
+// Stages whose thread has reported; the one under way draws its own.
+std::size_t stages_done(State state) {
+  switch (state) {
+    case State::Reconstruct:
+      return 1;
+    case State::Mesh:
+      return 2;
+    case State::Texture:
+      return 3;
+    case State::Review:
+    case State::Store:
+      return 4;
+    case State::SelfTest:
+    case State::Idle:
+    case State::Calibrate:
+    case State::Position:
+    case State::Capture:
+    case State::Match:
+    case State::Export:
+    case State::Technician:
+    case State::Fault:
+    case State::Count:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+ui::ViewState view_of(Appliance& appliance) {
+  ui::ViewState view;
+  view.screen = screen_of(appliance.state());
+  view.progress = appliance.progress();
+  view.attempt = appliance.attempt();
+  if (appliance.problem()) {
+    view.problem = appliance.problem()->what.view();
+    view.trouble = trouble_of(*appliance.problem(), appliance.state());
+    if (appliance.problem()->code == Errc::NoFace) view.advice = pipeline::Advice::NoFace;
+  }
+  // What was wrong first counts less than what is wrong now.
+  if (const std::string_view gone = sentence_of(appliance.cameras()); !gone.empty()) view.problem = gone;
+  view.calibration_note = appliance.calibration_note();
+  if (!appliance.session().is_open()) return view;
+  view.subject = appliance.session().subject();
+  view.live = live_of(appliance.live().newest());
+  const StagePictures& pictures = appliance.session().stage_pictures();
+  for (std::size_t i = 0; i < stages_done(appliance.state()); ++i) {
+    if (pictures.number(i) != 0) view.stages[i] = {pictures.view(i), pictures.number(i)};
+  }
+  // While a job runs, the products are the worker's; before Review nothing of them is shown.
+  const bool at_rest = appliance.state() == State::Review || appliance.state() == State::Store;
+  const Products& products = appliance.session().products();
+  if (at_rest && products.frame) view.frame = &*products.frame;
+  if (at_rest && products.model) view.model = &*products.model;
+  if (view.model != nullptr) view.model_number = appliance.session().stage_pictures().number(3) + 1;
+  return view;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "firmware/arguments/compare_words.h"
+#include "firmware/arguments/two_numbers.h"
+
+namespace relievo::firmware {
+namespace {
+
+// "0:256"; either may be negative.
+bool disparity_range(const std::string& text, int& least, int& most) {
+  const auto range = two_numbers(text, ':');
+  if (!range || range->first >= range->second || range->first < -4096 || range->second > 4096) return false;
+  least = range->first, most = range->second;
+  return true;
+}
+
+// The dissertation's report is one of its own, on one pair, or on a simulated person.
+void check_dissertation(const CompareArgs& args) {
+  if (args.suites.size() > 1 || !args.set_files.empty() || !args.set_words.empty() || args.keep_maps)
+    throw CLI::ValidationError(
+        "--suite dissertation",
+        "is a report of its own: give no other --suite, no --sets, --set-of or --keep-maps");
+  if (args.pictures.size() > 2)
+    throw CLI::ValidationError("--suite dissertation",
+                               "takes one pair, LEFT RIGHT, or none: a simulated person");
+}
+
+void check_counts(const CompareArgs& args) {
+  const bool dissertation =
+      std::find(args.suites.begin(), args.suites.end(), "dissertation") != args.suites.end();
+  if (dissertation) check_dissertation(args);
+  if (args.pictures.empty()) {
+    if (dissertation && args.calibrations.empty() && !args.rectified && args.truths.empty()) return;
+    throw CLI::ValidationError("LEFT RIGHT",
+                               "are wanted: two pictures; without any there is --suite dissertation only");
+  }
+  if (args.pictures.size() % 2 != 0)
+    throw CLI::ValidationError("pictures", "come in pairs: LEFT RIGHT [LEFT RIGHT ...]");
+  const std::size_t pairs = args.pictures.size() / 2;
+  const auto fits = [pairs](const std::vector<Path>& given) {
+    return given.size() <= 1 || given.size() == pairs;
+  };
+  if (!fits(args.calibrations))
+    throw CLI::ValidationError("--calibration", "is given once, or once for every pair");
+  if (!fits(args.truths)) throw CLI::ValidationError("--truth", "is given once, or once for every pair");
+  if (args.rectified == !args.calibrations.empty())
+    throw CLI::ValidationError("--calibration",
+                               "of the rig that took the pictures is wanted, or --rectified, and not both");
+}
+
+}  // namespace
+
+CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "sets of algorithms beside each other, on one pair or many: a page and its figures");
+  command
+      ->add_option("pictures", args.pictures,
+                   "left, right, left, right, ...; none is needed for --suite dissertation")
+      ->type_name("LEFT RIGHT");
+  const auto each = [command](const char* name, std::vector<Path>& to, const char* help, const char* type) {
+    return command->add_option(name, to, help)->type_name(type)->take_all()->allow_extra_args(false);
+  };
+  each("--calibration", args.calibrations, "once, or once for every pair", "rig.yml");
+  CLI::Option* rectified =
+      command->add_flag("--rectified", args.rectified, "the pictures are rectified already");
+  command
+      ->add_option_function<std::string>(
+          "--disparities",
+          [&args](const std::string& text) {
+            if (!disparity_range(text, args.least_disparity_px, args.most_disparity_px))
+              throw CLI::ValidationError(
+                  "--disparities",
+                  text +
+                      " is no range: give the least disparity and, above it, the first that is too large, from -4096 to 4096, such as 0:256");
+          },
+          "of --rectified: where a partner is looked for, pixels")
+      ->type_name("FROM:TO")
+      ->default_str("0:256")
+      ->needs(rectified);
+  each(
+      "--truth", args.truths,
+      "folder that 'relievo simulate face --truth' wrote, or a disparity map: PFM, or PNG whose 0 is unknown",
+      "DIR|FILE");
+  command->add_option("--truth-scale", args.truth_scale, "of a PNG: grey values per pixel of disparity")
+      ->check(CLI::Range(0.001, 65535.0))
+      ->capture_default_str();
+  command->add_option("--bad-px", args.limit_px, "a disparity off by more is bad")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  each("--sets", args.set_files, "sets of algorithms, a table each", "FILE.toml");
+  command->add_option("--set-of", args.set_words, "one set: \"NAME: KEY=VALUE KEY=VALUE\"")
+      ->type_name("SET")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--suite", args.suites,
+          "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
+      ->type_name("NAME")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--keep-maps", args.keep_maps, "every set's disparities as PFM beside the page");
+  command->add_option("-o,--output", args.output, "folder for the page and the figures")
+      ->required()
+      ->type_name("DIR");
+  command->callback([&args, &chosen] {
+    check_counts(args);
+    chosen = args;
+  });
+  return command;
+}
+
+}  // namespace relievo::firmware

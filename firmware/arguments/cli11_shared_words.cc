@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/arguments/shared_words.h"
+
+#include <CLI/CLI.hpp>
+
+namespace relievo::firmware {
+
+void add_store(CLI::App& command, Path& store) {
+  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+}
+
+}  // namespace relievo::firmware

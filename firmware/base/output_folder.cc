@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/base/output_folder.h"
+
+#include <cerrno>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include "hal/whole_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error failed(const fs::path& place, int number) {
+  Error error = number == ENOSPC || number == EDQUOT
+                    ? Error{Errc::MediaFull, "the disk is full: make room or choose another folder", number}
+                : number == EACCES || number == EROFS || number == EPERM
+                    ? Error{Errc::IoFailed, "may not be written: choose a folder you own", number}
+                    : Error{Errc::IoFailed, "cannot be written: check the disk and the path", number};
+  return error.at(place.native());
+}
+
+// The topmost folder on the way to `folder` that does not exist yet; empty when all do.
+fs::path first_missing(fs::path folder) {
+  fs::path missing;
+  std::error_code ignored;
+  while (!folder.empty() && !fs::exists(folder, ignored)) {
+    missing = folder;
+    folder = folder.parent_path();
+  }
+  return missing;
+}
+
+}  // namespace
+
+Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
+  std::error_code error;
+  OutputFolder folder;
+  folder.target_ = fs::absolute(target).lexically_normal();
+  if (folder.target_.filename().empty()) folder.target_ = folder.target_.parent_path();  // "out/"
+  if (fs::exists(folder.target_, error) && !fs::is_directory(folder.target_, error)) {
+    return Error{Errc::InvalidInput, "is a file, not a folder: choose another name"}.at(target.native());
+  }
+  const fs::path parent = folder.target_.parent_path();
+  folder.made_parent_ = first_missing(parent);
+  folder.work_ = parent / ("." + folder.target_.filename().string() + ".part" + std::to_string(getpid()));
+  fs::create_directories(folder.work_, error);
+  if (error) return failed(target, error.value());
+  return folder;
+}
+
+OutputFolder::OutputFolder(OutputFolder&& other) noexcept
+    : target_(std::move(other.target_)),
+      work_(std::exchange(other.work_, {})),
+      made_parent_(std::exchange(other.made_parent_, {})) {}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!work_.empty()) fs::remove_all(work_, ignored);
+  // Only what is empty: somebody else may have begun to use the folders in the meantime.
+  for (fs::path parent = target_.parent_path(); !made_parent_.empty(); parent = parent.parent_path()) {
+    if (!fs::remove(parent, ignored) || parent == made_parent_) break;
+  }
+}
+
+Result<void> OutputFolder::commit() {
+  std::error_code error;
+  if (!fs::exists(target_, error)) {
+    fs::rename(work_, target_, error);
+    if (error) return failed(target_, error.value());
+    work_.clear();
+    made_parent_.clear();
+    return {};
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
+    fs::rename(entry.path(), target_ / entry.path().filename(), error);
+    if (error) return failed(target_ / entry.path().filename(), error.value());
+  }
+  return {};
+}
+
+Result<void> write_text(const fs::path& file, std::string_view text, const fs::path& place) {
+  if (const auto written = hal::write_whole_file(file, std::as_bytes(std::span(text))); !written) {
+    return written.error().at(place.native());
+  }
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where things are when nobody says otherwise, and the staff's settings as the store keeps them: a line each,
+// "key value". Thread: any.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/device/settings.h"
+
+namespace relievo::firmware {
+
+// The folder that is named; where none is, $XDG_DATA_HOME/relievo, ~/.local/share/relievo, or relievo-store
+// where there is no home.
+std::filesystem::path store_folder(const std::filesystem::path& named);
+
+inline constexpr const char* kDeviceSetting = "device";  // the store's key of all of them
+
+std::string text_of(const ui::Settings& settings);
+// What is missing, or not one of a setting's values, stays as usual; `complaints` are the lines that say such
+// a thing.
+ui::Settings settings_of(std::string_view text, std::vector<std::string>& complaints);
+
+}  // namespace relievo::firmware

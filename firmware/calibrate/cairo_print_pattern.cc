@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "firmware/calibrate/print_pattern.h"
+#include "pipeline/calibrate/board/board_drawing.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kPointsPerMm = 72 / 25.4;
+constexpr double kTextMm = 2.2;
+constexpr double kLineMm = 2.8;
+
+struct Destroy {
+  void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
+using Cairo = std::unique_ptr<cairo_t, Destroy>;
+
+cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(data);
+  static_cast<std::vector<std::byte>*>(closure)->insert(static_cast<std::vector<std::byte>*>(closure)->end(),
+                                                        bytes, bytes + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// Scaled so that user space is millimetres.
+Surface make_surface(const PatternPage& page, PageFormat format, std::vector<std::byte>& out) {
+  const double width = page.width_mm * kPointsPerMm;
+  const double height = page.height_mm * kPointsPerMm;
+  if (format == PageFormat::Svg)
+    return Surface(cairo_svg_surface_create_for_stream(append, &out, width, height));
+  Surface surface(cairo_pdf_surface_create_for_stream(append, &out, width, height));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, page.text.front().c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "Relievo");
+  return surface;
+}
+
+// One path for all: neighbouring areas leave no seam between them.
+void paint_board(cairo_t* cairo, const PatternPage& page, const std::vector<pipeline::BlackArea>& black) {
+  for (const pipeline::BlackArea& area : black)
+    cairo_rectangle(cairo, page.board_x_mm + area.x_mm, page.board_y_mm + area.y_mm, area.width_mm,
+                    area.height_mm);
+  cairo_fill(cairo);
+}
+
+void write(cairo_t* cairo, double x_mm, double y_mm, const char* text) {
+  cairo_move_to(cairo, x_mm, y_mm);
+  cairo_show_text(cairo, text);
+}
+
+// Ticks stand on the line every millimetre; their middles are the marks.
+void paint_ruler(cairo_t* cairo, const PatternPage& page) {
+  cairo_set_line_width(cairo, 0.15);
+  for (int mm = 0; mm <= static_cast<int>(page.ruler_mm); ++mm) {
+    const double height = mm % 10 == 0 ? 2.4 : (mm % 5 == 0 ? 1.7 : 1.0);
+    cairo_move_to(cairo, page.ruler_x_mm + mm, page.ruler_y_mm);
+    cairo_line_to(cairo, page.ruler_x_mm + mm, page.ruler_y_mm - height);
+  }
+  cairo_move_to(cairo, page.ruler_x_mm, page.ruler_y_mm);
+  cairo_line_to(cairo, page.ruler_x_mm + page.ruler_mm, page.ruler_y_mm);
+  cairo_stroke(cairo);
+  for (int mm = 0; mm <= static_cast<int>(page.ruler_mm); mm += 10) {
+    const std::string text = std::to_string(mm) + (mm == static_cast<int>(page.ruler_mm) ? " mm" : "");
+    cairo_text_extents_t size;
+    cairo_text_extents(cairo, std::to_string(mm).c_str(), &size);
+    write(cairo, page.ruler_x_mm + mm - size.x_advance / 2, page.ruler_y_mm + kTextMm, text.c_str());
+  }
+}
+
+// As large as fits beside the ruler.
+void paint_words(cairo_t* cairo, const PatternPage& page) {
+  double widest = 0;
+  for (const std::string& line : page.text) {
+    cairo_text_extents_t size;
+    cairo_text_extents(cairo, line.c_str(), &size);
+    widest = std::max(widest, size.x_advance);
+  }
+  cairo_set_font_size(cairo, kTextMm * std::min(1.0, page.text_width_mm / std::max(widest, 1e-9)));
+  double y = page.ruler_y_mm - 0.3;
+  for (const std::string& line : page.text) {
+    write(cairo, page.text_x_mm, y, line.c_str());
+    y += kLineMm;
+  }
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> draw_page(const PatternPage& page, const pipeline::BoardPattern& pattern,
+                                         PageFormat format) {
+  RELIEVO_TRY_ASSIGN(const auto black, pipeline::draw_board(pattern));
+  std::vector<std::byte> out;
+  const Surface surface = make_surface(page, format, out);
+  const Cairo cairo(cairo_create(surface.get()));
+  cairo_scale(cairo.get(), kPointsPerMm, kPointsPerMm);
+  cairo_set_source_rgb(cairo.get(), 1, 1, 1);
+  cairo_paint(cairo.get());
+  cairo_set_source_rgb(cairo.get(), 0, 0, 0);
+  paint_board(cairo.get(), page, black);
+  cairo_select_font_face(cairo.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo.get(), kTextMm);
+  paint_ruler(cairo.get(), page);
+  paint_words(cairo.get(), page);
+  cairo_show_page(cairo.get());
+  cairo_surface_finish(surface.get());
+  if (cairo_status(cairo.get()) != CAIRO_STATUS_SUCCESS ||
+      cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
+    return Error{Errc::LibraryFailed, "cairo could not draw the page"};
+  return out;
+}
+
+}  // namespace relievo::firmware

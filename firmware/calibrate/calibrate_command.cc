@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/calibrate/calibrate_command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "firmware/calibrate/calibrate_report.h"
+#include "hal/picture_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+using Files = std::map<std::string, Path>;
+
+std::optional<std::string> key_of(const Path& file, std::string_view side) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string stem = file.stem().string();
+  if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side))
+    return std::nullopt;
+  return stem.substr(side.size());
+}
+
+Result<void> sort_in(const Path& file, std::string_view side, Files& files) {
+  const auto key = key_of(file, side);
+  if (key && !files.emplace(*key, file).second)
+    return Error{Errc::InvalidInput, "two pictures with this name differ in their ending only; remove one"}
+        .at(file.native());
+  return {};
+}
+
+std::string plain_name(const std::string& key) {
+  const auto first = key.find_first_not_of("_- ");
+  return first == std::string::npos ? "left/right" : key.substr(first);
+}
+
+struct Pair {
+  hal::Picture left;
+  hal::Picture right;
+};
+
+Result<Pair> read_pair(const PicturePairFiles& files) {
+  Pair pair;
+  RELIEVO_TRY_ASSIGN(pair.left, hal::read_picture(files.left));
+  RELIEVO_TRY_ASSIGN(pair.right, hal::read_picture(files.right));
+  return pair;
+}
+
+// No board is a finding, anything else an error.
+Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern,
+                                    const Path& file) {
+  auto corners = pipeline::find_board(picture.view(), pattern);
+  if (corners) return corners;
+  if (corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
+  return corners.error().at(file.native());
+}
+
+// The size of the cameras' pictures is that of the first board seen. A picture without a board may
+// have any: it plays no part.
+Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
+                                       pipeline::CalibratorInput& input) {
+  RELIEVO_TRY_ASSIGN(pipeline::BoardCorners corners, look(picture, input.pattern, file));
+  if (corners.empty()) return corners;
+  if (input.width_px == 0) {
+    input.width_px = picture.width_px;
+    input.height_px = picture.height_px;
+  }
+  if (picture.width_px != input.width_px || picture.height_px != input.height_px)
+    return Error{Errc::InvalidInput,
+                 "is not as large as the boards before; all must come from the same two cameras"}
+        .at(file.native());
+  return corners;
+}
+
+const char* finding(const pipeline::BoardView& view) {
+  if (view.left.empty()) return view.right.empty() ? "no board in left and right" : "no board in left";
+  return view.right.empty() ? "no board in right" : "board found";
+}
+
+Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>& pairs,
+                                             const pipeline::BoardPattern& pattern, std::ostream& out) {
+  pipeline::CalibratorInput input;
+  input.pattern = pattern;
+  bool any = false;
+  for (const PicturePairFiles& files : pairs) {
+    RELIEVO_TRY_ASSIGN(const Pair pair, read_pair(files));
+    pipeline::BoardView& view = input.views.emplace_back();
+    view.name = files.name;
+    RELIEVO_TRY_ASSIGN(view.left, look_in(pair.left, files.left, input));
+    RELIEVO_TRY_ASSIGN(view.right, look_in(pair.right, files.right, input));
+    any = any || (!view.left.empty() && !view.right.empty());
+    out << "view " << view.name << ": " << finding(view) << std::endl;
+  }
+  if (!any)
+    return Error{Errc::InvalidInput,
+                 "no pair shows a whole board with these inner corners; check --corners and the light"}
+        .at(pairs.front().left.parent_path().native());
+  return input;
+}
+
+}  // namespace
+
+void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
+  char line[320];
+  for (const pipeline::ViewQuality& view : q.views) {
+    if (view.used)
+      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px",
+                    view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
+    else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
+    out << line;
+    if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
+    out << '\n';
+  }
+  std::snprintf(line, sizeof line,
+                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
+                "px, baseline %.2f mm",
+                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
+                q.held_out_epipolar_px, q.baseline_mm);
+  out << line << '\n';
+  std::snprintf(
+      line, sizeof line,
+      "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %.3f mm from where their squares put them; "
+      "lengths within %.3f %% (95 %%)",
+      pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm, q.measured_depth_mm,
+      pipeline::kTwoSided95 * q.uncertainty.scale_percent);
+  out << line << '\n';
+  if (q.expected_as_in_use)
+    out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
+  const char* const words[] = {"pass", "usable", "refuse"};
+  out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
+  for (const Sentence& reason : q.reasons) out << "  " << reason.text() << '\n';
+  out.flush();
+}
+
+Result<void> check_calibration_output(const Path& output) {
+  std::error_code error;
+  const Path folder = output.has_parent_path() ? output.parent_path() : Path(".");
+  if (!std::filesystem::is_directory(folder, error))
+    return Error{Errc::NotFound, "the folder for the calibration does not exist; make it first"}.at(
+        folder.native());
+  if (std::filesystem::is_directory(output, error))
+    return Error{Errc::InvalidInput, "is a folder; name a file such as rig.yml"}.at(output.native());
+  return {};
+}
+
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    return Error{Errc::NotFound, "no such folder; give the one with the left* and right* pictures"}.at(
+        folder.native());
+  Files left;
+  Files right;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    RELIEVO_TRY(sort_in(entry->path(), "left", left));
+    RELIEVO_TRY(sort_in(entry->path(), "right", right));
+  }
+  if (error) return Error{Errc::IoFailed, "the folder cannot be read"}.at(folder.native());
+  if (left.empty() && right.empty())
+    return Error{Errc::NotFound, "holds no pictures named left* and right* (png or jpg)"}.at(folder.native());
+  for (const auto& [key, file] : left)
+    if (!right.contains(key))
+      return Error{Errc::InvalidInput, "has no partner right* of the same name; add it or remove this one"}
+          .at(file.native());
+  for (const auto& [key, file] : right)
+    if (!left.contains(key))
+      return Error{Errc::InvalidInput, "has no partner left* of the same name; add it or remove this one"}.at(
+          file.native());
+  std::vector<PicturePairFiles> pairs;
+  for (const auto& [key, file] : left) pairs.push_back({plain_name(key), file, right.at(key)});
+  return pairs;
+}
+
+pipeline::BoardPattern pattern_of(const BoardArgs& board) {
+  return {
+      board.corners_across, board.corners_down,
+      board.square_mm,      board.charuco ? pipeline::BoardKind::Charuco : pipeline::BoardKind::Chessboard,
+      board.marker_mm,      board.marker_bits};
+}
+
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
+                                                 const RigToday& today) {
+  const pipeline::BoardPattern pattern = pattern_of(args.board);
+  RELIEVO_TRY(pattern.check());
+  RELIEVO_TRY(check_calibration_output(args.output));
+  RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(args.pictures));
+  if (pairs.size() > pipeline::kMaxBoardPairs)
+    return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
+        args.pictures.native());
+  RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, out));
+  input.expected_baseline_mm = args.baseline_mm.value_or(0);
+  if (!args.baseline_mm) input.in_use = today.in_use;
+  auto result = pipeline::calibrate(input);
+  if (!result) return result.error().at(args.pictures.native() + ": " + std::string(result.error().where()));
+  tell_quality(result->quality, out);
+  if (!args.report.empty())
+    RELIEVO_TRY(write_calibration_report(args.report, pairs, input, *result, today.made_at, out));
+  if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
+    return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
+        .at(args.pictures.native());
+  RELIEVO_TRY(pipeline::write_calibration(args.output, result->calibration));
+  return result;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml [--report
+// DIR]
+//           [--baseline-mm N]
+//
+// Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
+// rig.yml and, where asked for, a folder with the report (calibrate_report.h). One line a pair
+// and the reasons of the verdict go to `out`. Nothing half-written stays; a calibration that is
+// refused is not written, its report is.
+// Errors: NotFound (folder, pictures), InvalidInput (a name without its partner, pictures of
+// different sizes, no board in any pair), PoorGeometry (too few pairs, refused), the files' own.
+// args.store is the caller's business: the calibration comes back. Thread: main.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "firmware/arguments/command_line.h"
+#include "hal/base/result.h"
+#include "pipeline/calibrate/calibrator.h"
+
+namespace relievo::firmware {
+
+struct PicturePairFiles {
+  std::string name;  // what follows left and right, without _ or - before it
+  Path left;
+  Path right;
+};
+
+pipeline::BoardPattern pattern_of(const BoardArgs& board);
+
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder);
+
+// Can the file be written? Asked before the work begins.
+Result<void> check_calibration_output(const Path& output);
+
+// One line a view, then the verdict and its reasons.
+void tell_quality(const pipeline::CalibrationQuality& quality, std::ostream& out);
+
+// What the caller knows of the rig and the day.
+struct RigToday {
+  std::string made_at;  // for the report
+  std::optional<pipeline::StereoCalibration>
+      in_use{};  // whose baseline is expected where --baseline-mm is not given
+};
+
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
+                                                 const RigToday& today = {});
+
+}  // namespace relievo::firmware

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/calibrate/calibrate_live.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <span>
+#include <string>
+
+#include "firmware/calibrate/calibrate_command.h"
+#include "firmware/jobs/pool_size.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/live/live_calibration.h"
+
+namespace relievo::firmware {
+namespace {
+
+using pipeline::LiveState;
+using pipeline::PairVerdict;
+using Steady = std::chrono::steady_clock;
+
+std::string fixed(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+void tell_pair(const LiveState& s, std::ostream& out) {
+  std::string line = "pair " + std::to_string(s.pairs) + ": " + pipeline::name_of(s.verdict);
+  if (s.verdict == PairVerdict::Moving && s.moved_px[0] > 0)
+    line += " " + fixed(std::max(s.moved_px[0], s.moved_px[1]), 1) + " px";
+  if (s.verdict == PairVerdict::Blurred)
+    line += ", edges of " + fixed(std::max(s.edge_px[0], s.edge_px[1]), 1) + " px";
+  if (s.verdict == PairVerdict::Taken) {
+    line += " as view " + std::to_string(s.views);
+    if (s.error_mm > 0) line += ", predicted error " + fixed(s.error_mm, 3) + " mm";
+    line += ", X " + fixed(s.bars.x, 2) + " Y " + fixed(s.bars.y, 2) + " size " + fixed(s.bars.size, 2) +
+            " skew " + fixed(s.bars.skew, 2);
+  }
+  line += std::string("; ") + pipeline::name_of(s.advice);
+  if (s.how_far > 0 && s.how_far < 2) line += " a little";
+  if (s.way.size() > 1) line += ", then " + pipeline::words_of(std::span(s.way).subspan(1));
+  out << line << std::endl;
+}
+
+void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowest, std::ostream& out) {
+  const double seconds = std::chrono::duration<double>(busy).count();
+  char line[280];
+  std::snprintf(
+      line, sizeof line,
+      "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
+      s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm, s.goal_mm,
+      s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
+  out << line << std::endl;
+}
+
+}  // namespace
+
+Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& args, LivePairs& pairs,
+                                                      std::ostream& out, const RigToday& today) {
+  RELIEVO_TRY(check_calibration_output(args.output));
+  pipeline::LiveOptions options;
+  options.goal_mm = args.goal_mm;
+  options.expected_baseline_mm = args.baseline_mm.value_or(0);
+  if (!args.baseline_mm) options.in_use = today.in_use;
+  ThreadPool pool(pool_size());
+  RELIEVO_TRY_ASSIGN(auto live, pipeline::LiveCalibration::begin(pattern_of(args.board), options, pool));
+  Steady::duration busy{0};
+  Steady::duration slowest{0};
+  while (!live.state().done()) {
+    RELIEVO_TRY_ASSIGN(const auto pair, pairs.next(live.state()));
+    if (!pair) break;
+    const auto begin = Steady::now();
+    RELIEVO_TRY(live.look(pair->left, pair->right, pair->at));
+    const auto took = Steady::now() - begin;
+    busy += took;
+    slowest = std::max(slowest, took);
+    tell_pair(live.state(), out);
+  }
+  tell_end(live.state(), busy, slowest, out);
+  auto result = live.finish();
+  if (!result) return result.error().at(args.cameras + ": " + std::string(result.error().where()));
+  tell_quality(result->quality, out);
+  if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
+    return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
+        .at(args.cameras);
+  result->calibration.cameras = pairs.cameras();
+  RELIEVO_TRY(pipeline::write_calibration(args.output, result->calibration));
+  return result;
+}
+
+}  // namespace relievo::firmware

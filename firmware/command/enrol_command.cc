@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "firmware/appliance/appliance.h"
+#include "firmware/arguments/algorithm_choice.h"
+#include "firmware/base/interrupt.h"
+#include "firmware/command/commands.h"
+#include "firmware/command/subject_lookup.h"
+#include "firmware/jobs/pool_size.h"
+#include "firmware/report/report.h"
+#include "firmware/work/pipeline_stages.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+// Which wording a person has agreed to when an operator enrols them by command.
+constexpr const char* kConsentWording = "operator-1";
+
+struct Calibrated {
+  pipeline::StereoCalibration calibration;
+  std::string name;            // for the report
+  std::string note;            // for the store: without the folders, which may be somebody's
+  std::uint32_t revision = 0;  // 0: of a file, and the store does not know it yet
+};
+
+Result<pipeline::StereoCalibration> in_use(const Path& folder, Services& services) {
+  const auto store = services.open_store(folder, false);
+  if (!store && store.error().code == Errc::NotFound) return Error{Errc::NotCalibrated, "there is no store"};
+  if (!store) return store.error();
+  return (*store)->active_calibration();
+}
+
+// Looked for before anything is made: without one no store appears.
+Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMode& mode, Services& services) {
+  Calibrated found;
+  if (!args.calibration.empty()) {
+    RELIEVO_TRY_ASSIGN(found.calibration,
+                       pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0}));
+    found.name = args.calibration.string();
+    found.note = args.calibration.filename().string();
+    return found;
+  }
+  const Path folder = store_folder(args.store);
+  const Result<pipeline::StereoCalibration> kept = in_use(folder, services);
+  if (kept) {
+    found.calibration = *kept;
+    found.revision = kept->revision;
+    found.name = found.note = "store revision " + std::to_string(found.revision);
+    return found;
+  }
+  if (kept.error().code != Errc::NotCalibrated) return kept.error();
+  if (args.board != "sim")
+    return Error{
+        Errc::NotCalibrated,
+        "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}
+        .at(folder.string());
+  // Nobody has to calibrate what is known exactly; the kiosk does the same.
+  RELIEVO_TRY_ASSIGN(found.calibration, services.simulated_calibration());
+  found.name = found.note = "the simulated rig";
+  return found;
+}
+
+// What a person decides at the screen is decided here: whoever gives the command has the consent,
+// and the first model is accepted.
+Result<void> drive(Appliance& appliance, Console& console) {
+  const std::atomic<bool>& stop = interrupted();
+  bool begun = false;
+  for (;;) {
+    appliance.step(budget::kTick);
+    if (stop.load()) appliance.ask(ui::Intent::Cancel);
+    switch (appliance.state()) {
+      case State::Idle:
+        if (stop.load()) return Error{Errc::Cancelled, "the enrolment was cancelled: nothing was stored"};
+        if (begun) return appliance.problem() ? Result<void>(*appliance.problem()) : Result<void>();
+        begun = true;
+        appliance.ask(ui::Intent::Begin);
+        break;
+      case State::Review:
+        if (appliance.problem()) return *appliance.problem();  // it could not be stored
+        appliance.ask(ui::Intent::Accept);
+        break;
+      case State::Fault:
+        return *appliance.problem();
+      case State::SelfTest:
+      case State::Capture:
+      case State::Match:
+      case State::Reconstruct:
+      case State::Mesh:
+      case State::Texture:
+      case State::Store:
+        console.progress(name_of(appliance.state()), appliance.progress());
+        break;
+      case State::Position:
+      case State::Calibrate:
+      case State::Export:
+      case State::Technician:
+      case State::Count:
+        break;
+    }
+  }
+}
+
+// One line for each thing that is done, so that a log shows the way too.
+void tell(const Change& change, const Appliance& appliance, Console& console) {
+  if (change.event == Event::Triggered) {
+    console.say("Capture      attempt " + std::to_string(appliance.attempt()));
+  } else if (change.event == Event::StageDone && change.from != State::Store) {
+    console.say(line_of(appliance.records().back()));
+    if (change.from == State::Match && appliance.drift()) console.say(line_of(*appliance.drift()));
+  } else if (change.event == Event::StageFailed && change.to == State::Capture) {
+    console.say(std::string(name_of(change.from)) + ": " + std::string(appliance.problem()->what.view()) +
+                "; once more");
+  }
+}
+
+std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
+                      const pipeline::FaceModel& model) {
+  Report report{calibrated.name,     stages.algorithms().to_text(),
+                appliance.records(), {},
+                peak_rss_bytes(),    model.quality,
+                appliance.drift(),   {},
+                model.landmarks,     model.head_from_camera};
+  for (const StageRecord& stage : report.stages) report.total += stage.took;
+  return report_json(report);
+}
+
+// The log of events remembers every face that spoke against the calibration; nobody's name goes into it.
+Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated, storage::Store& store) {
+  using pipeline::DriftVerdict;
+  const auto& drift = appliance.drift();
+  if (!drift || (drift->verdict != DriftVerdict::Warn && drift->verdict != DriftVerdict::Refuse)) return {};
+  return store.append_audit({"calibration.drift", {}, calibrated.note + ": " + sentence(*drift).text()});
+}
+
+}  // namespace
+
+Result<void> run_enrol(const EnrolArgs& args, Services& services) {
+  RELIEVO_TRY(check_subject(args.subject));
+  RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, board->preferred_mode(), services));
+  RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
+  RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
+
+  const BootMemory memory;
+  ThreadPool pool(pool_size());
+  PipelineStages stages(std::move(pipeline));
+  const Appliance* records = nullptr;
+  storage::EnrolmentId enrolment{};
+  // Runs on the keeper while this thread only waits for it.
+  const Keep keep = [&](std::string_view, const pipeline::FaceModel& model) -> Result<void> {
+    const auto now = std::chrono::floor<std::chrono::milliseconds>(board->clock().wall_now());
+    const std::string report = report_of(*records, stages, calibrated, model);
+    const std::string algorithms = stages.algorithms().to_text();
+    // What a model was measured with must be found again, also when the file is gone.
+    std::uint32_t revision = calibrated.revision;
+    if (revision == 0) {
+      RELIEVO_TRY_ASSIGN(revision, store->know_calibration(calibrated.calibration,
+                                                           "of an enrolment, from " + calibrated.note));
+    }
+    RELIEVO_TRY_ASSIGN(
+        enrolment,
+        store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
+    return {};
+  };
+  Appliance appliance({*board, stages, memory, pool, keep});
+  records = &appliance;
+  appliance.grabber().expect(calibrated.calibration.cameras);
+  appliance.set_subject(args.subject);
+  appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
+  const Result<void> done = drive(appliance, services.console);
+  const Result<void> logged = log_drift(appliance, calibrated, *store);
+  if (!done) return done.error().where().empty() ? done.error().at(args.board) : done.error();
+  services.console.say("stored: " + args.subject + ", enrolment " +
+                       std::to_string(static_cast<std::int64_t>(enrolment)));
+  return logged;
+}
+
+}  // namespace relievo::firmware

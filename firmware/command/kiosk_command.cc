@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `relievo` without a command: the kiosk, in a window or on the whole screen.
+#include <chrono>
+#include <thread>
+
+#include "firmware/base/interrupt.h"
+#include "firmware/command/commands.h"
+#include "firmware/kiosk/kiosk.h"
+#include "firmware/kiosk/script/script_player.h"
+#include "firmware/kiosk/script/visit_figures.h"
+#include "hal/picture_file.h"
+#include "ui/render/renderer.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::chrono::milliseconds kFrame{16};  // where the screen does not set the pace itself
+
+// What a loop without a script has not: fingers of its own, and figures of every frame.
+struct Scripted {
+  ScriptPlayer player;
+  VisitFigures figures;
+  Path pictures;
+};
+
+Result<void> keep_picture(ui::Renderer& renderer, const ui::Display& display, const Path& file) {
+  hal::Picture picture;
+  picture.width_px = display.width_px();
+  picture.height_px = display.height_px();
+  picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) *
+                       static_cast<std::size_t>(picture.height_px));
+  renderer.read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
+                     picture.width_px, picture.height_px);
+  return hal::write_picture(file, picture.view());
+}
+
+// Draws what is not on the screen yet: a page that stands still leaves the processor to the pipeline.
+class Glass {
+ public:
+  Glass(ui::Display& display, ui::Renderer& renderer) : display_(display), renderer_(renderer) {}
+
+  // True: there is a new frame, to be shown.
+  bool draw(Kiosk& kiosk, std::chrono::steady_clock::time_point now, bool wanted) {
+    const bool forgets = kiosk.take_forgotten();
+    const int width = display_.width_px(), height = display_.height_px();
+    const ui::DrawList& list = kiosk.ui().draw_list();
+    if (!wanted && !forgets && width == width_ && height == height_ && now - drawn_at_ < kAtLeastEvery &&
+        list == drawn_)
+      return false;
+    if (forgets) renderer_.forget();
+    renderer_.draw(list, kiosk.ui().text().atlas(), width, height);
+    drawn_ = list;
+    width_ = width;
+    height_ = height;
+    drawn_at_ = now;
+    return true;
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kAtLeastEvery{500};  // a window may have been covered
+  ui::Display& display_;
+  ui::Renderer& renderer_;
+  ui::DrawList drawn_;
+  int width_ = 0, height_ = 0;
+  std::chrono::steady_clock::time_point drawn_at_{};
+};
+
+// What may change the page: the next finger is for the page it leads to, however long a frame takes.
+bool is_a_deed(const ui::Input& input) {
+  using Kind = ui::Input::Kind;
+  return input.kind == Kind::Up || input.kind == Kind::Activate || input.kind == Kind::Back;
+}
+
+Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
+  RELIEVO_TRY_ASSIGN(const auto renderer, ui::Renderer::make());
+  Glass glass(display, *renderer);
+  const std::atomic<bool>& stop = interrupted();
+  while (!stop.load()) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::optional<std::string> picture;
+    if (scripted != nullptr) {
+      RELIEVO_TRY_ASSIGN(const bool goes_on, scripted->player.turn(kiosk, begin));
+      if (!goes_on) return {};
+      picture = scripted->player.take_screenshot();
+      scripted->figures.begin();
+    }
+    while (const auto input = display.poll()) {
+      if (input->kind == ui::Input::Kind::Quit) return {};
+      kiosk.feed(*input);
+      if (is_a_deed(*input)) break;
+    }
+    kiosk.ui().resize(display.width_px(), display.height_px());
+    kiosk.turn();
+    if (scripted != nullptr) scripted->figures.made();
+    const bool drawn = glass.draw(kiosk, begin, picture.has_value());
+    if (picture) RELIEVO_TRY(keep_picture(*renderer, display, scripted->pictures / (*picture + ".png")));
+    if (drawn) display.show();
+    if (scripted != nullptr) scripted->figures.shown(kiosk, drawn);
+    std::this_thread::sleep_until(begin + kFrame);
+  }
+  return {};
+}
+
+Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAction> script,
+                        const Path& pictures, Services& services) {
+  ScriptPlayer::Hands hands{[&display](const ui::Input& finger) { display.push(finger); }, {}};
+  if (services.plug_stick)
+    hands.plug = [&kiosk, &services](const std::string& folder) {
+      return services.plug_stick(kiosk.board(), folder);
+    };
+  Scripted scripted{ScriptPlayer(std::move(script), std::move(hands)), VisitFigures(services.allocations),
+                    pictures};
+  RELIEVO_TRY(run_on(display, kiosk, &scripted));
+  for (const std::string& line : scripted.figures.lines()) services.console.say(line);
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_kiosk(const KioskArgs& args, Services& services) {
+  RELIEVO_TRY(ui::prepare_languages());
+  std::vector<ScriptAction> script;
+  const bool scripted = !args.script.empty(), pictures = !scripted && !args.screenshots.empty();
+  if (scripted) {
+    RELIEVO_TRY_ASSIGN(script, read_script(args.script));
+  }
+  std::error_code error;
+  if (!args.screenshots.empty() && (std::filesystem::create_directories(args.screenshots, error), error))
+    return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
+  RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
+  RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
+                                                                pictures ? 800 : args.height_px}));
+  if (scripted) return run_script(*display, *kiosk, std::move(script), args.screenshots, services);
+  return pictures ? services.take_screenshots(args, *kiosk, services.console)
+                  : run_on(*display, *kiosk, nullptr);
+}
+
+}  // namespace relievo::firmware

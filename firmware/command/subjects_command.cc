@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <string>
+
+#include "firmware/base/output_folder.h"
+#include "firmware/base/version.h"
+#include "firmware/base/wall_time.h"
+#include "firmware/command/commands.h"
+#include "firmware/command/light_model.h"
+#include "firmware/command/subject_lookup.h"
+#include "pipeline/recognition/recognition_images.h"
+#include "storage/export/model_files.h"
+
+namespace relievo::firmware {
+namespace {
+
+std::string number_of(storage::SubjectId id) { return "#" + std::to_string(static_cast<std::int64_t>(id)); }
+
+void say_subject(const storage::Subject& subject, Console& console) {
+  console.say(number_of(subject.id) + "  " + text_of(subject.created_at) + "  " +
+              std::to_string(subject.enrolments) +
+              (subject.enrolments == 1 ? " enrolment   " : " enrolments  ") + subject.name);
+}
+
+Result<void> list(storage::Store& store, Console& console) {
+  constexpr std::int64_t kPage = 1000;
+  for (std::int64_t skip = 0;; skip += kPage) {
+    RELIEVO_TRY_ASSIGN(const auto page, store.subjects({"", false, skip, kPage}));
+    for (const storage::Subject& subject : page) say_subject(subject, console);
+    if (static_cast<std::int64_t>(page.size()) < kPage) {
+      if (skip == 0 && page.empty()) console.say("nobody is in the store");
+      return {};
+    }
+  }
+}
+
+Result<void> show(storage::Store& store, const storage::Subject& subject, Console& console) {
+  say_subject(subject, console);
+  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
+  for (const storage::Enrolment& one : enrolments) {
+    console.say("  enrolment " + std::to_string(static_cast<std::int64_t>(one.id)) + "  " +
+                text_of(one.created_at) + "  model " + std::to_string(one.model_bytes / 1024) +
+                " KiB  calibration " +
+                (one.calibration_revision == 0 ? std::string("from a file")
+                                               : std::to_string(one.calibration_revision)) +
+                "  consent " + one.consent.wording + " (" + one.consent.language + ", " +
+                text_of(one.consent.given_at) + ")");
+  }
+  return {};
+}
+
+Result<void> export_newest(storage::Store& store, const storage::Subject& subject, const SubjectsArgs& args,
+                           Console& console) {
+  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
+  if (enrolments.empty()) return Error{Errc::NotFound, "has no enrolment: enrol first"}.at(args.subject);
+  const storage::Enrolment& newest = enrolments.back();
+  std::pmr::monotonic_buffer_resource memory;
+  RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
+  RELIEVO_TRY_ASSIGN(const auto images, pipeline::make_recognition_images(model, memory, memory));
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  storage::ExportOptions options(storage::ExportFrame::Head);
+  options.version = kVersion;
+  options.images = &images;
+  if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
+    return files.error().at(args.output.string());
+  }
+  if (args.lod > 0) {
+    RELIEVO_TRY_ASSIGN(const std::string light, write_light_model(model, args.lod, folder.path(),
+                                                                  storage::ExportFrame::Head, args.output));
+    console.say(light);
+  }
+  if (!newest.report_json.empty())
+    RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
+  RELIEVO_TRY(folder.commit());
+  console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name +
+              ": " + args.output.string());
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_subjects(const SubjectsArgs& args, Services& services) {
+  using Verb = SubjectsArgs::Verb;
+  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)
+                                                                : services.open_store(folder, false));
+  if (args.verb == Verb::List) return list(*store, services.console);
+  RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
+  switch (args.verb) {
+    case Verb::Show:
+      return show(*store, subject, services.console);
+    case Verb::Export:
+      return export_newest(*store, subject, args, services.console);
+    case Verb::Erase:
+      RELIEVO_TRY(store->erase_subject(subject.id));
+      services.console.say("erased: " + number_of(subject.id));
+      return {};
+    case Verb::List:
+      break;
+  }
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "firmware/compare/page/sections.h"
+#include "pipeline/report/text.h"
+
+namespace relievo::firmware::compare::sections {
+namespace {
+
+using pipeline::report::escaped;
+using pipeline::report::figure;
+
+// A column: what of a run, how many decimals, whether less is better.
+struct Column {
+  std::string title;
+  std::function<double(const Run&)> value;
+  int decimals;
+  enum class Better { Less, More, Neither } better;
+  std::function<std::string(const Run&)> beside = {};  // said below a value
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double percent(double share) { return 100 * share; }
+
+std::vector<Column> disparity_columns(const std::string& limit) {
+  using B = Column::Better;
+  const auto of = [](double (*get)(const DisparityScore&)) {
+    return [get](const Run& r) { return r.score ? get(*r.score) : kNone; };
+  };
+  return {
+      {"bad<small>off by more than " + limit + "&nbsp;px, or a hole; %</small>",
+       of([](const DisparityScore& s) { return percent(s.bad_limit); }), 2, B::Less},
+      {"bad, seen by both<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_seen); }),
+       2, B::Less},
+      {"bad of the given<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_given); }),
+       2, B::Less},
+      {"density<small>%</small>", of([](const DisparityScore& s) { return percent(s.density); }), 1, B::More},
+      {"median<small>error, px</small>", of([](const DisparityScore& s) { return s.median_px; }), 3, B::Less},
+      {"mean<small>px</small>", of([](const DisparityScore& s) { return s.mean_px; }), 2, B::Less},
+      {"rms<small>px</small>", of([](const DisparityScore& s) { return s.rms_px; }), 2, B::Less}};
+}
+
+std::vector<Column> model_columns() {
+  using B = Column::Better;
+  const auto of = [](double (*get)(const measure::Measurement&)) {
+    return [get](const Run& r) { return r.model ? get(*r.model) : kNone; };
+  };
+  using M = measure::Measurement;
+  return {
+      {"interior<small>median, mm</small>", of([](const M& m) { return m.interior_median_mm; }), 3, B::Less},
+      {"face within<small>95&nbsp;%, mm</small>", of([](const M& m) { return m.accuracy_p95_mm; }), 2,
+       B::Less},
+      {"complete<small>within 0.5&nbsp;mm, %</small>",
+       of([](const M& m) { return percent(m.complete_half_mm); }), 1, B::More},
+      {"off<small>over 3&nbsp;mm, %</small>", of([](const M& m) { return percent(m.outliers_3mm); }), 2,
+       B::Less},
+      {"in one sigma<small>68 is honest, %</small>", of([](const M& m) { return percent(m.within_sigma); }),
+       0, B::Neither}};
+}
+
+std::vector<Column> common_columns() {
+  using B = Column::Better;
+  return {
+      {"matched<small>accepted</small>",
+       [](const Run& r) { return r.matches.matches == 0 ? kNone : static_cast<double>(r.matches.accepted); },
+       0, B::Neither},
+      {"time<small>to match, ms</small>",
+       [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less},
+      {"time<small>to mesh, ms</small>", [](const Run& r) { return r.surface ? r.surface->mesh_ms : kNone; },
+       0, B::Less}};
+}
+
+// What needs no truth.
+std::vector<Column> own_columns() {
+  using B = Column::Better;
+  return {{"left-right<small>median, px</small>",
+           [](const Run& r) { return r.left_right ? r.left_right->median_px : kNone; }, 3, B::Less},
+          {"agree<small>left and right within 1&nbsp;px, %</small>",
+           [](const Run& r) { return r.left_right ? percent(r.left_right->within_1px) : kNone; }, 1, B::More},
+          {"photo<small>right view predicted, correlation</small>",
+           [](const Run& r) { return r.photo ? r.photo->median : kNone; }, 3, B::More,
+           [](const Run& r) {
+             return r.photo ? pipeline::report::counted(static_cast<int>(r.photo->asked), "window", "windows")
+                            : std::string();
+           }},
+          {"rows<small>disagree by, px</small>", [](const Run& r) { return r.epipolar_px.value_or(kNone); },
+           3, B::Less}};
+}
+
+void leave_out_empty(const std::vector<const Run*>& runs, std::vector<Column>& columns) {
+  std::erase_if(columns, [&runs](const Column& column) {
+    return std::all_of(runs.begin(), runs.end(),
+                       [&column](const Run* run) { return std::isnan(column.value(*run)); });
+  });
+}
+
+// None where all read the same.
+double best_of(const std::vector<const Run*>& runs, const Column& column) {
+  double best = kNone;
+  bool differ = false;
+  const Run* first = nullptr;
+  for (const Run* run : runs) {
+    const double value = column.value(*run);
+    if (std::isnan(value) || !run->failure.empty() || column.better == Column::Better::Neither) continue;
+    if (first == nullptr) first = run;
+    differ = differ || figure(value, column.decimals) != figure(column.value(*first), column.decimals);
+    const bool better = column.better == Column::Better::Less ? value < best : value > best;
+    if (std::isnan(best) || better) best = value;
+  }
+  return differ ? best : kNone;
+}
+
+// A set of which the columns know nothing says why instead; one that failed later does so below its row.
+std::string table(const Comparison& c, const std::vector<const Run*>& runs,
+                  const std::vector<Column>& columns, bool say_failures) {
+  std::vector<std::string> titles{"Set"};
+  std::vector<double> best;
+  for (const Column& column : columns) {
+    titles.push_back(column.title);
+    best.push_back(runs.size() > 1 ? best_of(runs, column) : kNone);
+  }
+  const std::string width =
+      "<td class=\"failed\" colspan=\"" + std::to_string(std::max<std::size_t>(1, columns.size())) + "\">";
+  std::string out = "<div class=\"scroll\">\n" + table_head(titles);
+  for (const Run* run : runs) {
+    out += "<tr>" + row_head(name_of(c, *run));
+    bool nothing = true;
+    for (const Column& column : columns) nothing = nothing && std::isnan(column.value(*run));
+    if (nothing) out += width + escaped(run->failure) + "</td>";
+    for (std::size_t i = 0; i < columns.size() && !nothing; ++i) {
+      const double value = columns[i].value(*run);
+      const std::string beside =
+          columns[i].beside && !std::isnan(value) ? "<small>" + columns[i].beside(*run) + "</small>" : "";
+      out += best_cell(figure(value, columns[i].decimals) + beside, value == best[i]);
+    }
+    out += "</tr>\n";
+    if (say_failures && !nothing && !run->failure.empty())
+      out += "<tr><th scope=\"row\"></th>" + width + escaped(run->failure) + "</td></tr>\n";
+  }
+  return out + "</tbody>\n</table>\n</div>\n";
+}
+
+}  // namespace
+
+std::string figures(const Comparison& c, const Runs& runs) {
+  const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
+  std::string out;
+  const bool models = any([](const Run* r) { return r->model.has_value(); });
+  const bool scores = any([](const Run* r) { return r->score.has_value(); });
+  if (models)
+    out += "<h3>The model, against the true surface</h3>\n" + table(c, runs, model_columns(), false);
+  if (scores)
+    out += (models ? "<h3 class=\"topic\">" : "<h3>") +
+           std::string("The disparities, against the true ones</h3>\n") +
+           table(c, runs, disparity_columns(pipeline::report::number(c.limit_px, 2)), !models);
+  std::vector<Column> columns = own_columns();
+  for (Column& column : common_columns()) columns.push_back(std::move(column));
+  leave_out_empty(runs, columns);
+  if (columns.empty() && scores) return out;
+  return out + (scores ? "<h3 class=\"topic\">What needs no truth</h3>\n" : "") +
+         table(c, runs, columns, !scores);
+}
+
+}  // namespace relievo::firmware::compare::sections

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/compare/set_run.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "firmware/base/boot_memory.h"
+#include "firmware/compare/page/surface_look.h"
+#include "firmware/measure/peak_memory.h"
+#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/selector_figures.h"
+#include "firmware/measure/self_agreement.h"
+#include "pipeline/pipeline.h"
+
+namespace relievo::firmware::compare {
+namespace {
+
+// Runs the steps, each timed and with a scratch arena of its own.
+class Bench {
+ public:
+  Bench(ThreadPool& pool, JobControl& control, Run& run)
+      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+        output_(memory_.output()),
+        pool_(pool),
+        control_(control),
+        run_(run) {}
+
+  template <typename Step>
+  auto step(const char* name, Step&& work) {
+    Arena scratch(memory_.scratch());
+    pipeline::StageContext context{output_, scratch, pool_, control_.progress, control_.cancelled};
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = pipeline::run_stage(context, std::forward<Step>(work));
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    scratch_peak_ = std::max(scratch_peak_, scratch.high_water());
+    run_.stages.push_back({name, took.count(), output_.used() + scratch.high_water()});
+    return result;
+  }
+  // What is looked at beside the reconstruction: neither its time nor its memory counts.
+  template <typename Step>
+  auto beside(Step&& work) {
+    BootMemory memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes);
+    Arena output(memory.output());
+    Arena scratch(memory.scratch());
+    pipeline::StageContext context{output, scratch, pool_, control_.progress, control_.cancelled};
+    return pipeline::run_stage(context, std::forward<Step>(work));
+  }
+  std::size_t touched_bytes() const { return output_.high_water() + scratch_peak_; }
+
+ private:
+  BootMemory memory_;
+  Arena output_;
+  ThreadPool& pool_;
+  JobControl& control_;
+  Run& run_;
+  std::size_t scratch_peak_ = 0;
+};
+
+// What the steps make, in their order.
+struct Made {
+  std::optional<pipeline::RectifiedPair> pair;
+  std::optional<pipeline::Keypoints> keypoints;
+  std::optional<pipeline::MatchSet> matches;
+  std::optional<pipeline::FaceModel> model;
+};
+
+Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench,
+                     Made& made) {
+  RELIEVO_TRY_ASSIGN(
+      made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
+        if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
+        RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair,
+                           pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
+        if (order.options.whole_view) return pair;
+        RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
+        RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
+        RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
+        return pair;
+      }));
+  return {};
+}
+
+// Step by step what Pipeline::match() does, so that each can be timed and its product looked at.
+Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
+  RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set.set));
+  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set.set));
+  RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
+  RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
+  if (preprocessor != nullptr) {
+    RELIEVO_TRY(bench.step("preprocess",
+                           [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+  }
+  const pipeline::RectifiedPair& pair = *made.pair;
+  RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) {
+    return selector->select(pair, c);
+  }));
+  RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) {
+    return matcher->match(pair, *made.keypoints, c);
+  }));
+  return bench.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
+    std::uint16_t bit = 1;
+    for (const auto& constraint : constraints) {
+      constraint->judge(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
+      bit = static_cast<std::uint16_t>(bit << 1U);
+    }
+    return {};
+  });
+}
+
+Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made,
+                         Run& run) {
+  auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) {
+    return pipeline.reconstruct(*made.pair, *made.matches, c);
+  });
+  if (!cloud) return cloud.error();
+  auto mesh =
+      bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
+  if (!mesh) return mesh.error();
+  auto model = bench.step("texture", [&](pipeline::StageContext& c) {
+    return pipeline.texture(*std::move(mesh), *made.pair, c);
+  });
+  if (!model) return model.error();
+  if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
+  made.model.emplace(*std::move(model));
+  return order.options.keep_model ? order.options.keep_model(*made.model) : Result<void>{};
+}
+
+void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, PairFacts& facts) {
+  if (facts.width_px != 0) return;
+  facts.width_px = pair.width_px;
+  facts.height_px = pair.height_px;
+  facts.least_px = pair.disparity_px(pair.far_mm);
+  facts.most_px = pair.disparity_px(pair.near_mm);
+  facts.rectified = !order.pair.calibration;
+  facts.grey.resize(pair.left.grey.size());
+  std::transform(pair.left.grey.begin(), pair.left.grey.end(), facts.grey.begin(),
+                 [](float g) { return static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)); });
+  if (order.pair.disparities) facts.truth = order.pair.disparities;
+  else if (order.pair.view) facts.truth = truth_of_view(*order.pair.view, pair);
+}
+
+Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Made& made, Run& run) {
+  std::optional<pipeline::Pipeline> pipeline;  // without a rig there is nothing to build
+  if (order.pair.calibration) {
+    const auto region = order.options.whole_view ? pipeline::Region::All : pipeline::Region::Face;
+    RELIEVO_TRY_ASSIGN(pipeline,
+                       pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
+  }
+  RELIEVO_TRY(rectify(order, pipeline, bench, made));
+  note_facts(order, *made.pair, facts);
+  const std::size_t before = run.stages.size();
+  RELIEVO_TRY(match(order.set, bench, made));
+  for (std::size_t i = before; i < run.stages.size(); ++i) run.match_ms += run.stages[i].ms;
+  run.map = disparity_map(*made.matches, made.pair->width_px, made.pair->height_px);
+  run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.options.limit_px);
+  run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
+  if (facts.truth) run.score = score(run.map, *facts.truth, order.options.limit_px);
+  return pipeline && order.options.models ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
+}
+
+// Of places that are no lattice, which is no choice.
+Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipeline::RectifiedPair& pair,
+                              const PairFacts& facts, const Made& made, Run& run) {
+  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
+  const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
+  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(*selector, pair, region, c));
+    run.selector = selector_figures(pair, *made.keypoints, right, *made.matches, facts.truth);
+    return {};
+  });
+}
+
+// What says how good the matches are without knowing what is true.
+Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made,
+                             Run& run) {
+  if (!made.matches) return {};
+  if (made.matches->epipolar_shift.measured()) run.epipolar_px = made.matches->epipolar_shift.residual_px;
+  const pipeline::RectifiedPair& pair = *made.pair;
+  std::optional<DisparityMap> model;
+  if (made.model) {
+    RELIEVO_TRY_ASSIGN(run.surface, surface_look(*made.model));
+    for (const StageCost& stage : run.stages)
+      if (stage.name == "mesh") run.surface->mesh_ms = stage.ms;
+    model = model_view(*made.pair, made.model->mesh);
+    RELIEVO_TRY(bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+      run.photo = photo_figures(*made.pair, *model, c);
+      return {};
+    }));
+  }
+  if (made.keypoints->lattice_step_px == 0) return look_at_selector(order, bench, pair, facts, made, run);
+  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(run.left_right, left_right_figures(pair, order.set.set, run.map, model, c));
+    return {};
+  });
+}
+
+std::string words_of(const Run& run, const Error& error) {
+  const std::string where(error.where());
+  return (run.stages.empty() ? "" : run.stages.back().name + ": ") + (where.empty() ? "" : where + ": ") +
+         std::string(error.what.view());
+}
+
+}  // namespace
+
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
+                     Run& run) {
+  const PeakMemory peak;
+  Bench bench(pool, control, run);
+  Made made;
+  Result<void> done = all_steps(order, bench, facts, made, run);
+  run.arena_peak_bytes = bench.touched_bytes();
+  const std::size_t above = peak.above_bytes();
+  run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
+  if (!done) run.failure = words_of(run, done.error());
+  if (done || done.error().code != Errc::Cancelled)
+    if (const auto looked = look_at_matches(order, bench, facts, made, run);
+        !looked && looked.error().code == Errc::Cancelled)
+      done = looked;
+  if (!done && done.error().code == Errc::Cancelled)
+    return Error{Errc::Cancelled, "cancelled: nothing was written"};
+  return {};
+}
+
+}  // namespace relievo::firmware::compare

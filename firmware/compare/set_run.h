@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One set of algorithms on one pair: every step timed, in memory of its own, measured against what is true.
+// Thread: worker.
+#pragma once
+
+#include "firmware/compare/compared_pair.h"
+#include "firmware/jobs/job_thread.h"
+#include "firmware/measure/comparison.h"
+#include "hal/base/thread_pool.h"
+#include "pipeline/model/face_model.h"
+
+namespace relievo::firmware::compare {
+
+struct RunOptions {
+  bool whole_view = false;
+  double limit_px = 1;
+  bool models = true;  // of calibrated pairs; else only their matches
+  // Called with a model while the memory it lies in stands; may be empty.
+  std::function<Result<void>(const pipeline::FaceModel&)> keep_model{};
+};
+
+struct RunOrder {
+  const ComparedPair& pair;
+  const NamedSet& set;
+  const RunOptions& options;
+};
+
+// What the algorithms say against it becomes `run.failure`; `facts` is filled in by the first set that
+// rectifies. Errors: Cancelled; those of `keep_model`.
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
+                     Run& run);
+
+}  // namespace relievo::firmware::compare

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/compare/suites.h"
+
+#include <array>
+
+#include "firmware/compare/page/dissertation.h"
+#include "pipeline/algorithms.h"
+
+namespace relievo::firmware::compare {
+namespace {
+
+using Words = std::vector<SetWords>;
+
+// What a kind may be here.
+std::vector<std::string> names_of(std::string_view kind) {
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
+    if (option.key == kind) return option.names;
+  return {};
+}
+
+// ZMNCC keeps nothing whose cost is above 0.6 (its min_score), and the rule's own limit stands above that: it
+// is for plain skin, which correlates little under noise and is matched right by `refined`. Of what lies
+// between, 76 % is wrong on aloe.
+constexpr std::string_view kSimilarityLimit = "similarity.max_cost=0.4";
+
+// Every matcher, as it is by default; those of a file match nothing without it.
+Words matchers() {
+  Words words;
+  for (const std::string& name : names_of("matcher"))
+    if (!name.starts_with("file")) words.push_back({name, {"matcher=" + name}});
+  return words;
+}
+
+// The default matcher without any rule, with each alone, and with all.
+Words constraints() {
+  Words words{{"no rule", {"constraints=none"}}};
+  std::string all;
+  for (const std::string& name : names_of("constraints")) {
+    if (name == "none") continue;
+    words.push_back({name, {"constraints=" + name}});
+    all += (all.empty() ? "" : "+") + name;
+  }
+  words.push_back({"all rules", {"constraints=" + all}});
+  return words;
+}
+
+Words selectors() {
+  Words words;
+  for (const std::string& name : names_of("selector")) {
+    if (name.starts_with("file")) continue;  // chooses nothing without its file
+    words.push_back({name, {"selector=" + name}});
+    const bool lattice = name == "dense" || name == "grid-points";
+    if (!lattice) words.back().settings.emplace_back("mesher=delaunay");  // which joins scattered points
+  }
+  return words;
+}
+
+Words preprocessors() {
+  Words words;
+  for (const std::string& name : names_of("preprocessor")) words.push_back({name, {"preprocessor=" + name}});
+  return words;
+}
+
+// What an OpenCV user writes today beside what is ours; the peer's own checks instead of our rules.
+Words peers() {
+  Words words{{"Relievo", {}}};
+  words.push_back({"sgm", {"matcher=sgm"}});
+  const std::vector<std::string> peer{"matcher=opencv-sgbm",     "constraints=none",
+                                      "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
+                                      "opencv-sgbm.max_lr_px=1", "opencv-sgbm.speckle_px=200"};
+  words.push_back({"OpenCV SGBM 3-way", peer});
+  words.back().settings.emplace_back("opencv-sgbm.mode=1");
+  words.push_back({"OpenCV SGBM HH", peer});
+  words.back().settings.emplace_back("opencv-sgbm.mode=2");
+  return words;
+}
+
+// Every mesher on the same points.
+Words meshers() {
+  Words words;
+  for (const std::string& name : names_of("mesher")) words.push_back({name, {"mesher=" + name}});
+  return words;
+}
+
+struct Suite {
+  std::string_view name;
+  Words (*make)();
+};
+constexpr std::array kSuites{
+    Suite{"peers", peers},         Suite{"matchers", matchers},           Suite{"constraints", constraints},
+    Suite{"selectors", selectors}, Suite{"preprocessors", preprocessors}, Suite{"meshers", meshers},
+};
+
+}  // namespace
+
+std::vector<SetWords> dissertation_rule_sets() {
+  Words words;
+  const auto add = [&words](std::string name, const std::string& matcher, const std::string& rules) {
+    words.push_back(
+        {std::move(name),
+         {"preprocessor=none", "matcher=" + matcher, "constraints=" + rules, std::string(kSimilarityLimit)}});
+  };
+  add("SSD", "ssd", "none");
+  add("ZMNCC", "zmncc", "none");
+  std::string rules;
+  for (const std::string_view rule : kDissertationRules) {
+    rules.append(rules.empty() ? "" : "+").append(rule);
+    add("ZMNCC + " + std::string(rule), "zmncc", rules);
+  }
+  words.push_back({"Relievo", {}});
+  return words;
+}
+
+std::vector<SetWords> dissertation_face_sets() {
+  std::string rules;
+  for (const std::string_view rule : kDissertationRules) rules.append(rules.empty() ? "" : "+").append(rule);
+  const std::vector<std::string> chain{"preprocessor=histogram-match",
+                                       "matcher=zmncc",
+                                       "constraints=" + rules,
+                                       std::string(kSimilarityLimit),
+                                       "triangulator=linear-least-squares",
+                                       "mesher=delaunay",
+                                       "texturer=single-view"};
+  Words words{{"2004, dense", chain}};
+  for (const char* selector : {"good-features", "haar"}) {
+    words.push_back({std::string("2004, ") + selector, chain});
+    words.back().settings.push_back(std::string("selector=") + selector);
+  }
+  words.push_back({"Relievo", {}});
+  return words;
+}
+
+std::vector<std::string_view> suite_names() {
+  std::vector<std::string_view> names;
+  names.reserve(std::size(kSuites));
+  for (const Suite& suite : kSuites) names.push_back(suite.name);
+  return names;
+}
+
+Result<std::vector<SetWords>> suite_sets(std::string_view name) {
+  for (const Suite& suite : kSuites)
+    if (suite.name == name) return suite.make();
+  std::string all(kDissertation);
+  for (const Suite& suite : kSuites) all += ", " + std::string(suite.name);
+  return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" +
+                                                                                    all + ")");
+}
+
+}  // namespace relievo::firmware::compare

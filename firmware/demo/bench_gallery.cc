@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/demo/bench_gallery.h"
+
+#include <array>
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/bench/algorithm_desk.h"
+#include "ui/bench/bench_view.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::BenchAct;
+using ui::BenchPhase;
+using ui::BenchStage;
+using ui::BenchView;
+using ui::StaffPage;
+
+constexpr std::array<std::string_view, 8> kHeads{"n",    "x₁ px", "y₁ px", "x₂ px",
+                                                 "d px", "σ px",  "1 − ρ", "×"};
+constexpr std::array<std::string_view, 80> kCells{
+    "11",      "812.00",     "304.00",  "771.318", "40.682",  "0.041",      "0.012",   "",        "12",
+    "814.00",  "304.00",     "773.297", "40.703",  "0.044",   "0.015",      "",        "13",      "816.00",
+    "304.00",  "779.911",    "36.089",  "0.310",   "0.428",   "similarity", "14",      "818.00",  "304.00",
+    "777.269", "40.731",     "0.043",   "0.014",   "",        "15",         "820.00",  "304.00",  "779.256",
+    "40.744",  "0.042",      "0.011",   "",        "16",      "822.00",     "304.00",  "781.240", "40.760",
+    "0.045",   "0.016",      "",        "17",      "824.00",  "304.00",     "782.098", "41.902",  "0.188",
+    "0.093",   "uniqueness", "18",      "826.00",  "304.00",  "785.219",    "40.781",  "0.044",   "0.013",
+    "",        "19",         "828.00",  "304.00",  "787.203", "40.797",     "0.041",   "0.012",   "",
+    "20",      "830.00",     "304.00",  "789.185", "40.815",  "0.046",      "0.017",   ""};
+constexpr std::array<std::string_view, 4> kCalibrationHeads{"", "1", "2", "1 → 2"};
+constexpr std::array<std::string_view, 40> kCalibrationCells{
+    "fx px", "2318.442",    "2321.107",    "R  +0.98172  +0.00218  -0.19030",
+    "fy px", "2317.905",    "2320.664",    "R  -0.00301  +0.99999  -0.00409",
+    "cx px", "958.310",     "961.774",     "R  +0.19029  +0.00459  +0.98172",
+    "cy px", "601.228",     "598.913",     "t  -108.114  +0.062  +10.530 mm",
+    "k₁",    "-0.081427",   "-0.080966",   "rms  0.118 px",
+    "k₂",    "+0.104310",   "+0.101772",   "№  4",
+    "p₁",    "+0.000214",   "-0.000087",   "",
+    "p₂",    "-0.000391",   "+0.000146",   "",
+    "k₃",    "-0.021508",   "-0.019944",   "",
+    "px",    "1920 × 1200", "1920 × 1200", ""};
+
+ui::BenchResult made_up_result() {
+  ui::BenchResult r;
+  r.there = true;
+  r.seconds = {1.42F, 0.18F, 0.31F, 0.66F};
+  r.made = {148220, 141873, 97342, 1048576};
+  r.arena_peak_mib = 147;
+  r.matches = 171004;
+  r.accepted = 148220;
+  constexpr std::array<std::string_view, 3> kNames{"similarity", "uniqueness", "continuity"};
+  constexpr std::array<std::uint64_t, 3> kRejected{17310, 2204, 3270};
+  constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{
+      {{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
+  r.rule_count = 3;
+  for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kNames[i], kColours[i], kRejected[i]};
+  r.median_sigma_mm = 0.061F;
+  r.coverage = 0.957F;
+  r.epipolar_px = 0.082F;
+  r.photo_correlation = 0.972F;
+  r.photo_windows = 2318;
+  return r;
+}
+
+// The rectified pair looks nearly as the pictures do; stages after it are the visitor's own pictures.
+void lend(const ui::ViewState& review, BenchStage stage, BenchView& view) {
+  view.stage = stage;
+  view.shown = {};
+  if (stage <= BenchStage::Rectified) {
+    if (review.frame != nullptr)
+      view.shown = {ui::BenchPicture{review.frame->left, 900001},
+                    ui::BenchPicture{review.frame->right, 900002}};
+    return;
+  }
+  const std::size_t last =
+      stage == BenchStage::Matches || stage == BenchStage::Disparity
+          ? 0
+          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(BenchStage::Cloud) + 1;
+  view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
+}
+
+BenchView ready(const ui::ViewState& review) {
+  BenchView view;
+  view.phase = BenchPhase::Ready;
+  view.result = made_up_result();
+  view.model = review.model;
+  view.model_number = 900003;
+  lend(review, BenchStage::Rectified, view);
+  return view;
+}
+
+ui::BenchPoint touched() {
+  ui::BenchPoint p;
+  p.touched = p.matched = true;
+  p.left_px = {812, 604};
+  p.right_px = {771.318F, 604};
+  p.left_x = 0.46F;
+  p.right_x = 0.52F;
+  p.y = 0.52F;
+  p.disparity_px = 40.68F;
+  p.sigma_px = 0.04F;
+  p.cost = 0.012F;
+  p.at_mm = {-12.4F, 31.8F, 557.2F};
+  p.sigma_mm = 0.052F;
+  return p;
+}
+
+AlgorithmDesk edited(bool typing) {
+  AlgorithmDesk desk;
+  desk.act({BenchAct::ChooseKind, 2});
+  desk.act({BenchAct::ChooseName, 2});
+  if (!typing) return desk;
+  desk.act({BenchAct::EditOption, 0});
+  for (const char digit : {'9', '9', '9'}) desk.act({BenchAct::TypeDigit, digit});
+  desk.act({BenchAct::UseTyped, 0});
+  return desk;
+}
+
+ui::BenchCameras watched(const ui::ViewState& review) {
+  ui::BenchCameras c;
+  c.watched = c.can_be_set = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (review.frame != nullptr)
+      c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right,
+                             900020 + static_cast<std::uint32_t>(i)};
+    c.camera[i].mean = i == 0 ? 0.46F : 0.44F;
+    c.camera[i].clipped = i == 0 ? 0.004F : 0.031F;
+    c.camera[i].focus = i == 0 ? 0.98F : 0.84F;
+    c.camera[i].frames = 1204;
+  }
+  c.skew_us = 18;
+  c.pairs = 1203;
+  c.pairs_per_second = 9.6F;
+  c.exposure_us = 4000;
+  c.gain = 1;
+  return c;
+}
+
+ui::BenchCalibration calibrated(const ui::ViewState& review, bool running) {
+  ui::BenchCalibration c;
+  c.running = running;
+  c.ended = !running;
+  c.advice = ui::BoardAdvice::TiltRight;
+  c.end = ui::BoardEnd::GoalReached;
+  for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
+    c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right,
+                     900030 + static_cast<std::uint32_t>(i)};
+  c.pairs = 88;
+  c.views = 11;
+  c.bars = {0.82F, 0.64F, 1, 0.37F};
+  for (std::size_t i = 0; i < 64; ++i)
+    c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : static_cast<std::uint32_t>(i % 24) * 3;
+  c.error_mm = 0.118F;
+  c.goal_mm = 0.1F;
+  c.verdict = ui::BenchVerdict::Good;
+  c.depth_error_mm = 0.094F;
+  c.rms_px = 0.021F;
+  c.baseline_mm = 108.63F;
+  static const std::vector<std::string> kGood{
+      "all figures are good: reprojection error {} px; epipolar error {} px on views not used; at {} mm depth is uncertain by {} mm and was found within {} mm of "
+      "where the known squares put it; lengths are uncertain by {} %\t0.021\t0.018\t560\t0.094\t0.061\t0.0113"};
+  if (!running) c.reasons = kGood;
+  c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
+  c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
+  c.history_count = 2;
+  return c;
+}
+
+// Refused, for more than one reason.
+ui::BenchCalibration refused(const ui::ViewState& review) {
+  static const std::vector<std::string> kReasons{
+      "left and right do not hold still relative to each other: they disagree {} times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant\t4.2",
+      "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of the board again: it would have to be {} of what was said\t102.11\t-6.0\t108.63\t1.064",
+      "only {} of {} pairs agree with each other\t5\t14"};
+  ui::BenchCalibration c = calibrated(review, false);
+  c.end = ui::BoardEnd::Plateau;
+  c.verdict = ui::BenchVerdict::Refuse;
+  c.depth_error_mm = 3.412F;
+  c.rms_px = 0.41F;
+  c.baseline_mm = 102.11F;
+  c.reasons = kReasons;
+  return c;
+}
+
+struct Lent {
+  std::string_view name;
+  StaffPage page;
+  BenchView view;
+  ui::ServiceView staff;
+  std::string_view note;  // said against the calibration
+  bool edges = false;
+};
+
+// What is lent to the pages, for as long as they are looked at.
+struct Lender {
+  std::deque<Lent> lent;
+  void add(std::string_view name, StaffPage page, const BenchView& view) {
+    lent.push_back({name, page, view, {}, {}, false});
+  }
+};
+
+void add_stages(Lender& all, const ui::ViewState& review) {
+  BenchView view;
+  all.add("bench_empty", StaffPage::Stages, view);
+  view.calibrated = false;
+  all.add("bench_uncalibrated", StaffPage::Stages, view);
+  view.calibrated = true;
+  view.phase = BenchPhase::Running;
+  view.working_on = 1;
+  view.progress = 0.4F;
+  all.add("bench_running", StaffPage::Stages, view);
+  view = ready(review);
+  view.point = touched();
+  all.add("bench_rectified", StaffPage::Stages, view);
+  view.can_record = true;
+  view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
+  all.add("bench_recording", StaffPage::Stages, view);
+  view.recording = {false, false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  all.add("bench_recorded", StaffPage::Stages, view);
+  view.recording = {true, true, 0.3F, ui::Outcome::None, {}};
+  all.add("bench_loading", StaffPage::Stages, view);
+  view.recording = {};
+  static const std::vector<std::string> saved{"2026-03-12_09-14-07.relievo", "2026-03-11_16-40-52.relievo"};
+  view.saved = {true, saved};
+  all.add("bench_saved", StaffPage::Stages, view);
+  view.saved = {true, {}};
+  all.add("bench_none_saved", StaffPage::Stages, view);
+  view.saved = {};
+  for (const auto& [name, stage] :
+       {std::pair{"bench_pictures", BenchStage::Input}, std::pair{"bench_matches", BenchStage::Matches},
+        std::pair{"bench_surface", BenchStage::Mesh}}) {
+    lend(review, stage, view);
+    all.add(name, StaffPage::Stages, view);
+  }
+}
+
+// The model, the tables, the choice of algorithms, and two results beside each other.
+void add_results(Lender& all, const ui::ViewState& review) {
+  static const AlgorithmDesk chosen = edited(false), typing = edited(true);
+  BenchView view = ready(review);
+  all.add("bench_model", StaffPage::Model, view);
+  all.add("bench_model_edges", StaffPage::Model, view);
+  all.lent.back().edges = true;
+  view.rows = {ui::BenchTable::Matches, kHeads, kCells, 1, 17101, 171004};
+  all.add("bench_table", StaffPage::Tables, view);
+  view.rows = {ui::BenchTable::Calibration, kCalibrationHeads, kCalibrationCells, 0, 1, 10};
+  all.add("bench_calibration_table", StaffPage::Tables, view);
+  view.choice = chosen.view();
+  all.add("bench_algorithms", StaffPage::Algorithms, view);
+  view.choice = typing.view();
+  all.add("bench_option", StaffPage::Algorithms, view);
+  lend(review, BenchStage::Mesh, view);
+  view.kept = view.result;
+  view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
+  view.compared = {view.shown[0], view.shown[0]};
+  all.add("bench_compare", StaffPage::Compare, view);
+}
+
+void add_cameras(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
+  view.cameras = watched(review);
+  all.add("bench_cameras", StaffPage::Cameras, view);
+  view.cameras.relief_shown = true;
+  view.cameras.relief = {review.stages[0].picture, 900022};
+  all.add("bench_relief", StaffPage::Cameras, view);
+}
+
+void add_calibrations(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
+  view.calibration = calibrated(review, true);
+  all.add("bench_calibrating", StaffPage::Calibrate, view);
+  view.calibration = calibrated(review, false);
+  all.add("bench_calibrated", StaffPage::Calibrate, view);
+  view.calibration = refused(review);
+  all.add("bench_refused", StaffPage::Calibrate, view);
+  view.calibration = calibrated(review, false);
+  view.calibration.ended = false;
+  all.add("bench_moved", StaffPage::Calibrate, view);
+  all.lent.back().note =
+      "the rows of both views disagree by {} px (more than {} px is refused): a camera has moved, calibrate again\t2.47\t1.5";
+  all.add("bench_exchanged", StaffPage::Calibrate, view);
+  all.lent.back().note =
+      "the left camera is not the one that was calibrated: put that one back, or calibrate again\tserial 4061 → serial 4088";
+}
+
+void add_failures(Lender& all, const ui::ViewState& review) {
+  BenchView view = ready(review);
+  lend(review, BenchStage::Rectified, view);
+  view.result.failed_at = 3;
+  view.result.failure =
+      "that looks like a picture of a face: please look into the cameras yourself\t1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5";
+  view.result.made = {};
+  all.add("bench_failed", StaffPage::Stages, view);
+  view.model = nullptr;
+  all.add("bench_no_model", StaffPage::Model, view);
+}
+
+}  // namespace
+
+void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
+                        const ui::ViewState& idle, const ui::Visit& visit) {
+  static Lender all;
+  all.lent.clear();
+  add_stages(all, review);
+  add_results(all, review);
+  add_cameras(all, review);
+  add_calibrations(all, review);
+  add_failures(all, review);
+  for (Lent& one : all.lent) {
+    one.staff.role = ui::StaffRole::Technician;
+    one.staff.bench = &one.view;
+    Exhibit exhibit{one.name, idle, visit, {}};
+    exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.calibration_note = one.note;
+    exhibit.view.service = &one.staff;
+    exhibit.visit.look.edges = one.edges;
+    exhibit.service.show(one.page);
+    exhibits.push_back(exhibit);
+  }
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/demo/gallery.h"
+
+#include "firmware/demo/bench_gallery.h"
+#include "firmware/demo/staff_gallery.h"
+
+namespace relievo::firmware {
+namespace {
+
+using pipeline::Advice;
+using ui::Overlay;
+using ui::Screen;
+using ui::Step;
+using ui::Trouble;
+
+constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre",
+                                                     "Iñaki Muñoz",  "ليلى حسن",      "נועה לוי",
+                                                     "Wang Wei",     "Sato Yuki"};
+
+class Gallery {
+ public:
+  Gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size, bool high_contrast)
+      : review_(review) {
+    visit_.language = language;
+    visit_.text_size = text_size;
+    visit_.high_contrast = high_contrast;
+    visit_.touched(review.now);
+  }
+
+  ui::ViewState idle() const {
+    ui::ViewState view = review_;
+    view.screen = Screen::Idle;
+    view.model = nullptr;
+    view.trouble = Trouble::None;
+    view.stages = {};
+    return view;
+  }
+  ui::Visit at(Step step, Overlay overlay = Overlay::None) const {
+    ui::Visit visit = visit_;
+    visit.step = step;
+    visit.overlay = overlay;
+    return visit;
+  }
+  ui::Visit named() const {
+    ui::Visit visit = at(Step::Name);
+    visit.type(kNames[static_cast<std::size_t>(visit.language)]);
+    return visit;
+  }
+  ui::Visit quoting(std::string_view code) const {
+    ui::Visit visit = at(Step::Known);
+    visit.act({ui::ActionKind::HaveCode, 0}, review_);
+    visit.type(code);
+    return visit;
+  }
+  void add(std::string_view name, const ui::ViewState& view, const ui::Visit& visit) {
+    exhibits.push_back({name, view, visit, {}});
+  }
+
+  void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
+    ui::ViewState view = idle();
+    view.screen = Screen::Position;
+    view.live.advice = advice;
+    view.live.face_x = face_x;
+    view.live.steady_s = steady_s;
+    view.attempt = attempt;
+    if (attempt > 0) view.trouble = Trouble::Refused;
+    add(name, view, at(Step::Position));
+  }
+  void add_working(std::string_view name, Screen screen, std::size_t born) {
+    ui::ViewState view = idle();
+    view.screen = screen;
+    view.progress = 0.4F;
+    for (std::size_t i = 0; i < born; ++i) view.stages[i] = review_.stages[i];
+    add(name, view, at(Step::Working));
+  }
+  void add_trouble(std::string_view name, Trouble trouble, Screen screen) {
+    ui::ViewState view = idle();
+    view.screen = screen;
+    view.trouble = trouble;
+    add(name, view, at(Step::Trouble));
+  }
+
+  std::vector<Exhibit> exhibits;
+
+ private:
+  ui::ViewState review_;
+  ui::Visit visit_;
+};
+
+// From the invitation to the name.
+void add_beginning(Gallery& g, const ui::ViewState& idle) {
+  g.add("starting", idle, g.at(Step::Starting));
+  g.add("attract", idle, g.at(Step::Attract));
+  g.add("languages", idle, g.at(Step::Attract, Overlay::Languages));
+  g.add("consent", idle, g.at(Step::Consent));
+  g.add("name_empty", idle, g.at(Step::Name));
+  g.add("name", idle, g.named());
+  ui::ViewState met = idle;
+  met.known = ui::Known::Name;
+  g.add("known_name", met, g.at(Step::Known));
+  met.known = ui::Known::NoSuchCode;
+  g.add("wrong_code", met, g.quoting("4821-9037-5512-17"));
+  met.known = ui::Known::Code;
+  g.add("known_code", met, g.at(Step::Known));
+}
+
+void add_capture(Gallery& g) {
+  g.add_position("position_look", Advice::NoFace, 0, 0, 0);
+  g.add_position("position_aside", Advice::OffCentre, 0.5F, 0, 0);
+  g.add_position("position_close", Advice::TooClose, 0, 0, 0);
+  g.add_position("position_again", Advice::Moved, 0, 0, 1);
+  g.add_position("position_countdown", Advice::None, 0, ui::kSteadyFor + 0.6F, 0);
+  g.add_working("working_begin", Screen::Match, 0);
+  g.add_working("working", Screen::Mesh, 2);
+  g.add_working("storing", Screen::Store, 4);
+}
+
+void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
+  g.add("review", review, g.at(Step::Review));
+  ui::ViewState full = review;
+  full.trouble = Trouble::Storage;
+  ui::Visit turned = g.at(Step::Review);
+  turned.look = {32, 6, 1.1F, 25, false};
+  g.add("review_turned", review, turned);
+  g.add("review_store_full", full, g.at(Step::Review));
+  ui::ViewState done = idle;
+  done.receipt = "4821-9037-5512-71";
+  g.add("thanks", done, g.at(Step::Thanks));
+}
+
+// What lies over a page.
+void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
+  g.add("help", idle, g.at(Step::Consent, Overlay::Help));
+  g.add("leave", review, g.at(Step::Review, Overlay::Leave));
+  ui::ViewState late = idle;
+  late.now += ui::kPatience + std::chrono::seconds(4);
+  g.add("still_there", late, g.at(Step::Consent, Overlay::StillThere));
+}
+
+void add_troubles(Gallery& g, const ui::ViewState& idle) {
+  g.add_trouble("trouble_camera", Trouble::Camera, Screen::Fault);
+  g.add_trouble("trouble_calibration", Trouble::Calibration, Screen::Fault);
+  g.add_trouble("trouble_refused", Trouble::Refused, Screen::Idle);
+  g.add_trouble("trouble_store", Trouble::Storage, Screen::Fault);
+  g.add_trouble("trouble_time", Trouble::TookTooLong, Screen::Idle);
+  ui::ViewState barred = idle;
+  barred.out_of_order = Trouble::Uncalibrated;
+  g.add("trouble_uncalibrated", barred, g.at(Step::Trouble));
+  barred.out_of_order = Trouble::Clock;
+  g.add("trouble_clock", barred, g.at(Step::Trouble));
+  barred.out_of_order = Trouble::Restarted;
+  g.add("trouble_restarted", barred, g.at(Step::Trouble));
+  g.add_trouble("trouble_other", Trouble::Other, Screen::Fault);
+}
+
+}  // namespace
+
+std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
+                             bool high_contrast) {
+  Gallery g(review, language, text_size, high_contrast);
+  const ui::ViewState idle = g.idle();
+  add_beginning(g, idle);
+  add_capture(g);
+  add_decision(g, review, idle);
+  add_overlays(g, review, idle);
+  add_troubles(g, idle);
+  add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
+  add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
+  return std::move(g.exhibits);
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/demo/staff_gallery.h"
+
+#include <array>
+#include <deque>
+
+#include "ui/device/settings.h"
+#include "ui/device/touch_view.h"
+#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::Mood;
+using ui::ServiceView;
+using ui::StaffPage;
+using ui::StaffRole;
+
+constexpr ui::StatisticsView kStatistics{"2026-03-02", 412, 455, 398, 371, 27, {21, 14, 9, 0, 2, 6, 5},
+                                         2.75,         4.25};
+constexpr std::array kGauges{
+    ui::GaugeRow{ui::Gauge::Stages, {}, 311, 960, Mood::Good},
+    ui::GaugeRow{ui::Gauge::Process, {}, 894, 1536, Mood::Good},
+    ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn},
+    ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 61, 0, Mood::Good},
+};
+constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself",
+                           kSlow = "took longer than its limit: try again";
+constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
+                             ui::LogLine{"2026-03-14 09:02:44", true, kSlow, kSlow, {}}};
+constexpr ui::HealthView kHealth{kGauges, kFaults};
+
+constexpr std::array kPeople{
+    ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "4821-9037-5512-71", 1},
+    ui::RecordRow{430, "Jürgen Müller", "2026-03-14 09:03", "0094-2650-7731-77", 2},
+    ui::RecordRow{429, "ليلى حسن", "2026-03-13 16:48", "7315-0086-2249-30", 1},
+    ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
+    ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
+};
+constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
+                               false,   false, 0,    0};
+constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
+                                 false,   true,  0,    0};
+
+constexpr ui::SelfTestView kTested{{ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad,
+                                    ui::CheckState::Running, ui::CheckState::NotTested},
+                                   {"", "", "the store holds no calibration: calibrate first", "", ""}};
+constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
+constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
+constexpr std::array kLines{
+    ui::LogLine{"2026-03-14 10:21:09", true, kAway, kAway, {}},
+    ui::LogLine{
+        "2026-03-14 10:20:44", false, "setting patience_s is 30", "setting {} is {}", {"patience_s", "30"}},
+    ui::LogLine{"2026-03-14 10:20:31", false, "technician signed in", "technician signed in", {}},
+    ui::LogLine{"2026-03-14 10:20:20", false, "a wrong PIN was typed", "a wrong PIN was typed", {}},
+    ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}},
+    ui::LogLine{"2026-03-13 07:58:02", false, "started", "started", {}}};
+constexpr ui::LogView kLog{kLines};
+
+ui::Settings kept_for_a_year() {
+  ui::Settings settings;
+  settings.set(ui::Setting::KeepDays, 365);
+  return settings;
+}
+
+const ui::ConsentTexts& own_text() {
+  static const ui::ConsentTexts kOwn = [] {
+    ui::ConsentTexts own;
+    own.version = "2026-03";
+    const auto say = [&](ui::Language language, const char* title) {
+      own.in[static_cast<std::size_t>(language)] = ui::ConsentText{title, {{"1", "2"}}};
+    };
+    say(ui::Language::English, "What we do with your portrait");
+    say(ui::Language::German,
+        "Was mit Ihrem Bildnis geschieht, wie lange es aufbewahrt wird und wie Sie es löschen lassen");
+    say(ui::Language::Arabic, "ماذا يحدث لصورتك");
+    return own;
+  }();
+  return kOwn;
+}
+
+ServiceView at(StaffRole role) {
+  ServiceView view;
+  view.role = role;
+  return view;
+}
+
+// Every page, as a view that lives as long as the program.
+struct Shown {
+  std::string_view name;
+  StaffPage page;
+  int mode;
+  ServiceView view;
+};
+
+void add_touch(std::deque<Shown>& all) {
+  static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false},
+      kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
+      kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false},
+      kMisfit{ui::TouchStep::Rest, ui::TouchVerdict::Misfit, 0, 0, true, false, 0, 0, false};
+  ServiceView touch = at(StaffRole::Technician);
+  for (const auto& [name, view] :
+       {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest},
+        std::pair{"staff_touch_kept", &kKept}, std::pair{"staff_touch_misfit", &kMisfit}}) {
+    touch.touch = view;
+    all.push_back({name, StaffPage::Touch, 0, touch});
+  }
+}
+
+// How an export of everyone ended.
+void add_sticks(std::deque<Shown>& all, ServiceView records) {
+  static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, {}, false, false, 5, 2};
+  using ui::Outcome;
+  records.records = &kTwoOfFive;
+  for (const auto& [name, outcome] :
+       {std::pair{"staff_stick_gone", Outcome::StickGone}, std::pair{"staff_stick_full", Outcome::StickFull},
+        std::pair{"staff_stick_locked", Outcome::StickLocked},
+        std::pair{"staff_stick_bad", Outcome::StickBad}, std::pair{"staff_stick_held", Outcome::StickHeld},
+        std::pair{"staff_stick_unchecked", Outcome::StickUnchecked},
+        std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
+    records.work.outcome = outcome;
+    all.push_back({name, StaffPage::Records, 0, records});
+  }
+}
+
+// The way in: PINs, the first start, a PIN that was forgotten.
+void add_door(std::deque<Shown>& all) {
+  ServiceView door;
+  all.push_back({"staff_pin", StaffPage::Pin, 0, door});
+  door.access.wait_s = 300;
+  all.push_back({"staff_pin_locked", StaffPage::Pin, 0, door});
+  ServiceView fresh;
+  fresh.access.set_up = false;
+  fresh.access.clock = "2026-03-14 10:21:09";
+  all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
+  all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
+  fresh.access.clock_right = true;
+  static const ui::ConsentShelfView kUntouched{},
+      kWrong{
+          false, ui::Outcome::Refused, "zh.txt",
+          "is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
+  fresh.consent = &kUntouched;
+  all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
+  fresh.consent = &kWrong;
+  all.push_back({"staff_first_consent_wrong", StaffPage::FirstStart, 1, fresh});
+  fresh.access.consent_right = true;
+  fresh.access.fault = ui::PinFault::Simple;
+  all.push_back({"staff_first_pin", StaffPage::FirstStart, 1, fresh});
+  fresh.access.forgotten = true;
+  fresh.access.fault = ui::PinFault::None;
+  fresh.access.step = ui::PinStep::Operator;
+  all.push_back({"staff_forgotten_pin", StaffPage::FirstStart, 0, fresh});
+}
+
+void add_menus(std::deque<Shown>& all) {
+  all.push_back({"staff_technician", StaffPage::Menu, 0, at(StaffRole::Technician)});
+  ServiceView leaving = at(StaffRole::Operator);
+  leaving.leaves_in_s = 9;
+  all.push_back({"staff_operator", StaffPage::Menu, 0, leaving});
+}
+
+void add_records(std::deque<Shown>& all) {
+  ServiceView records = at(StaffRole::Operator);
+  records.records = &kList;
+  all.push_back({"staff_records", StaffPage::Records, 0, records});
+  all.push_back({"staff_search", StaffPage::Records, 1, records});
+  add_sticks(all, records);
+  records.work = {true, 0.6F, ui::Outcome::None, {}};
+  all.push_back({"staff_export", StaffPage::Records, 0, records});
+  records.work = {};
+  records.records = &kNobody;
+  all.push_back({"staff_nobody", StaffPage::Records, 0, records});
+  records.records = &kOne;
+  all.push_back({"staff_record", StaffPage::Records, 0, records});
+  all.push_back({"staff_erase", StaffPage::Records, 2, records});
+  records.records = &kTaken;
+  records.work.outcome = ui::Outcome::Done;
+  all.push_back({"staff_exported", StaffPage::Records, 0, records});
+}
+
+void add_figures(std::deque<Shown>& all) {
+  ServiceView statistics = at(StaffRole::Operator);
+  statistics.statistics = &kStatistics;
+  all.push_back({"staff_statistics", StaffPage::Statistics, 0, statistics});
+  ServiceView health = at(StaffRole::Technician);
+  health.health = &kHealth;
+  all.push_back({"staff_health", StaffPage::Health, 0, health});
+}
+
+void add_tests(std::deque<Shown>& all) {
+  ServiceView tests = at(StaffRole::Technician);
+  tests.self_test = &kTested;
+  tests.log = &kLog;
+  tests.trigger = &kPulsed;
+  all.push_back({"staff_self_test", StaffPage::SelfTest, 0, tests});
+  all.push_back({"staff_trigger", StaffPage::Trigger, 0, tests});
+  tests.trigger = &kMissed;
+  all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
+  all.push_back({"staff_log", StaffPage::Log, 0, tests});
+}
+
+void add_settings(std::deque<Shown>& all) {
+  ServiceView settings = at(StaffRole::Technician);
+  static const ui::SettingsView kUsual{}, kJumped{kept_for_a_year(), true};
+  settings.settings = &kUsual;
+  all.push_back({"staff_settings", StaffPage::Settings, 0, settings});
+  settings.role = StaffRole::Operator;
+  settings.settings = &kJumped;
+  settings.work.outcome = ui::Outcome::Done;
+  all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
+  static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, {}, {}};
+  settings.consent = &kInForce;
+  all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
+}
+
+std::deque<Shown> make_shown() {
+  std::deque<Shown> all;
+  add_door(all);
+  add_menus(all);
+  add_records(all);
+  add_figures(all);
+  add_tests(all);
+  add_settings(all);
+  add_touch(all);
+  ServiceView pins = at(StaffRole::Operator);
+  pins.access.step = ui::PinStep::Own;
+  all.push_back({"staff_new_pin", StaffPage::Pins, 0, pins});
+  return all;
+}
+
+}  // namespace
+
+void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit) {
+  static std::deque<Shown> all = make_shown();
+  for (Shown& shown : all) {
+    const bool turns = shown.view.records != nullptr && shown.view.records->shown != nullptr;
+    shown.view.model = turns ? idle.showpiece : nullptr;
+    shown.view.model_number = 1;
+    Exhibit exhibit{shown.name, idle, visit, {}};
+    exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.service = &shown.view;
+    if (shown.page == StaffPage::Consent) exhibit.view.consent = &own_text();
+    exhibit.service.show(shown.page, shown.mode);
+    exhibits.push_back(exhibit);
+  }
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/jobs/job_thread.h"
+
+#include <atomic>
+#include <exception>
+#include <new>
+
+namespace relievo::firmware {
+namespace {
+
+// Unique over all threads, so that a late report of a cancelled job is never taken for another's.
+std::atomic<JobId> next_id{1};
+
+Result<void> run_guarded(Job& job, JobControl& control) {
+  try {
+    return job.run(control);
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory, "the job's memory is used up: use smaller pictures"};
+  } catch (const std::exception&) {
+    return Error{Errc::LibraryFailed, "a library gave up on this input: try another picture"};
+  }
+}
+
+}  // namespace
+
+JobThread::JobThread(JobReports& reports) : reports_(reports), thread_([this] { serve(); }) {}
+
+JobThread::~JobThread() {
+  cancel();
+  wait_until_idle();
+  orders_.put(Order{});
+  thread_.join();
+}
+
+Result<JobId> JobThread::start(Job& job) {
+  if (busy()) return Error{Errc::InvalidState, "the thread is still busy with the job before"};
+  cancelled_.store(false, std::memory_order_relaxed);
+  progress_.done.store(0, std::memory_order_relaxed);
+  busy_.store(true, std::memory_order_release);
+  last_id_ = next_id.fetch_add(1, std::memory_order_relaxed);
+  orders_.put({&job, last_id_});
+  return last_id_;
+}
+
+void JobThread::wait_until_idle() {
+  std::unique_lock lock(idle_mutex_);
+  idle_.wait(lock, [this] { return !busy(); });
+}
+
+void JobThread::serve() {
+  for (;;) {
+    const std::optional<Order> order = orders_.take_for(std::chrono::hours(1));
+    if (!order) continue;
+    if (order->job == nullptr) return;
+    JobControl control{cancelled_, progress_};
+    const Result<void> result = run_guarded(*order->job, control);
+    JobReport report{order->id, std::nullopt};
+    if (!result) report.error = result.error();
+    {
+      const std::lock_guard lock(idle_mutex_);
+      busy_.store(false, std::memory_order_release);  // before the report: who hears it may start the next
+    }
+    idle_.notify_all();
+    reports_.put(report);
+  }
+}
+
+}  // namespace relievo::firmware

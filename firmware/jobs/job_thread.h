@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// JobThread: one thread that does one job at a time: capture, worker and keeper are three of them.
+//
+//   idle --start()--> busy --job returns--> idle, and a report in the queue
+//                      |
+//                   cancel(): the job sees its flag and returns Errc::Cancelled within kCancelWithin
+//
+// The destructor cancels, waits for the job and joins. Thread: all methods main; Job::run() inside.
+// Errors: start() says InvalidState while busy.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "firmware/jobs/job_report.h"
+#include "hal/base/mailbox.h"
+#include "hal/base/result.h"
+#include "pipeline/base/stage.h"
+
+namespace relievo::firmware {
+
+// What a running job looks at and writes to.
+struct JobControl {
+  const std::atomic<bool>& cancelled;
+  pipeline::Progress& progress;
+};
+
+class Job {
+ public:
+  virtual ~Job() = default;
+  // May throw bad_alloc or a library's exception: the thread turns both into an error.
+  virtual Result<void> run(JobControl& control) = 0;
+};
+
+class JobThread {
+ public:
+  explicit JobThread(JobReports& reports);
+  ~JobThread();
+  JobThread(const JobThread&) = delete;
+  JobThread& operator=(const JobThread&) = delete;
+
+  // The job is borrowed until its report arrives or wait_until_idle() returns.
+  Result<JobId> start(Job& job);
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  bool busy() const { return busy_.load(std::memory_order_acquire); }
+  void wait_until_idle();
+  float progress() const { return progress_.done.load(std::memory_order_relaxed); }
+
+ private:
+  struct Order {
+    Job* job = nullptr;  // none: the thread ends
+    JobId id = 0;
+  };
+  void serve();
+
+  JobReports& reports_;
+  Mailbox<Order> orders_;
+  std::atomic<bool> cancelled_{false};
+  std::atomic<bool> busy_{false};
+  std::mutex idle_mutex_;
+  std::condition_variable idle_;
+  pipeline::Progress progress_;
+  JobId last_id_ = 0;
+  std::thread thread_;  // last: everything it uses stands before it starts
+};
+
+}  // namespace relievo::firmware

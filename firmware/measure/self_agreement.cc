@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/measure/self_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane.h"
+
+namespace relievo::firmware::compare {
+namespace {
+
+using pipeline::Plane;
+
+// The value below which `share` of them lie; they are put in another order.
+double quantile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return static_cast<double>(values[static_cast<std::size_t>(k)]);
+}
+
+template <typename T>
+void mirror_rows(std::pmr::vector<T>& values, int width, int channels) {
+  const auto w = static_cast<std::size_t>(width);
+  const auto n = static_cast<std::size_t>(channels);
+  for (std::size_t row = 0; row + w * n <= values.size(); row += w * n)
+    for (std::size_t x = 0; x < w / 2; ++x)
+      for (std::size_t c = 0; c < n; ++c)
+        std::swap(values[row + x * n + c], values[row + (w - 1 - x) * n + c]);
+}
+
+void mirror(pipeline::RectifiedView& view, int width) {
+  mirror_rows(view.grey, width, 1);
+  mirror_rows(view.rgb, width, 3);
+  mirror_rows(view.valid, width, 1);
+}
+
+// Disparity of the nearest surface of a mesh at every pixel of the left view; NaN where it shows none.
+class ModelView {
+ public:
+  explicit ModelView(const pipeline::RectifiedPair& pair)
+      : pair_(pair), map_(pair.width_px, pair.height_px) {}
+
+  void draw(const pipeline::FaceMesh& mesh) {
+    for (const auto& t : mesh.triangles) {
+      const Seen a = seen(mesh.vertices_mm[t[0]]), b = seen(mesh.vertices_mm[t[1]]),
+                 c = seen(mesh.vertices_mm[t[2]]);
+      if (a.front && b.front && c.front) fill(a, b, c);
+    }
+  }
+  const DisparityMap& map() const { return map_; }
+
+ private:
+  struct Seen {
+    double x, y, d;
+    bool front;
+  };
+
+  Seen seen(const pipeline::Vec3f& at) const {
+    const pipeline::Vec3d p =
+        apply(pair_.rectified_from_left,
+              {static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
+    if (!(p.z > 0)) return {0, 0, 0, false};
+    const double s = pair_.focal_px / p.z;
+    return {pair_.left_centre_px.x + s * p.x, pair_.left_centre_px.y + s * p.y, pair_.disparity_px(p.z),
+            true};
+  }
+
+  // A plane's disparity is linear over the picture, so that it may be interpolated there.
+  void fill(const Seen& a, const Seen& b, const Seen& c) {
+    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (area == 0) return;
+    const int x0 = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
+    const int x1 = std::min(pair_.width_px - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
+    const int y0 = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+    const int y1 = std::min(pair_.height_px - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
+        const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        const auto d = static_cast<float>(u * a.d + v * b.d + (1 - u - v) * c.d);
+        float& here = map_.values[map_.index(x, y)];
+        if (std::isnan(here) || d > here) here = d;  // the nearer one hides the other
+      }
+  }
+
+  const pipeline::RectifiedPair& pair_;
+  DisparityMap map_;
+};
+
+// Planes whose sums over a window give the correlation.
+struct Products {
+  Products(std::pmr::memory_resource* memory, int w, int h)
+      : count(memory, w, h),
+        left(memory, w, h),
+        right(memory, w, h),
+        left_left(memory, w, h),
+        right_right(memory, w, h),
+        left_right(memory, w, h) {}
+  Plane<float> count, left, right, left_left, right_right, left_right;
+};
+
+void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map, Products& p) {
+  const auto w = static_cast<std::size_t>(pair.width_px);
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = 0; x < pair.width_px; ++x) {
+      if (!map.known(x, y)) continue;
+      const float at = static_cast<float>(x) - map.at(x, y);
+      const int k = static_cast<int>(std::floor(at));
+      if (k < 0 || k + 1 >= pair.width_px) continue;
+      const std::size_t right = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(k);
+      if ((pair.right.valid[right] & pair.right.valid[right + 1] & pair.left.valid[map.index(x, y)]) == 0)
+        continue;
+      const float r = pair.right.grey[right] +
+                      (at - static_cast<float>(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
+      const float l = pair.left.grey[map.index(x, y)];
+      p.count.row(y)[x] = 1;
+      p.left.row(y)[x] = l;
+      p.right.row(y)[x] = r;
+      p.left_left.row(y)[x] = l * l;
+      p.right_right.row(y)[x] = r * r;
+      p.left_right.row(y)[x] = l * r;
+    }
+}
+
+double correlation(const Products& p, std::size_t k) {
+  const double n = static_cast<double>(p.count.values[k]);
+  const auto mean = [&](const Plane<float>& plane) { return static_cast<double>(plane.values[k]) / n; };
+  const double l = mean(p.left);
+  const double r = mean(p.right);
+  const double ll = std::max(mean(p.left_left) - l * l, 0.0);
+  const double rr = std::max(mean(p.right_right) - r * r, 0.0);
+  return (mean(p.left_right) - l * r) / std::sqrt(ll * rr + 1e-9);
+}
+
+}  // namespace
+
+pipeline::RectifiedPair mirrored(const pipeline::RectifiedPair& pair, const DisparityMap& map) {
+  pipeline::RectifiedPair other = pair;
+  std::swap(other.left, other.right);
+  mirror(other.left, pair.width_px);
+  mirror(other.right, pair.width_px);
+  const double last = pair.width_px - 1;
+  other.left_centre_px = {last - pair.right_centre_px.x, pair.right_centre_px.y};
+  other.right_centre_px = {last - pair.left_centre_px.x, pair.left_centre_px.y};
+  const int face_x = std::clamp(static_cast<int>(pair.face_centre_px.x), 0, pair.width_px - 1);
+  const int face_y = std::clamp(static_cast<int>(pair.face_centre_px.y), 0, pair.height_px - 1);
+  const double between = map.known(face_x, face_y) ? static_cast<double>(map.at(face_x, face_y))
+                                                   : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
+  other.face_centre_px = {last - (pair.face_centre_px.x - between), pair.face_centre_px.y};
+  std::fill(other.region.begin(), other.region.end(), std::uint8_t{0});
+  for (int y = 0; y < pair.height_px && !pair.region.empty(); ++y)
+    for (int x = 0; x < pair.width_px; ++x) {
+      if (!map.known(x, y)) continue;
+      const int to = pair.width_px - 1 - static_cast<int>(std::lround(static_cast<float>(x) - map.at(x, y)));
+      for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
+        other.region[map.index(near, y)] = 1;
+    }
+  return other;
+}
+
+Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
+                                            const pipeline::AlgorithmSet& set, const DisparityMap& map,
+                                            const std::optional<DisparityMap>& model,
+                                            pipeline::StageContext& context) {
+  const pipeline::RectifiedPair other = mirrored(pair, map);
+  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set));
+  RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set));
+  RELIEVO_TRY_ASSIGN(const pipeline::Keypoints keypoints, selector->select(other, context));
+  RELIEVO_TRY_ASSIGN(const pipeline::MatchSet matches, matcher->match(other, keypoints, context));
+  const DisparityMap back = disparity_map(matches, pair.width_px, pair.height_px);
+  LeftRightFigures figures;
+  std::vector<float> apart;
+  std::size_t close = 0;
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = 0; x < pair.width_px; ++x) {
+      if (!map.known(x, y) || (model && !model->known(x, y))) continue;
+      ++figures.asked;
+      const float at = static_cast<float>(pair.width_px - 1) - (static_cast<float>(x) - map.at(x, y));
+      const int k = static_cast<int>(std::floor(at));
+      if (!back.holds(k, y) || !back.holds(k + 1, y) || !back.known(k, y) || !back.known(k + 1, y)) continue;
+      const float there = back.at(k, y) + (at - static_cast<float>(k)) * (back.at(k + 1, y) - back.at(k, y));
+      apart.push_back(std::abs(there - map.at(x, y)));
+      close += apart.back() <= 1 ? 1 : 0;
+    }
+  figures.answered = apart.size();
+  figures.median_px = quantile(apart, 0.5);
+  figures.p95_px = quantile(apart, 0.95);
+  figures.within_1px = apart.empty() ? 0 : static_cast<double>(close) / static_cast<double>(apart.size());
+  return figures;
+}
+
+DisparityMap model_view(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh) {
+  ModelView view(pair);
+  view.draw(mesh);
+  return view.map();
+}
+
+PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model,
+                           pipeline::StageContext& context) {
+  Products p(&context.scratch, pair.width_px, pair.height_px);
+  take_products(pair, model, p);
+  Plane<float> across(&context.scratch, pair.width_px, pair.height_px);
+  for (Plane<float>* plane : {&p.count, &p.left, &p.right, &p.left_left, &p.right_right, &p.left_right})
+    pipeline::box_sum(*plane, kPhotoWindowPx / 2, context.pool, across, *plane);
+  std::vector<float> all;
+  constexpr float kFull = kPhotoWindowPx * kPhotoWindowPx;
+  for (std::size_t k = 0; k < p.count.values.size(); ++k)
+    if (p.count.values[k] >= kFull - 0.5F) all.push_back(static_cast<float>(correlation(p, k)));
+  PhotoFigures figures;
+  figures.asked = all.size();
+  figures.median = quantile(all, 0.5);
+  figures.p5 = quantile(all, 0.05);
+  return figures;
+}
+
+}  // namespace relievo::firmware::compare

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/reconstruct/reconstruction.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "firmware/arguments/algorithm_choice.h"
+#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/watched_job.h"
+#include "firmware/reconstruct/picture_pair.h"
+#include "firmware/work/first_change.h"
+#include "firmware/work/reconstruct_job.h"
+#include "hal/monotonic_clock.h"
+#include "hal/whole_file.h"
+#include "pipeline/recognition/recognition_images.h"
+
+namespace relievo::firmware {
+namespace {
+
+// The words of --from.
+State stage_named(std::string_view word) {
+  if (word == "match") return State::Match;
+  if (word == "reconstruct") return State::Reconstruct;
+  return word == "mesh" ? State::Mesh : State::Texture;
+}
+
+Result<State> first_stage(std::string_view from, const pipeline::AlgorithmSet& saved,
+                          const pipeline::AlgorithmSet& wanted) {
+  const State changed = first_change(saved, wanted);
+  if (from.empty()) return changed;
+  const State named = stage_named(from);
+  if (changed >= named) return named;
+  return Error{Errc::InvalidInput,
+               "a setting changes a stage before this one: begin there, or leave --from out"}
+      .at("--from " + std::string(from));
+}
+
+}  // namespace
+
+Result<void> Reconstruction::run(const Path& left, const Path& right, const Path& calibration_file,
+                                 const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
+  RELIEVO_TRY_ASSIGN(PicturePair pictures, read_pair(left, right));
+  RELIEVO_TRY_ASSIGN(making_.calibration, read_calibration_for(pictures, calibration_file, left));
+  RELIEVO_TRY_ASSIGN(making_.set, choose_algorithms(algorithms));
+  making_.whole_view = algorithms.whole_view;
+  RELIEVO_TRY(session_.open(""));
+  session_.products().frame = pictures.frame();
+  left_ = std::move(pictures.left.bytes);  // what the frame looks at stays where it is
+  right_ = std::move(pictures.right.bytes);
+  RELIEVO_TRY(work(State::Match, console, left, when_moved));
+  report_.calibration = calibration_file.string();
+  return {};
+}
+
+Result<void> Reconstruction::load(const Path& document, std::string_view from,
+                                  const AlgorithmArgs& algorithms, Console& console, WhenMoved when_moved) {
+  const auto placed = [&document](const Error& error) {
+    return error.where().empty() ? error.at(document.string()) : error;
+  };
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                     hal::read_whole_file(document, storage::kMaxDocumentBytes));
+  const auto saved = storage::Document::open(bytes);
+  if (!saved) return placed(saved.error());
+  RELIEVO_TRY_ASSIGN(making_, making_of(*saved));
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet wanted, choose_algorithms(algorithms, making_.set));
+  RELIEVO_TRY_ASSIGN(const State first, first_stage(from, making_.set, wanted));
+  making_.set = wanted;
+  RELIEVO_TRY(session_.open(""));
+  pipeline::StereoFrame frame;
+  frame.skew_ns = saved->head().skew_ns;
+  for (const bool left : {true, false}) {
+    auto picture = saved->picture(left);
+    if (!picture) return placed(picture.error());
+    (left ? left_ : right_) = std::move(picture->bytes);
+    (left ? frame.left : frame.right) = picture->view;
+  }
+  session_.products().frame = frame;
+  const std::atomic<bool> never{false};
+  pipeline::Progress progress;
+  JobControl control{never, progress};
+  const Result<State> left_to_do = load_products(*saved, first, session_, control);
+  if (!left_to_do) return placed(left_to_do.error());
+  RELIEVO_TRY(work(*left_to_do, console, document, when_moved));
+  report_.calibration = document.string();
+  return {};
+}
+
+// What is done already is in the session, and its records in the making.
+Result<void> Reconstruction::work(State first, Console& console, const Path& named, WhenMoved when_moved) {
+  first_ = first;
+  making_.records.resize(std::min(making_.records.size(),
+                                  static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
+  if (first != State::Review) {
+    RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {},
+                                                               making_.whole_view ? pipeline::Region::All
+                                                                                  : pipeline::Region::Face));
+    ThreadPool pool(pool_size());
+    const hal::MonotonicClock clock;
+    PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
+    ReconstructJob job(stages, session_, pool, clock);
+    job.begin_with(first);
+    const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
+    if (!done && done.error().code == Errc::Cancelled)
+      return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    // A stage does not know the names of the files it works on.
+    if (!done)
+      return done.error().at(named.string() +
+                             (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
+    making_.records.insert(making_.records.end(), job.records().begin(), job.records().end());
+    report_.total = job.took();
+  }
+  const Products& made = session_.products();
+  report_.algorithms = making_.set.to_text();
+  report_.stages = making_.records;
+  report_.peak_rss_bytes = peak_rss_bytes();
+  report_.quality = model().quality;
+  report_.drift = made.drift;
+  report_.motion_px = made.matches->motion_px;
+  report_.landmarks = model().landmarks;
+  report_.head_from_camera = model().head_from_camera;
+  report_.white = pipeline::measure_overexposure(*made.pair, *made.matches);
+  return {};
+}
+
+Result<void> Reconstruction::save(const Path& document) const {
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, make_document(session_.products(), making_));
+  return hal::write_whole_file(document, bytes);
+}
+
+Result<pipeline::RecognitionImages> Reconstruction::draw_images() {
+  EnrolmentSession::Scratch scratch(session_);
+  return pipeline::make_recognition_images(model(), session_.output(), scratch.arena());
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One reconstruction from picture files, or from a saved one, with progress and Ctrl-C, as several commands
+// need it. Owns the memory in which pictures and model lie. Thread: main.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "firmware/arguments/command_line.h"
+#include "firmware/base/boot_memory.h"
+#include "firmware/base/console.h"
+#include "firmware/report/report.h"
+#include "firmware/session/session.h"
+#include "firmware/work/pipeline_stages.h"
+#include "firmware/work/session_document.h"
+#include "pipeline/model/recognition_images.h"
+
+namespace relievo::firmware {
+
+class Reconstruction {
+ public:
+  Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
+  // Errors: those of the files, of the settings and of the stages; each names its place.
+  Result<void> run(const Path& left, const Path& right, const Path& calibration,
+                   const AlgorithmArgs& algorithms, Console& console,
+                   WhenMoved when_moved = WhenMoved::Refuse);
+  // A saved reconstruction; done again are the stages from `from` on ("match" ... "texture"; empty: from the
+  // first that the settings change, or that is missing). Errors: also the document's; InvalidInput for
+  // settings of a stage before `from`.
+  Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms,
+                    Console& console, WhenMoved when_moved);
+  // All of it, whole or not at all. Errors: the file's.
+  Result<void> save(const Path& document) const;
+  // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
+  Result<pipeline::RecognitionImages> draw_images();
+  const pipeline::FaceModel& model() const { return *session_.products().model; }
+  const Report& report() const { return report_; }
+  // The first stage that was done now; Review: all are as they were saved.
+  State begun_with() const { return first_; }
+
+ private:
+  Result<void> work(State first, Console& console, const Path& named, WhenMoved when_moved);
+
+  BootMemory memory_;
+  EnrolmentSession session_;
+  std::vector<std::byte> left_, right_;  // the pictures
+  Making making_;
+  State first_ = State::Match;
+  Report report_;
+};
+
+}  // namespace relievo::firmware

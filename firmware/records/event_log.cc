@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/records/event_log.h"
+
+#include <algorithm>
+#include <fstream>
+#include <span>
+
+#include "firmware/base/wall_time.h"
+#include "hal/whole_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::string_view kGap = "  ", kFault = "  fault: ";
+
+// Up to the next tab, and what is behind it.
+std::string_view cut(std::string_view& text) {
+  const std::size_t tab = std::min(text.find('\t'), text.size());
+  const std::string_view first = text.substr(0, tab);
+  text.remove_prefix(std::min(tab + 1, text.size()));
+  return first;
+}
+
+}  // namespace
+
+LogEntry entry_of(std::string_view line) {
+  LogEntry entry;
+  std::string_view rest = line;
+  std::string_view text = cut(rest);
+  if (const std::size_t gap = text.find(kGap); gap != std::string_view::npos) {
+    entry.at = text.substr(0, gap);
+    entry.fault = text.substr(gap).starts_with(kFault);
+    text.remove_prefix(gap + (entry.fault ? kFault : kGap).size());
+  }
+  entry.sentence = text;
+  entry.key = cut(rest);
+  while (!rest.empty()) entry.values.emplace_back(cut(rest));
+  return entry;
+}
+
+EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file)
+    : clock_(clock), file_(std::move(file)) {
+  std::ifstream in(file_);
+  for (std::string line; std::getline(in, line);) {
+    Line& next = ring_[(first_ + count_) % kLines];
+    next.length = std::min(line.size(), kLineBytes);
+    line.copy(next.text.data(), next.length);
+    if (count_ < kLines) ++count_;
+    else first_ = (first_ + 1) % kLines;
+  }
+}
+
+void EventLog::say(Literal key, std::initializer_list<std::string_view> values) {
+  put(Sentence(key, values), false);
+}
+
+void EventLog::fault(const Error& error) { put(Sentence(error.what), true); }
+
+void EventLog::put(const Sentence& sentence, bool fault) {
+  std::string text = text_of(std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())) +
+                     std::string(fault ? kFault : kGap) + sentence.text();
+  const std::string apart = '\t' + sentence.packed();
+  if (text.size() > kTextBytes) text.resize(kTextBytes);
+  if (text.size() + apart.size() <= kLineBytes) text += apart;
+  const std::lock_guard lock(mutex_);
+  Line& next = ring_[(first_ + count_) % kLines];
+  next.fault = fault;
+  next.length = text.copy(next.text.data(), kLineBytes);
+  if (count_ < kLines) ++count_;
+  else first_ = (first_ + 1) % kLines;
+  ++said_;
+}
+
+std::vector<LogEntry> EventLog::entries() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<LogEntry> all;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Line& line = ring_[(first_ + i) % kLines];
+    all.push_back(entry_of({line.text.data(), line.length}));
+  }
+  return all;
+}
+
+std::vector<LogEntry> EventLog::faults() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<LogEntry> newest;
+  for (std::size_t i = count_; i-- > 0 && newest.size() < kFaults;) {
+    const Line& line = ring_[(first_ + i) % kLines];
+    if (line.fault) newest.push_back(entry_of({line.text.data(), line.length}));
+  }
+  return newest;
+}
+
+bool EventLog::unsaved() const {
+  const std::lock_guard lock(mutex_);
+  return said_ != saved_;
+}
+
+Result<void> EventLog::save() {
+  std::string text;
+  std::uint64_t said = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    said = said_;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Line& line = ring_[(first_ + i) % kLines];
+      text.append(line.text.data(), line.length);
+      text += '\n';
+    }
+    saved_ = said;  // one that cannot be written is not tried for ever
+  }
+  if (file_.empty()) return {};
+  return hal::write_whole_file(file_, std::as_bytes(std::span(text)));
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+#include "firmware/base/version.h"
+#include "firmware/report/report.h"
+
+namespace relievo::firmware {
+namespace {
+
+double milliseconds_of(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-6; }
+
+nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>& drift) {
+  if (!drift) return nullptr;
+  return {{"verdict", word(drift->verdict)},  {"residual_px", drift->residual_px},
+          {"sigma_px", drift->sigma_px},      {"offset_px", drift->offset_px},
+          {"slope_x", drift->slope_x},        {"slope_y", drift->slope_y},
+          {"expected_px", drift->expected_px}};
+}
+
+nlohmann::ordered_json relief_json(const pipeline::ReliefFigures& r) {
+  return {{"covered", r.covered},
+          {"sigma_mm", r.sigma_mm},
+          {"off_plane_mm", r.off_plane_mm},
+          {"off_sheet_mm", r.off_sheet_mm},
+          {"sheet_range_mm", r.sheet_range_mm},
+          {"curvature_sr", r.curvature_sr}};
+}
+
+// In the head frame, whatever frame the files are in.
+nlohmann::ordered_json landmarks_json(const Report& report) {
+  auto all = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = report.landmarks[k];
+    const std::string name(word(static_cast<pipeline::LandmarkName>(k)));
+    all[name] = nullptr;
+    if (!l.found) continue;
+    const pipeline::Vec3d at = apply(report.head_from_camera, {l.at_mm.x, l.at_mm.y, l.at_mm.z});
+    all[name] = {{"at_mm", {at.x, at.y, at.z}}, {"sigma_mm", l.sigma_mm}};
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  using Json = nlohmann::ordered_json;
+  Json stages = Json::array();
+  for (const StageRecord& stage : report.stages) {
+    stages.push_back({{"name", stage.name},
+                      {"ms", milliseconds_of(stage.took)},
+                      {"in", stage.in},
+                      {"out", stage.out},
+                      {"arena_peak_bytes", stage.arena_peak_bytes}});
+  }
+  Json algorithms = Json::object();
+  std::istringstream lines(report.algorithms);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find(" = ");
+    if (equals != std::string::npos) algorithms[line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  const pipeline::ModelQuality& q = report.quality;
+  const Json json{
+      {"version", kVersion},
+      {"calibration", report.calibration},
+      {"algorithms", algorithms},
+      {"stages", stages},
+      {"total_ms", milliseconds_of(report.total)},
+      {"peak_rss_bytes", report.peak_rss_bytes},
+      {"quality",
+       {{"median_sigma_mm", q.median_sigma_mm},
+        {"measured_area_mm2", q.measured_area_mm2},
+        {"coverage", q.coverage},
+        {"width_mm", q.width_mm},
+        {"height_mm", q.height_mm},
+        {"nose_relief_mm", q.nose_relief_mm},
+        {"epipolar_residual_px", q.epipolar_residual_px},
+        {"texture_sharpness", q.texture_sharpness},
+        {"symmetry_residual_mm", q.symmetry_residual_mm},
+        {"relief", relief_json(q.relief)}}},
+      {"landmarks", landmarks_json(report)},
+      {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
+      {"overexposed",
+       report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},
+      {"drift", drift_json(report.drift)}};
+  // A path may hold bytes that are no UTF-8: they are replaced, never thrown about.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace relievo::firmware

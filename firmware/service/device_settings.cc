@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/device_settings.h"
+
+#include <utility>
+
+#include "firmware/service/retention.h"
+
+namespace relievo::firmware {
+
+Result<void> DeviceSettings::look() {
+  const Result<std::string> kept = store_.setting(kDeviceSetting);
+  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  std::vector<std::string> complaints;
+  now_ = wanted_ = settings_of(kept ? *kept : std::string(), complaints);
+  for (const std::string& complaint : complaints)
+    log_.say("the setting \"{}\" is not one: what is usual holds", {complaint});
+  return {};
+}
+
+bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) {
+  ui::Settings next = wanted_;
+  if (!next.set(setting, value)) return false;
+  wanted_ = next;
+  errands_.send(
+      JobPlace::Keeper,
+      [this, next, setting](JobControl&) -> Result<void> {
+        // Whoever chooses how long records are kept has looked at the clock.
+        if (setting == ui::Setting::KeepDays)
+          RELIEVO_TRY(trust_clock(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now())));
+        return store_.set_setting(kDeviceSetting, text_of(next));
+      },
+      [this, next, setting, value, done = std::move(done)](const std::optional<Error>& error) {
+        if (error) {
+          wanted_ = now_;
+          log_.fault(*error);
+        } else {
+          now_ = next;
+          log_.say("setting {} is {}", {info_of(setting).key, std::to_string(value)});
+        }
+        done(error);
+      },
+      Errands::Whose::Device);
+  return true;
+}
+
+}  // namespace relievo::firmware

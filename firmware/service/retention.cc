@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/retention.h"
+
+#include <charconv>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace relievo::firmware {
+namespace {
+
+using storage::WallTime;
+
+constexpr std::chrono::hours kEvery{24};
+constexpr std::int64_t kPage = 200;
+
+Result<bool> has_jumped(storage::Store& store, WallTime now) {
+  const Result<std::string> kept = store.setting(kClockSeenSetting);
+  if (!kept && kept.error().code == Errc::NotFound) return true;  // nobody has said that it is right
+  if (!kept) return kept.error();
+  std::int64_t seen_ms = 0;
+  std::from_chars(kept->data(), kept->data() + kept->size(), seen_ms);
+  return now > WallTime(std::chrono::milliseconds(seen_ms)) + kMostLeap;
+}
+
+Result<bool> is_expired(storage::Store& store, const storage::Subject& subject, WallTime before) {
+  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
+  return (enrolments.empty() ? subject.created_at : enrolments.back().consent.given_at) < before;
+}
+
+}  // namespace
+
+Result<void> trust_clock(storage::Store& store, WallTime now) {
+  return store.set_setting(kClockSeenSetting, std::to_string(now.time_since_epoch().count()));
+}
+
+Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
+                          const std::atomic<bool>& cancelled) {
+  if (keep_days <= 0) return 0;
+  RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
+  if (jumped)
+    return Error{
+        Errc::InvalidState,
+        "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
+  std::vector<storage::SubjectId> expired;
+  for (std::int64_t skip = 0;; skip += kPage) {
+    RELIEVO_TRY_ASSIGN(const auto subjects, store.subjects({.skip = skip, .limit = kPage}));
+    for (const storage::Subject& subject : subjects) {
+      RELIEVO_TRY_ASSIGN(const bool old, is_expired(store, subject, now - std::chrono::days(keep_days)));
+      if (old) expired.push_back(subject.id);
+    }
+    if (static_cast<std::int64_t>(subjects.size()) < kPage) break;
+  }
+  int erased = 0;
+  for (const storage::SubjectId id : expired) {
+    if (cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};
+    RELIEVO_TRY(store.erase_subject(id));
+    ++erased;
+  }
+  RELIEVO_TRY(trust_clock(store, now));
+  return erased;
+}
+
+void RetentionWatch::turn(const ui::Settings& settings) {
+  const int days = settings.of(ui::Setting::KeepDays);
+  if (days == 0 || clock_.now() < next_ || errands_.busy(JobPlace::Keeper)) return;
+  next_ = clock_.now() + kEvery;
+  const auto erased = std::make_shared<int>(0);
+  errands_.send(
+      JobPlace::Keeper,
+      [this, erased, days](JobControl& control) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(
+            *erased, erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()),
+                                   days, control.cancelled));
+        return {};
+      },
+      [this, erased](const std::optional<Error>& error) {
+        if (error && error->code == Errc::Cancelled) next_ = {};  // a visitor came in between
+        else if (error) log_.fault(*error);
+        jumped_ = error && error->code == Errc::InvalidState;
+        if (*erased > 0) log_.say("records erased for their age: {}", {std::to_string(*erased)});
+      },
+      Errands::Whose::Device);
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TouchTrial: the touch screen's correction that is in force, and the way to another one. While crosses are
+// to be touched every finger belongs to the trial, so that a wrong one presses nothing; keypad and mouse go
+// on. A new correction is in force only after a finger has met a cross by it; a trial that nobody goes on
+// with ends by itself and changes nothing.
+//
+//   Rest --begin--> Cross x 4 --fits--> Test --met--> kept        15 s without a touch, a misfit, a miss -->
+//   Rest
+//
+// Thread: main; it is written on the keeper. Errors of look(): the store's.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "firmware/records/event_log.h"
+#include "firmware/service/errands.h"
+#include "storage/store.h"
+#include "ui/device/touch_view.h"
+#include "ui/view/input.h"
+
+namespace relievo::firmware {
+
+inline constexpr const char* kTouchSetting = "touch";
+inline constexpr std::chrono::seconds kTouchPatience{15};  // for each cross
+
+class TouchTrial {
+ public:
+  TouchTrial(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
+      : store_(store), errands_(errands), log_(log), clock_(clock) {}
+
+  // Before any thread uses the store. A correction that cannot be read is told in the log; the panel is then
+  // taken as it is.
+  Result<void> look();
+  // Where on the screen a finger was, by the correction in force.
+  ui::Input placed(ui::Input input, int width_px, int height_px) const;
+  bool takes_fingers() const { return view_.step != ui::TouchStep::Rest; }
+  // As the panel tells it, while takes_fingers(); the middle of the cross that is shown. Shares of the
+  // screen.
+  void touched(ui::TouchPoint at, ui::TouchPoint cross);
+
+  void begin();
+  void take_plain();
+  void abandon() { end(ui::TouchVerdict::None); }
+  void turn();
+  const ui::TouchView& view() const { return view_; }
+  const ui::TouchMap& map() const { return map_; }
+
+ private:
+  void wait();
+  void end(ui::TouchVerdict verdict);
+  void fit();
+  void keep(const ui::TouchMap& map, ui::TouchVerdict verdict);
+
+  storage::Store& store_;
+  Errands& errands_;
+  EventLog& log_;
+  const hal::Clock& clock_;
+  ui::TouchMap map_, candidate_;
+  std::vector<ui::TouchedCross> crosses_;
+  hal::Instant until_{};
+  ui::TouchView view_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Services: what a command needs from the outside, as main.cc wired it: only main.cc names an
+// implementation. Tests put their own in.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "firmware/arguments/command_line.h"
+#include "firmware/base/console.h"
+#include "firmware/calibrate/calibrate_live_pairs.h"
+#include "firmware/checks/optical_target.h"
+#include "hal/board.h"
+#include "hal/clock.h"
+#include "storage/store.h"
+#include "ui/display.h"
+
+namespace relievo::firmware {
+
+class Kiosk;
+
+struct Services {
+  // "sim", "folder:DIR", "linux" or "linux:FILE". Errors: InvalidInput (no such board), the board's own.
+  std::function<Result<std::unique_ptr<hal::Board>>(std::string_view board)> open_board{};
+  // Errors: the store's own. To write makes the folder; to read needs it.
+  std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store{};
+  // Photographs with the simulated rig, into the folder. Errors: the rig's and the disk's.
+  std::function<Result<void>(const SimulateArgs& args, const Path& folder)> simulate{};
+  // Photographs the targets of the optical self-test with the simulated rig.
+  Photograph photograph{};
+  // Pairs of a board in a hand before the simulated rig; may be empty. Errors: InvalidInput (no such board).
+  std::function<Result<std::unique_ptr<LivePairs>>(const CalibrateLiveArgs& args)> hold_board{};
+  // The calibration of the simulated rig of open_board("sim"), as exactly known as it is; may be empty: it
+  // has to be calibrated.
+  std::function<Result<pipeline::StereoCalibration>()> simulated_calibration{};
+  // Window, device, or nothing to be seen: as the environment says. Errors: LibraryFailed.
+  std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display{};
+  Console& console;
+  const hal::Clock& clock;
+  // Sets the system's clock; may be empty. Errors: Unsupported (it may not).
+  std::function<Result<void>(std::chrono::system_clock::time_point)> set_clock{};
+  // For scripted visits. Plugs a folder that plays a USB stick into a board without hardware; no name pulls
+  // it. Errors: Unsupported (a board with hardware).
+  std::function<Result<void>(hal::Board& board, const std::string& folder)> plug_stick{};
+  // Pictures of every page, for people to look at (firmware/demo/screenshots.h); may be empty.
+  std::function<Result<void>(const KioskArgs& args, Kiosk& kiosk, Console& console)> take_screenshots{};
+  // How often this thread has taken memory from the heap; may be empty.
+  std::function<long()> allocations{};
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// EnrolmentSession: everything the appliance knows about the person in front of it, and nothing
+// afterwards. It owns the arenas; what the stages make lives in them, the products themselves too.
+//
+//   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
+//                             |   ^
+//                             +---+ retake(): pictures and products go, the subject stays
+//                                   rework(): only products go
+//
+// Thread: main opens and closes, and only while no job runs; a running job has the products.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "firmware/base/boot_memory.h"
+#include "firmware/capture/live_feed.h"
+#include "firmware/capture/stereo_slot.h"
+#include "firmware/machine/transition.h"
+#include "firmware/session/stage_pictures.h"
+#include "hal/base/arena.h"
+#include "pipeline/calibrate/drift.h"
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/stereo_frame.h"
+
+namespace relievo::firmware {
+
+// What each stage leaves for the next.
+struct Products {
+  std::optional<pipeline::StereoFrame> frame;
+  std::optional<pipeline::RectifiedPair> pair;
+  std::optional<pipeline::MatchSet> matches;
+  std::optional<pipeline::DriftJudgement> drift;  // what the matches say of the calibration
+  std::optional<pipeline::PointCloud> cloud;
+  std::optional<pipeline::FaceMesh> mesh;
+  std::optional<pipeline::FaceModel> model;
+};
+
+class EnrolmentSession {
+ public:
+  explicit EnrolmentSession(const BootMemory& memory)
+      : slot_(memory.frames().first(memory.frames().size() / 2)),
+        spare_slot_(memory.frames().subspan(memory.frames().size() / 2)),
+        output_(memory.output()),
+        scratch_block_(memory.scratch()) {}
+  ~EnrolmentSession() { close(); }
+  EnrolmentSession(const EnrolmentSession&) = delete;
+  EnrolmentSession& operator=(const EnrolmentSession&) = delete;
+
+  // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
+  Result<void> open(std::string_view subject);
+  void retake();
+  // The products go, the pictures they were made of stay: all stages can run once more. Also on the worker.
+  void rework();
+  // The products of this stage and of those after it go: they can run once more. Also on the worker.
+  void rework(State from);
+  // What comes into output() from now on is this stage's. Thread: worker.
+  void begins(State stage);
+  void close();
+  bool is_open() const { return products_ != nullptr; }
+
+  // A capture of the session; its views lie in one of the two slots. Thread: capture.
+  void took(const pipeline::StereoFrame& frame);
+  // The slot that no capture lies in: for pictures beside it, which their maker wipes. Thread: capture.
+  StereoSlot& free_slot() { return holds_ == &slot_ ? spare_slot_ : slot_; }
+
+  std::string_view subject() const { return {subject_.data()}; }
+  Products& products() const;
+  StereoSlot& slot() { return slot_; }
+  // Small pictures for the screen: of the person, and of what the stages made.
+  LiveFeed& live() { return live_; }
+  StagePictures& stage_pictures() { return stage_pictures_; }
+  const StagePictures& stage_pictures() const { return stage_pictures_; }
+  StereoSlot& spare_slot() { return spare_slot_; }  // of a burst, which keeps its best pair in one of the two
+  Arena& output() { return output_; }
+  // A scratch arena of one stage's own, so that its peak can be told; what it touched the session wipes.
+  class Scratch {
+   public:
+    explicit Scratch(EnrolmentSession& session) : session_(session), arena_(session.scratch_block_) {}
+    ~Scratch() { session_.scratch_touched_ = std::max(session_.scratch_touched_, arena_.high_water()); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    Arena& arena() { return arena_; }
+
+   private:
+    EnrolmentSession& session_;
+    Arena arena_;
+  };
+
+ private:
+  void make_products();
+  void wipe_products();
+  void wipe();
+
+  StereoSlot slot_;
+  LiveFeed live_;
+  StagePictures stage_pictures_;
+  StereoSlot spare_slot_;
+  const StereoSlot* holds_ = nullptr;  // the capture
+  Arena output_;
+  std::array<std::size_t, 4> stage_begins_{};  // in output_: Match, Reconstruct, Mesh, Texture
+  std::span<std::byte> scratch_block_;
+  std::size_t scratch_touched_ = 0;
+  Products* products_ = nullptr;  // at the front of output_
+  std::array<char, budget::kSubjectNameBytes + 1> subject_{};
+};
+
+}  // namespace relievo::firmware

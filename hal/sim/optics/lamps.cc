@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/sim/optics/lamps.h"
+
+#include "hal/sim/base/noise.h"
+
+namespace relievo::hal::sim {
+namespace {
+
+constexpr Vec3 kAim{20, -10, 560};
+
+Panel panel_at(Vec3 centre, double half, double power) {
+  const Vec3 n = normalised(kAim - centre), x = normalised(cross(Vec3{0, 1, 0}, n)), y = cross(n, x);
+  return {centre, x * half, y * half, power};
+}
+
+}  // namespace
+
+Result<void> HeadLighting::check() const {
+  for (const double power : {left, right, below})
+    if (!(power >= 0) || !(power <= 10))
+      return Error{Errc::InvalidInput, "a lamp is 0 to 10 times as bright as usual"};
+  return {};
+}
+
+std::array<Panel, kPanels> lamp_panels(const HeadLighting& lighting) {
+  return {panel_at({-330, -190, 40}, 130, 0.80 * lighting.left),
+          panel_at({470, -200, 60}, 130, 0.42 * lighting.right),
+          panel_at({80, 420, 60}, 120, 0.10 * lighting.below)};
+}
+
+Vec3 room_light(Vec3 direction) {
+  const double grey = 0.035 + 0.010 * value_noise(direction * 6, 99) - 0.02 * direction.y;
+  return {grey, grey * 1.02, grey * 1.06};
+}
+
+}  // namespace relievo::hal::sim

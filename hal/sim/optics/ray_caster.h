@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RayCaster: triangles and hair strands, and what a ray meets first. Hides the ray tracing library.
+// Thread: building: one; asking: any number at once, after commit().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hal/sim/base/vec3.h"
+
+namespace relievo::hal::sim {
+
+struct Mesh {  // millimetres
+  std::vector<std::array<float, 3>> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Straight pieces: strand i runs through points[first .. first + count).
+struct Strands {
+  struct Node {
+    float x, y, z, radius_mm;
+  };
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> pieces;  // index of the first node of every straight piece
+};
+
+struct Hit {
+  double distance_mm = 0;
+  int body = -1;  // what add() returned
+  std::uint32_t primitive = 0;
+  double u = 0, v = 0;  // barycentric, of the second and third corner
+};
+
+class RayCaster {
+ public:
+  static constexpr double kFar = 1e9;
+  RayCaster();
+  ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
+  // Copies. `solid` bodies alone block light and define the truth; strands are never solid.
+  int add(const Mesh& mesh);
+  int add(const Strands& strands);
+  void commit();
+
+  enum class Against : std::uint8_t { Everything, SolidOnly };
+  bool cast(Vec3 origin, Vec3 direction, Hit& hit, Against against = Against::Everything) const;
+  bool blocked(Vec3 origin, Vec3 direction, double far_mm) const;  // by solid bodies
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace relievo::hal::sim

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibrate/live/view_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "pipeline/calibrate/live/candidate_poses.h"
+#include "pipeline/calibrate/live/rig_problem.h"
+#include "pipeline/calibrate/quality/rig_geometry.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using bundle::Globals;
+using bundle::GlobalVector;
+using bundle::Problem;
+using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
+
+// A candidate must be newer than new, since nobody hits it exactly.
+constexpr double kSafelyNew = 1.5;
+constexpr double kFieldStepMm = 80;  // the field of DepthUncertainty
+// A tenth of a bar counts as much as lowering the error by 5 %.
+constexpr double kBarWorth = 0.5;
+constexpr double kPastGoal = 0.2;  // what lowering the error counts when the goal is reached
+// Tolerances of a target, in the axes' own units.
+constexpr std::array<double, kBoardAxes> kTolerance = {0.04, 0.05, 0.07, 0.13, 0.13, 0.2};
+
+// Of the depths of a field's nine points, by steps of one `unit` of each global.
+DepthByGlobals depth_by_globals(const Problem& rig, double distance_mm, const GlobalVector& unit) {
+  std::vector<Eigen::Vector3d> field;
+  field.reserve(9);
+  for (int i = 0; i < 9; ++i)
+    field.emplace_back((i % 3 - 1) * kFieldStepMm, (i / 3 - 1) * kFieldStepMm, distance_mm);
+  Problem bare = rig;
+  bare.views.clear();
+  const Probes probes = probes_of(bare, field);
+  DepthByGlobals by;
+  for (int i = 0; i < bundle::kGlobals; ++i) {
+    const auto depths = [&](double step) -> Eigen::Matrix<double, 9, 1> {
+      Problem moved = bare;
+      bundle::step_globals(moved, step * unit[i] * GlobalVector::Unit(i));
+      return cloud_of(moved, probes).row(2).transpose();
+    };
+    by.col(i) = 0.5 * (depths(1) - depths(-1));
+  }
+  return by;
+}
+
+// Mean variance of the depths, in units of the noise.
+double variance_of(const DepthByGlobals& by, const Globals& even_information) {
+  const Eigen::Matrix<double, bundle::kGlobals, 9> solved = even_information.ldlt().solve(by.transpose());
+  return (by * solved).trace() / 9;
+}
+
+ViewTarget target_of(const CandidatePose& pose, const BoardParameters& left, const BoardPattern& pattern) {
+  ViewTarget target;
+  target.at = axes_of(left);
+  target.tolerance = kTolerance;
+  target.left_outline = outline_of(pose.corners[0], pattern);
+  target.right_outline = outline_of(pose.corners[1], pattern);
+  return target;
+}
+
+int quarter_turns_of(const CalibratorInput& input) {
+  const BoardOutline outline = outline_of(input.views.back().left, input.pattern);
+  const double angle = std::atan2(outline[1].y - outline[0].y, outline[1].x - outline[0].x);
+  return static_cast<int>(std::lround(angle / (0.5 * std::numbers::pi)));
+}
+
+}  // namespace
+
+bool ViewPlanner::update(const CalibratorInput& input, const CalibratorOutput& now, double error_mm,
+                         TakenViews taken, const std::array<Coverage, 2>& coverage,
+                         const LiveOptions& options) {
+  Problem solved;
+  if (input.views.empty() || !solved_problem(input, now, solved)) return false;
+  unit_ = (solved.noise_px2 * solved.covariance.diagonal().cwiseMax(1e-30)).cwiseSqrt();
+  information_ = unit_.asDiagonal() * solved.information * unit_.asDiagonal();
+  rig_ = std::move(solved);
+  rig_.views.clear();
+  depth_ = depth_by_globals(rig_, options.distance_mm, unit_);
+  variance_ = variance_of(depth_, information_);
+  options_ = options;
+  error_mm_ = error_mm;
+  taken_.assign(taken.begin(), taken.end());
+  coverage_ = coverage;
+  quarter_turns_ = quarter_turns_of(input);
+  return true;
+}
+
+ViewPlanner::Pair ViewPlanner::parameters(const BoardCorners& left, const BoardCorners& right) const {
+  const CameraIntrinsics& camera = rig_.camera[0];
+  return {parameters_of(left, rig_.pattern, camera.width_px, camera.height_px),
+          parameters_of(right, rig_.pattern, camera.width_px, camera.height_px)};
+}
+
+bool ViewPlanner::safely_new(const Pair& view) const {
+  return std::all_of(taken_.begin(), taken_.end(), [&](const Pair& other) {
+    return std::max(distance_between(view[0], other[0]), distance_between(view[1], other[1])) >
+           kSafelyNew * options_.new_distance;
+  });
+}
+
+// Share by which the view lowers the error.
+double ViewPlanner::error_gain(const bundle::View& view) const {
+  const Globals added = unit_.asDiagonal() * bundle::information_of(rig_, view) * unit_.asDiagonal();
+  return 1 - std::sqrt(variance_of(depth_, information_ + added) / variance_);
+}
+
+double ViewPlanner::bar_gain(const Pair& view) const {
+  const auto sum = [full = options_.full_bar](const CoverageBars& bars) {
+    return std::min(bars.x, full) + std::min(bars.y, full) + std::min(bars.size, full) +
+           std::min(bars.skew, full);
+  };
+  return sum(lesser(coverage_[0].bars_with(view[0]), coverage_[1].bars_with(view[1]))) -
+         sum(lesser(coverage_[0].bars(), coverage_[1].bars()));
+}
+
+double ViewPlanner::worth(double error_gain, double bar_gain) const {
+  return (error_mm_ > options_.goal_mm ? 1 : kPastGoal) * error_gain + kBarWorth * bar_gain;
+}
+
+double ViewPlanner::worth(const BoardCorners& left, const BoardCorners& right) const {
+  Problem one = rig_;
+  one.views.emplace_back(&left, &right, guessed_pose(rig_, left));
+  if (!bundle::solve_poses(one)) return 0;
+  return worth(error_gain(one.views[0]), bar_gain(parameters(left, right)));
+}
+
+ViewPlan ViewPlanner::plan(std::span<const std::size_t> excluded) const {
+  ViewPlan plan;
+  for (const CandidatePose& pose : candidate_poses(rig_, options_.distance_mm, quarter_turns_)) {
+    if (std::find(excluded.begin(), excluded.end(), pose.number) != excluded.end()) continue;
+    const Pair view = parameters(pose.corners[0], pose.corners[1]);
+    if (!safely_new(view)) continue;
+    const double error = error_gain({&pose.corners[0], &pose.corners[1], pose.left_from_board});
+    const double bars = bar_gain(view);
+    plan.best_gain = std::max(plan.best_gain, error);
+    plan.best_bar_gain = std::max(plan.best_bar_gain, bars);
+    if (plan.best && worth(error, bars) <= plan.best_worth) continue;
+    plan.best_worth = worth(error, bars);
+    plan.best = {target_of(pose, view[0], rig_.pattern), pose.number};
+  }
+  return plan;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which view to take next: of some 250 poses that both cameras would see whole, the one after which
+// the depth error would be smallest. Information adds up: what a view adds is known before it is taken
+// (its corners' derivatives need no picture), and the covariance after it is the inverse of the sum
+// (optimal design of experiments, A criterion; Atkinson and Donev 1992). Where the coverage bars are not
+// full, filling them counts, too: they guard against what the model of the lens leaves out.
+// Inside calibrate/ only. Thread: any. The same input gives the same plan.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/calibrate/calibrator.h"
+#include "pipeline/calibrate/fit/bundle.h"
+#include "pipeline/calibrate/live/live_options.h"
+#include "pipeline/calibrate/live/view_target.h"
+#include "pipeline/calibrate/live/watch/coverage.h"
+
+namespace relievo::pipeline {
+
+struct ViewPlan {
+  std::optional<PlannedView> best;  // none when no candidate is new
+  double best_worth = 0;            // of it
+  double best_gain = 0;             // share by which the best candidate (for the error alone) lowers it
+  double best_bar_gain = 0;         // what the best candidate (for the bars alone) adds to them, summed
+};
+
+using TakenViews = std::span<const std::array<BoardParameters, 2>>;
+
+class ViewPlanner {
+ public:
+  // What is known now: the views with their calibration, and the error it promises. False where these
+  // views do not determine the rig; it then knows what it knew before.
+  bool update(const CalibratorInput& input, const CalibratorOutput& now, double error_mm, TakenViews taken,
+              const std::array<Coverage, 2>& coverage, const LiveOptions& options);
+
+  // The following need one update() that succeeded.
+  // Candidates in `excluded` are passed over.
+  ViewPlan plan(std::span<const std::size_t> excluded) const;
+  // Of a view that both cameras have before them, on the scale of best_worth.
+  double worth(const BoardCorners& left, const BoardCorners& right) const;
+
+ private:
+  using Pair = std::array<BoardParameters, 2>;
+  using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
+
+  Pair parameters(const BoardCorners& left, const BoardCorners& right) const;
+  bool safely_new(const Pair& view) const;
+  double error_gain(const bundle::View& view) const;
+  double bar_gain(const Pair& view) const;
+  double worth(double error_gain, double bar_gain) const;
+
+  LiveOptions options_;
+  bundle::Problem rig_;          // without views
+  bundle::GlobalVector unit_;    // of each global, one standard deviation
+  bundle::Globals information_;  // in these units
+  DepthByGlobals depth_;         // of the field's points, by one unit of each global
+  double variance_ = 0;          // of the depths, mean, noise of 1 px
+  double error_mm_ = 0;
+  std::vector<Pair> taken_;
+  std::array<Coverage, 2> coverage_;
+  int quarter_turns_ = 0;  // how the person holds the board
+};
+
+}  // namespace relievo::pipeline

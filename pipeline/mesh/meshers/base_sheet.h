@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the meshers of the catalogue begin and end with.
+//
+// base_sheet(): the measured points that belong to the largest surface, with normals, as the Delaunay mesher
+// joins them: outliers, and whatever lies behind a step in depth, are gone before a smooth function is
+// fitted. finish_surface(): any triangles near those points become a FaceMesh that keeps every mesher's
+// promises; sigma and `measured` are carried over from the nearest measured point. Frame: the left camera's,
+// millimetres. Both throw std::bad_alloc where an arena is used up.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/base/options.h"
+#include "pipeline/mesh/mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+
+namespace relievo::pipeline {
+
+// What two meshers do, for others to begin or end with: the Delaunay mesher on at most half as many points as
+// triangles, and the grid mesher on a cloud with lattice_step_px. Errors: PoorGeometry, Cancelled.
+Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context);
+Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2,
+                               StageContext& context);
+
+// In `scratch`; sigma_mm perpendicular to the surface. At most `most_points`, spread evenly over the cloud.
+// Errors: PoorGeometry, Cancelled.
+Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context);
+
+// Half of all edges are shorter.
+float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory);
+
+// Points on the base's triangles where it has none within the spacing: vertices, normals and sigmas alone.
+FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resource* memory);
+
+struct FinishOptions {
+  int max_triangles = 320'000;
+  double max_gap_mm = 3;          // surface further than this from every measured point is cut off
+  double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
+  double min_area_mm2 = 2500;     // less surface than this is no face
+
+  Result<void> check(const char* place) const;
+};
+
+template <typename Field>
+void describe_finish(FinishOptions& o, Field&& field) {
+  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000},
+        "more triangles are simplified to so many");
+  field("max_gap_mm", o.max_gap_mm, OptionRange{0.1, 50},
+        "surface further than this from every measured point is cut off, mm");
+  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89},
+        "steepest triangle, between its normal and the line of sight, degrees");
+  field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+}
+
+// `triangles` may be any heap in which no directed edge is used twice. Errors: PoorGeometry, Cancelled.
+Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices_mm,
+                                std::pmr::vector<Triangle>& triangles, const FinishOptions& options,
+                                StageContext& context);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// BezierMesher (`bezier`): the depth of the face as a net of bicubic Bezier patches that join with common
+// tangents (C1; here even C2). Tensor-product cubic B-splines on a uniform net are fitted to the measured
+// points by weighted least squares (1 / sigma^2) with a bending term that carries them over gaps, and
+// turned into Bezier patches by knot insertion (Farin 2002, ch. 8 and 16; Dierckx 1993 for the fit).
+// Takes any cloud. Frame: the left camera's, millimetres. Memory: arenas only.
+// Errors: PoorGeometry, OutOfMemory, Cancelled. Thread: any; the pool evaluates.
+#pragma once
+
+#include "pipeline/mesh/meshers/depth_sheet.h"
+
+namespace relievo::pipeline {
+
+struct BezierMesherOptions {
+  int max_points = 160'000;  // more are thinned evenly
+  double patch_mm = 1.5;     // side of a patch, where the face's usual depth is
+  double bending = 0.003;    // weight of the bending term against the points'
+  SheetOptions sheet;
+
+  Result<void> check() const;
+};
+
+template <typename Field>
+void describe(BezierMesherOptions& o, Field&& field) {
+  field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+  field("patch_mm", o.patch_mm, OptionRange{0.5, 50}, "side of a patch, mm");
+  field("bending", o.bending, OptionRange{1e-6, 1000}, "weight of the bending term against the points'");
+  describe_sheet(o.sheet, field);
+}
+
+class BezierMesher final : public Mesher {
+ public:
+  explicit BezierMesher(const BezierMesherOptions& options) : options_(options) {}
+  std::string_view name() const override { return "bezier"; }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
+
+ private:
+  BezierMesherOptions options_;
+};
+
+}  // namespace relievo::pipeline

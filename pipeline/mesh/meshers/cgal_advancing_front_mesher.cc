@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+#include <CGAL/Advancing_front_surface_reconstruction.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "pipeline/mesh/meshers/advancing_front_mesher.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Facet = std::array<std::size_t, 3>;
+
+// Refuses facets with an edge longer than the bound (as CGAL's manual suggests for open surfaces).
+struct LongestEdge {
+  double most_squared;
+
+  template <typename AdvancingFront, typename Cell>
+  double operator()(const AdvancingFront& front, Cell& cell, const int& index) const {
+    double longest = 0;
+    for (int i = 1; i <= 3; ++i)
+      for (int j = i + 1; j <= 3; ++j)
+        longest = std::max(longest, CGAL::squared_distance(cell->vertex((index + i) % 4)->point(),
+                                                           cell->vertex((index + j) % 4)->point()));
+    return longest > most_squared ? front.infinity() : front.smallest_radius_delaunay_sphere(cell, index);
+  }
+};
+
+std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageContext& context) {
+  std::vector<Kernel::Point_3> points;
+  points.reserve(base.vertices_mm.size());
+  for (const Vec3f& v : base.vertices_mm)
+    points.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  std::vector<Facet> facets;
+  CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(), std::back_inserter(facets),
+                                               LongestEdge{longest_mm * longest_mm});
+  std::pmr::vector<Triangle> triangles(&context.scratch);
+  triangles.reserve(facets.size());
+  for (const Facet& f : facets)
+    triangles.push_back({static_cast<std::uint32_t>(f[0]), static_cast<std::uint32_t>(f[1]),
+                         static_cast<std::uint32_t>(f[2])});
+  // CGAL orients the surface as one, either way round: towards the camera it shall be.
+  std::size_t away = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3f &a = base.vertices_mm[t[0]], &b = base.vertices_mm[t[1]], &c = base.vertices_mm[t[2]];
+    const Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+    away += (u.y * v.z - u.z * v.y) * a.x + (u.z * v.x - u.x * v.z) * a.y + (u.x * v.y - u.y * v.x) * a.z > 0;
+  }
+  if (2 * away > triangles.size())
+    for (Triangle& t : triangles) std::swap(t[1], t[2]);
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+}  // namespace
+
+Result<void> AdvancingFrontMesherOptions::check() const {
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.advancing-front");
+  if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
+    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
+        "mesher.advancing-front");
+  return finish.check("mesher.advancing-front");
+}
+
+Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  const double longest =
+      std::min(options_.max_edge_mm,
+               options_.max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
+  std::pmr::vector<Triangle> triangles = grow(base, longest, context);
+  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  return finish_surface(base, base.vertices_mm, triangles, options_.finish, context);
+}
+
+}  // namespace relievo::pipeline

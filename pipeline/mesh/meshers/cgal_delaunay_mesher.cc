@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include "pipeline/mesh/meshers/base_sheet.h"
+#include "pipeline/mesh/meshers/delaunay_mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
+
+constexpr float
+    kSheetEdgeMm = 5,
+    kSheetEdges = 6;  // what is fitted to a sheet closes holes by itself, and errs where the sheet spans them
+
+bool usable(const CloudPoint& p) {
+  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
+         std::isfinite(p.sigma_mm) && std::isfinite(p.left_px.x) && std::isfinite(p.left_px.y);
+}
+
+// Every k-th point, spread evenly over the cloud's order.
+std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const PointCloud& cloud,
+                                                                         int max_triangles, Arena& scratch) {
+  const std::size_t most = static_cast<std::size_t>(max_triangles) / 2;
+  const std::size_t wanted = std::min(most, cloud.points.size());
+  std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> points(&scratch);
+  points.reserve(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const std::size_t k = i * cloud.points.size() / wanted;
+    const CloudPoint& p = cloud.points[k];
+    if (usable(p))
+      points.emplace_back(Kernel::Point_2(static_cast<double>(p.left_px.x), static_cast<double>(p.left_px.y)),
+                          static_cast<std::uint32_t>(k));
+  }
+  return points;
+}
+
+// Half of all edges are shorter.
+float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Triangle>& triangles,
+                    Arena& scratch) {
+  std::pmr::vector<float> lengths(&scratch);
+  lengths.reserve(triangles.size());
+  for (const Triangle& t : triangles) lengths.push_back(mesh::length(mesh::minus(at[t[1]], at[t[0]])));
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
+  const float longest = longest_mm * longest_mm;
+  return mesh::squared_distance(a, b) <= longest && mesh::squared_distance(b, c) <= longest &&
+         mesh::squared_distance(c, a) <= longest;
+}
+
+// How far the points would lie from one another, spread evenly over the surface as the camera sees it: a
+// hole's bridge is measured by that. Chosen places come in heaps, so that half of all edges are shorter by
+// far.
+double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Triangle>& triangles,
+                        float longest_mm) {
+  double area = 0;
+  std::size_t count = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
+    if (!shorter(a, b, c, longest_mm)) continue;
+    area += static_cast<double>(std::abs(mesh::dot(mesh::cross(mesh::minus(b, a), mesh::minus(c, a)),
+                                                   mesh::unit(mesh::plus(mesh::plus(a, b), c))))) /
+            2;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(2 * area / static_cast<double>(count)) : 0;  // there are two triangles a point
+}
+
+bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
+  if (!shorter(a, b, c, longest_mm)) return false;
+  const Vec3f n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
+  const Vec3f sight = mesh::plus(mesh::plus(a, b), c);
+  const float towards = -mesh::dot(n, sight);
+  return towards > 0 &&
+         towards * towards >= min_cosine * min_cosine * mesh::dot(n, n) * mesh::dot(sight, sight);
+}
+
+// All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs
+// down, so CGAL's counter-clockwise is clockwise on the screen.
+std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangles, Arena& scratch) {
+  auto points = plane_points(cloud, max_triangles, scratch);
+  Delaunay delaunay;
+  delaunay.insert(points.begin(), points.end());
+  std::pmr::vector<Triangle> triangles(&scratch);
+  triangles.reserve(delaunay.number_of_faces());
+  for (const auto& face : delaunay.finite_face_handles())
+    triangles.push_back({face->vertex(0)->info(), face->vertex(2)->info(), face->vertex(1)->info()});
+  // CGAL's order follows addresses in memory; ours is the same on every run.
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+// `longest_mm`: of an edge, asked once all triangles are known.
+template <typename Longest>
+Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& options, StageContext& context,
+                      Longest&& longest_mm) {
+  const Error stopped{Errc::Cancelled, "meshing was stopped"};
+  RELIEVO_TRY(options.check());
+  if (context.stop()) return stopped;
+  if (cloud.points.size() < 3) return no_surface();
+  std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
+  context.progress.done.store(0.6F, std::memory_order_relaxed);
+  if (context.stop()) return stopped;
+
+  std::pmr::vector<Vec3f> at(&context.scratch);
+  at.reserve(cloud.points.size());
+  for (const CloudPoint& p : cloud.points) at.push_back(p.at_mm);
+  const float longest = longest_mm(at, triangles);
+  const float min_cosine = static_cast<float>(std::cos(options.max_incidence_deg * std::numbers::pi / 180));
+  std::erase_if(triangles, [&](const Triangle& t) {
+    return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine);
+  });
+  keep_one_surface(at, triangles, {options.ear_passes}, &context.scratch);
+  if (context.stop()) return stopped;
+  if (triangles.empty() || area_mm2(at, triangles) < options.min_area_mm2) return no_surface();
+
+  FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) {
+    return PackedVertex{at[v], cloud.points[v].sigma_mm, 1};
+  });
+  compute_normals(mesh, options.normal_passes, &context.scratch);
+  turn_sigma_perpendicular(mesh);
+  context.progress.done.store(1, std::memory_order_relaxed);
+  return mesh;
+}
+
+}  // namespace
+
+Result<void> DelaunayMesherOptions::check() const {
+  if (max_triangles < 1000 || max_triangles > 10'000'000)
+    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.delaunay");
+  if (!(max_edge_mm >= 0.1 && max_edge_mm <= 100) || !(max_edge_ratio >= 1.5 && max_edge_ratio <= 100))
+    return Error{Errc::InvalidInput, "max_edge_mm 0.1 .. 100, max_edge_ratio 1.5 .. 100"}.at(
+        "mesher.delaunay");
+  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
+    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.delaunay");
+  if (ear_passes < 0 || ear_passes > 16 || normal_passes < 0 || normal_passes > 16 ||
+      !(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
+    return Error{Errc::InvalidInput, "ear_passes and normal_passes 0 .. 16, min_area_mm2 0 .. 1000000"}.at(
+        "mesher.delaunay");
+  return {};
+}
+
+Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
+  return join(cloud, options_, context, [&](const auto& at, const auto& triangles) {
+    const float most = static_cast<float>(options_.max_edge_mm);
+    return std::min(most,
+                    static_cast<float>(options_.max_edge_ratio * even_distance_mm(at, triangles, most)));
+  });
+}
+
+Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context) {
+  DelaunayMesherOptions options;
+  options.max_triangles = max_triangles;
+  return join(cloud, options, context, [&](const auto& at, const auto& triangles) {
+    return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, context.scratch));
+  });
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/meshers/grid_mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "pipeline/mesh/detail/sliver_mender.h"
+#include "pipeline/mesh/lattice/face_closer.h"
+#include "pipeline/mesh/lattice/gap_closer.h"
+#include "pipeline/mesh/lattice/lattice_resampler.h"
+#include "pipeline/mesh/lattice/outline.h"
+#include "pipeline/mesh/lattice/outline_cut.h"
+#include "pipeline/mesh/meshers/base_sheet.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/mesh/vector_math.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kCutAway = 0.018;      // of the triangles, by the outline's cut
+constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
+
+float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
+
+// On a lattice that makes good use of the triangles there may be: of a face far away finer than the points',
+// but not so fine that it would only repeat them; of a face near by coarser, above all towards the edges.
+ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesherOptions& o,
+                          Arena& scratch) {
+  const double present = expected_triangles(shaped, 1);
+  if (present <= 0) return shaped;
+  LatticeSpacing spacing{static_cast<float>(std::sqrt(present / triangles)), 1};
+  if (static_cast<double>(spacing.cells) > o.finest_cells) {
+    spacing.edge = static_cast<float>(o.edge_cells);
+    spacing.cells = static_cast<float>(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
+  }
+  spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));
+  while (spacing.cells != 1 || spacing.edge != 1) {
+    ShapedLattice other = resample_lattice(shaped, spacing, max_slope, &scratch);
+    if (expected_triangles(other, 1) <= triangles) return other;
+    spacing.cells *= kThinnerStep;
+  }
+  return shaped;
+}
+
+// What was seen from within a head, as the cameras see it.
+void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
+  const Vec3f centre{static_cast<float>(centre_mm.x), static_cast<float>(centre_mm.y),
+                     static_cast<float>(centre_mm.z)};
+  for (Vec3f& v : cut.at_mm) v = mesh::plus(v, centre);
+  for (auto& t : cut.triangles) std::swap(t[1], t[2]);
+}
+
+Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesherOptions& o,
+                                StageContext& context) {
+  Arena& scratch = context.scratch;
+  const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
+                             static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
+  PointLattice lattice = make_lattice(cloud, &scratch);
+  LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
+  if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
+  MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
+  close_gaps(
+      lattice, surface,
+      {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
+      shaper, &scratch);
+  // After the gaps: a crack must not make a narrow place of a wide one.
+  const Vec3d& right = cloud.right_camera_mm;
+  const Vec3f between_cameras{static_cast<float>(right.x / 2), static_cast<float>(right.y / 2),
+                              static_cast<float>(right.z / 2)};
+  const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), between_cameras,
+                               static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
+  CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
+  std::optional<ClosedFace> closed;
+  if (right.x != 0 || right.y != 0 || right.z != 0) {
+    RELIEVO_TRY_ASSIGN(closed, close_face(lattice, surface, right, limits, context));
+  }
+  const float max_slope = closed ? kSteepest : limits.max_slope;
+  const std::optional<FaceOutline> outline = closed ? std::optional(closed->outline) : std::nullopt;
+  const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm),
+                                   static_cast<float>(o.rim_smoothing_mm)};
+  const ShapedLattice shaped =
+      fill_budget(closed ? std::move(closed->shaped)
+                         : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
+                  triangles, max_slope, o, scratch);
+  CutSurface cut =
+      cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
+  keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
+  if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, max_slope}, &scratch) > 0)
+    keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  if (outline) turn_outwards(cut, outline->chart.centre_mm);
+  return cut;
+}
+
+}  // namespace
+
+Result<void> GridMesherOptions::check() const {
+  if (max_triangles < 1000 || max_triangles > 10'000'000)
+    return Error{Errc::InvalidInput, "max_triangles must lie in 1000 .. 10000000"}.at("mesher.grid");
+  if (!(finest_cells >= 0.5 && finest_cells <= 4))
+    return Error{Errc::InvalidInput, "finest_cells must lie in 0.5 .. 4"}.at("mesher.grid");
+  if (!(edge_cells >= 1 && edge_cells <= 4))
+    return Error{Errc::InvalidInput, "edge_cells must lie in 1 .. 4"}.at("mesher.grid");
+  if (!(max_incidence_deg >= 30 && max_incidence_deg <= 89))
+    return Error{Errc::InvalidInput, "max_incidence_deg must lie in 30 .. 89"}.at("mesher.grid");
+  if (!(step_sigmas >= 0 && step_sigmas <= 100) || !(step_slope_ratio >= 1 && step_slope_ratio <= 100) ||
+      !(min_step_mm >= 0 && min_step_mm <= 100))
+    return Error{Errc::InvalidInput, "step_sigmas 0 .. 100, step_slope_ratio 1 .. 100, min_step_mm 0 .. 100"}
+        .at("mesher.grid");
+  if (!(max_hole_mm >= 0 && max_hole_mm <= 50))
+    return Error{Errc::InvalidInput, "max_hole_mm must lie in 0 .. 50"}.at("mesher.grid");
+  if (!(min_width_mm >= 0 && min_width_mm <= 50))
+    return Error{Errc::InvalidInput, "min_width_mm must lie in 0 .. 50"}.at("mesher.grid");
+  if (!(gap_bend_deg >= 0 && gap_bend_deg <= 80))
+    return Error{Errc::InvalidInput, "gap_bend_deg must lie in 0 .. 80"}.at("mesher.grid");
+  if (!(max_rim_deg >= 30 && max_rim_deg <= 90))
+    return Error{Errc::InvalidInput, "max_rim_deg must lie in 30 .. 90"}.at("mesher.grid");
+  if (!(outline_smoothing_mm >= 0 && outline_smoothing_mm <= 10) ||
+      !(rim_smoothing_mm >= 0 && rim_smoothing_mm <= 10))
+    return Error{Errc::InvalidInput, "outline_smoothing_mm and rim_smoothing_mm must lie in 0 .. 10"}.at(
+        "mesher.grid");
+  if (!(outline_wave_mm >= 0 && outline_wave_mm <= 30))
+    return Error{Errc::InvalidInput, "outline_wave_mm must lie in 0 .. 30"}.at("mesher.grid");
+  if (normal_passes < 0 || normal_passes > 16)
+    return Error{Errc::InvalidInput, "normal_passes must lie in 0 .. 16"}.at("mesher.grid");
+  if (!(measured_sigma_mm > 0))
+    return Error{Errc::InvalidInput, "measured_sigma_mm must be positive"}.at("mesher.grid");
+  if (!(min_area_mm2 >= 0 && min_area_mm2 <= 1e6))
+    return Error{Errc::InvalidInput, "min_area_mm2 must lie in 0 .. 1000000"}.at("mesher.grid");
+  return {};
+}
+
+Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context) const {
+  const Error stopped{Errc::Cancelled, "meshing was stopped"};
+  RELIEVO_TRY(options_.check());
+  if (context.stop()) return stopped;
+  if (cloud.points.empty()) return no_surface();
+  if (cloud.lattice_step_px <= 0)
+    return Error{
+        Errc::Unsupported,
+        "the grid mesher needs points on a pixel lattice: choose the mesher delaunay for scattered points"};
+
+  // What the outline's cut takes is known once it is done: about a fiftieth, which may be had more of before.
+  // Where it leaves too many, a thinner lattice fits.
+  double triangles = (1 + kCutAway) * options_.max_triangles;
+  for (;;) {
+    const Arena::Mark attempt(context.scratch);
+    if (context.stop()) return stopped;
+    RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, options_, context));
+    context.progress.done.store(0.8F, std::memory_order_relaxed);
+    if (context.stop()) return stopped;
+    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2)
+      return no_surface();
+    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) {
+      triangles *= 1 - kCutAway / 2;
+      continue;
+    }
+    FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
+      const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
+      return PackedVertex{surface.at_mm[v], surface.sigma_mm[v],
+                          certain ? surface.measured[v] : std::uint8_t{0}};
+    });
+    compute_normals(made, options_.normal_passes, &context.scratch);
+    turn_sigma_perpendicular(made);
+    context.progress.done.store(1, std::memory_order_relaxed);
+    return made;
+  }
+}
+
+Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2,
+                               StageContext& context) {
+  GridMesherOptions options;
+  options.max_triangles = max_triangles;
+  options.min_area_mm2 = min_area_mm2;
+  return GridMesher(options).mesh(cloud, context);
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/meshers/rbf_mesher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kBands = 64;
+constexpr int kFirstCentres = 150;
+constexpr double kGrowth = 2;            // centres from turn to turn
+constexpr std::size_t kJudged = 20'000;  // points the function is compared with, spread evenly
+
+// r^2 log r of a squared distance.
+double plate(double square) { return square > 0 ? 0.5 * square * std::log(square) : 0; }
+
+class Rbf {
+ public:
+  Rbf(const DepthSamples& samples, const RbfMesherOptions& options, StageContext& context)
+      : samples_(samples),
+        options_(options),
+        context_(context),
+        centres_(&context.scratch),
+        chosen_(samples.u.size(), 0, &context.scratch),
+        weights_(&context.scratch),
+        matrix_(&context.scratch) {
+    const std::size_t most = std::min(static_cast<std::size_t>(options.max_centres), samples.u.size());
+    const std::size_t side = most + 3;
+    centres_.reserve(most);
+    weights_.reserve(side);
+    matrix_.assign(side * side, 0.0);
+    middle_ = samples.usual_depth_mm;
+    scale_ = 0.5 * std::max({samples.right - samples.left, samples.bottom - samples.top, 1.0});
+  }
+
+  // False where it was stopped.
+  bool fit() {
+    const std::size_t most = centres_.capacity();
+    const std::size_t first = std::min(most, static_cast<std::size_t>(kFirstCentres));
+    for (std::size_t i = 0; i < first; ++i) choose(i * samples_.u.size() / first);
+    solve();
+    while (centres_.size() < most) {
+      if (context_.stop()) return false;
+      const std::size_t wanted =
+          std::min(most - centres_.size(),
+                   static_cast<std::size_t>((kGrowth - 1) * static_cast<double>(centres_.size())));
+      if (add_worst(wanted) == 0) break;
+      solve();
+    }
+    return !context_.stop();
+  }
+
+  void depths(std::span<const double> us, double v, std::span<double> depths) const {
+    for (std::size_t i = 0; i < us.size(); ++i) depths[i] = at(us[i], v);
+  }
+
+ private:
+  double at(double u, double v) const {
+    const std::size_t n = centres_.size();
+    const double x = u / scale_, y = v / scale_;
+    double sum = weights_[n] + weights_[n + 1] * x + weights_[n + 2] * y;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double dx = x - samples_.u[centres_[i]] / scale_;
+      const double dy = y - samples_.v[centres_[i]] / scale_;
+      sum += weights_[i] * plate(dx * dx + dy * dy);
+    }
+    return middle_ + sum;
+  }
+
+  void choose(std::size_t i) {
+    if (chosen_[i]) return;
+    chosen_[i] = 1;
+    centres_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  // (A + smoothing sigma^2 I) w + P c = d, P' w = 0, in place.
+  void solve() {
+    const Eigen::Index n = static_cast<Eigen::Index>(centres_.size());
+    Eigen::Map<Eigen::MatrixXd> a(matrix_.data(), n + 3, n + 3);
+    weights_.assign(centres_.size() + 3, 0.0);
+    Eigen::Map<Eigen::VectorXd> d(weights_.data(), n + 3);
+    a.setZero();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const std::size_t p = centres_[static_cast<std::size_t>(i)];
+      const double x = samples_.u[p] / scale_, y = samples_.v[p] / scale_;
+      for (Eigen::Index j = 0; j < i; ++j) {
+        const std::size_t q = centres_[static_cast<std::size_t>(j)];
+        const double dx = x - samples_.u[q] / scale_, dy = y - samples_.v[q] / scale_;
+        a(i, j) = a(j, i) = plate(dx * dx + dy * dy);
+      }
+      // Per mm^2 of scale: the plate's bending is measured there.
+      a(i, i) = options_.smoothing * samples_.sigma[p] * samples_.sigma[p] / (scale_ * scale_);
+      a(i, n) = a(n, i) = 1;
+      a(i, n + 1) = a(n + 1, i) = x;
+      a(i, n + 2) = a(n + 2, i) = y;
+      d(i) = samples_.depth[p] - middle_;
+    }
+    Eigen::Ref<Eigen::MatrixXd> in_place(a);
+    const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> lu(in_place);
+    const Eigen::VectorXd solved = lu.solve(d);
+    d = solved;
+  }
+
+  struct Judged {
+    double off;
+    std::uint32_t point;
+    friend bool operator<(const Judged& a, const Judged& b) {
+      return a.off != b.off ? a.off > b.off : a.point < b.point;
+    }
+  };
+
+  // The worst points, but never two in one cell: cells get smaller as centres get more.
+  std::size_t add_worst(std::size_t wanted) {
+    const Arena::Mark turn(context_.scratch);
+    const std::size_t n = std::min(kJudged, samples_.u.size());
+    std::pmr::vector<Judged> judged(n, Judged{}, &context_.scratch);
+    context_.pool.for_each_band(static_cast<int>(n), kBands, [&](int from, int to, int) {
+      for (int k = from; k < to; ++k) {
+        const std::size_t i = static_cast<std::size_t>(k) * samples_.u.size() / n;
+        const double off = std::abs(at(samples_.u[i], samples_.v[i]) - samples_.depth[i]);
+        judged[static_cast<std::size_t>(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
+                                               static_cast<std::uint32_t>(i)};
+      }
+    });
+    std::sort(judged.begin(), judged.end());
+    const double area = (samples_.right - samples_.left) * (samples_.bottom - samples_.top);
+    const double side = std::max(std::sqrt(area / static_cast<double>(2 * (centres_.size() + wanted))), 1e-3);
+    const std::size_t columns = static_cast<std::size_t>((samples_.right - samples_.left) / side) + 1;
+    const std::size_t rows = static_cast<std::size_t>((samples_.bottom - samples_.top) / side) + 1;
+    std::pmr::vector<std::uint8_t> taken(columns * rows, 0, &context_.scratch);
+    std::size_t added = 0;
+    for (const Judged& j : judged) {
+      if (added == wanted || j.off <= options_.accuracy_mm) break;
+      const std::size_t cell =
+          static_cast<std::size_t>((samples_.v[j.point] - samples_.top) / side) * columns +
+          static_cast<std::size_t>((samples_.u[j.point] - samples_.left) / side);
+      if (taken[cell] || chosen_[j.point]) continue;
+      taken[cell] = 1;
+      choose(j.point);
+      ++added;
+    }
+    return added;
+  }
+
+  const DepthSamples& samples_;
+  const RbfMesherOptions& options_;
+  StageContext& context_;
+  std::pmr::vector<std::uint32_t> centres_;
+  std::pmr::vector<std::uint8_t> chosen_;
+  std::pmr::vector<double> weights_;  // of the centres, then of 1, x, y
+  std::pmr::vector<double> matrix_;
+  double middle_ = 0, scale_ = 1;
+};
+
+}  // namespace
+
+Result<void> RbfMesherOptions::check() const {
+  if (max_points < 1000 || max_points > 1'000'000)
+    return Error{Errc::InvalidInput, "max_points must lie in 1000 .. 1000000"}.at("mesher.rbf");
+  if (max_centres < 20 || max_centres > 4000)
+    return Error{Errc::InvalidInput, "max_centres must lie in 20 .. 4000"}.at("mesher.rbf");
+  if (!(accuracy_mm >= 0.001 && accuracy_mm <= 10) || !(smoothing >= 0 && smoothing <= 1000))
+    return Error{Errc::InvalidInput, "accuracy_mm 0.001 .. 10, smoothing 0 .. 1000"}.at("mesher.rbf");
+  return sheet.check("mesher.rbf");
+}
+
+Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context) const {
+  RELIEVO_TRY(options_.check());
+  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  const DepthSamples samples = sample_depths(base, &context.scratch);
+  Rbf function(samples, options_, context);
+  if (!function.fit()) return Error{Errc::Cancelled, "meshing was stopped"};
+  return mesh_sheet(
+      base, samples, [&function](auto us, double v, auto depths) { function.depths(us, v, depths); },
+      options_.sheet, context);
+}
+
+}  // namespace relievo::pipeline

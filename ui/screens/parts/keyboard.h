@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The keyboard on the screen, as visitors and staff type on it. Thread: main. Errors: none.
+#pragma once
+
+#include "ui/screens/parts/page.h"
+
+namespace relievo::ui {
+
+// `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
+void keyboard(Page& page, Action done = {ActionKind::Done, 0});
+
+}  // namespace relievo::ui

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/parts/page.h"
+
+#include <algorithm>
+
+namespace relievo::ui {
+namespace {
+
+constexpr Colour kNone{};
+constexpr float kMostSignShare = 1.35F;  // signs on buttons that stay as large as they are grow no further
+
+constexpr std::string_view kUnits[] = {"mm", "px", "sr", "%"};
+
+bool begins_with_unit(std::string_view text) {
+  return std::ranges::any_of(kUnits, [text](std::string_view unit) {
+    return text.starts_with(unit) &&
+           (text.size() == unit.size() ||
+            std::string_view(" ,;:.)").find(text[unit.size()]) != std::string_view::npos);
+  });
+}
+
+int number_of(Step step) {
+  switch (step) {
+    case Step::Consent:
+      return 0;
+    case Step::Name:
+    case Step::Known:
+      return 1;
+    case Step::Position:
+      return 2;
+    case Step::Working:
+    case Step::Review:
+      return 3;
+    case Step::Attract:
+    case Step::Thanks:
+    case Step::Trouble:
+    case Step::Starting:
+      break;
+  }
+  return -1;
+}
+
+}  // namespace
+
+float unit_of(const Rect& screen) {
+  return screen.w >= screen.h ? std::min(screen.w / 1280, screen.h / 800)
+                              : std::min(screen.w / 800, screen.h / 1280);
+}
+
+Page::Page(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Palette& palette_in,
+           const Rect& screen)
+    : tree(tree_in),
+      view(view_in),
+      visit(visit_in),
+      palette(palette_in),
+      tr(visit_in.language),
+      unit(unit_of(screen)),
+      text_share(static_cast<float>(visit_in.text_percent()) / 100),
+      width_dp(screen.w / unit),
+      height_dp(screen.h / unit),
+      portrait(screen.h > screen.w) {}
+
+Node Page::box(Flow flow, float gap, float pad_x, float pad_y) const {
+  Node node;
+  node.box.flow = flow;
+  node.box.gap = px(gap);
+  node.box.pad_x = px(pad_x);
+  node.box.pad_y = px(pad_y);
+  return node;
+}
+
+void Page::space(float grow_share) { tree.leaf(grown(box(Flow::Column), grow_share)); }
+
+Node Page::text(std::string_view words, float size, Weight weight, Colour colour, TextAlign align) const {
+  Node node;
+  node.role = Role::Text;
+  node.text = words;
+  node.colour = colour;
+  // Arabic letters are smaller in their size than Latin ones.
+  const float script = visit.language == Language::Arabic ? 1.1F : 1.0F;
+  node.style.size_px = px(size * text_share * script);
+  node.style.weight = weight;
+  node.style.align = align;
+  node.style.language = info_of(visit.language).code;
+  return node;
+}
+
+void Page::heading(std::string_view id, std::string_view words, float size, TextAlign align) {
+  // The largest letters grow less: they are read from afar already.
+  Node node = text(words, size, Weight::Bold, palette.ink, align);
+  if (size >= type::kTitle) node.style.size_px = px(size * (1 + (text_share - 1) * 0.5F));
+  node.role = Role::Heading;
+  node.id = id;
+  tree.leaf(node);
+}
+
+void Page::body(std::string_view id, std::string_view words, TextAlign align) {
+  Node node = text(words, type::kBody, Weight::Regular, palette.ink_soft, align);
+  node.id = id;
+  tree.leaf(node);
+}
+
+void Page::sign(const char* letter, float size, Colour colour) {
+  Node node = text(letter, size, Weight::Regular, colour, TextAlign::Centre);
+  node.role = Role::Icon;
+  node.style.icon = true;
+  tree.leaf(node);
+}
+
+void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
+                  Action action, float grow, const ButtonSize& lengths) {
+  const bool main = look == ButtonLook::Main;
+  Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x,
+                  lengths.pad_y);
+  node.id = id;
+  node.name = label;
+  node.role = Role::Button;
+  node.action = action;
+  node.box.along = Along::Centre;
+  node.box.across = Across::Centre;
+  node.box.grow = grow;
+  node.box.min_height = px(lengths.height);
+  node.box.min_width = px(lengths.width);
+  node.box.radius = px(lengths.radius);
+  node.box.fill = main ? palette.accent : look == ButtonLook::Quiet ? palette.quiet : kNone;
+  node.box.border = main ? kNone : palette.quiet_border;
+  node.box.border_px = main ? 0 : std::max(1.5F, px(2));
+  node.box.shadow = main && lengths.shadow;
+  const Colour ink = main ? palette.accent_ink : palette.link;
+  tree.open(node);
+  if (letter != nullptr) sign(letter, lengths.sign, ink);
+  if (!label.empty()) tree.leaf(text(label, lengths.text, Weight::Medium, ink, TextAlign::Centre));
+  tree.close();
+}
+
+void Page::reading_tools() {
+  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+}
+
+void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action) {
+  Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
+  node.id = id;
+  node.name = spoken;
+  node.role = Role::Button;
+  node.action = action;
+  node.box.along = Along::Centre;
+  node.box.across = Across::Centre;
+  node.box.radius = px(size::kRadius);
+  node.box.fill = palette.quiet;
+  node.box.border = palette.quiet_border;
+  node.box.border_px = std::max(1.5F, px(2));
+  tree.open(node);
+  Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular,
+                        palette.link, TextAlign::Centre);
+  sign_node.role = Role::Icon;
+  sign_node.style.icon = true;
+  tree.leaf(sign_node);
+  tree.close();
+}
+
+const char* Page::kept(std::string_view words) {
+  const char* first = tree.keep(words).data();
+  tree.keep(std::string_view("\0", 1));
+  return first;
+}
+
+std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
+  std::string_view rest(words);
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const std::string_view value : values) {
+    const std::size_t at = rest.find("{}");
+    if (at == std::string_view::npos) break;
+    // First strong isolate … pop: a name or number keeps its own direction.
+    for (const std::string_view part :
+         {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)})
+      length += tree.keep(part).size();
+    rest.remove_prefix(at + 2);
+    // A line never ends between a value and its unit.
+    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1)))
+      length += tree.keep("\u00a0").size(), rest.remove_prefix(1);
+  }
+  return {first.data(), length + tree.keep(rest).size()};
+}
+
+void Page::begin(bool with_back) {
+  Node root = box(Flow::Column, space::kM, kPageMargin, kPageTop);
+  root.id = "page";
+  root.box.fill = palette.ground;
+  root.box.fill_end = palette.ground_end;
+  tree.open(root);
+  bar(with_back);
+}
+
+void Page::bar(bool with_back) {
+  tree.open(box(Flow::Row, space::kS));
+  tree.open(grown([&] {
+    Node n = box(Flow::Row, space::kS);
+    n.box.across = Across::Centre;
+    return n;
+  }()));
+  if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  if (!portrait || !with_back) steps();
+  tree.close();
+  reading_tools();
+  square_button("help", tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  // What is being stored is stored: who accepted gets their code.
+  if (view.screen != Screen::Store)
+    square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  tree.close();
+}
+
+// Where one is: four short bars, the done ones filled.
+void Page::steps() {
+  const int now = number_of(visit.step);
+  if (now < 0) return;
+  Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
+  row.box.across = Across::Centre;
+  row.id = "steps";
+  row.name = tr("How far you are");
+  row.role = Role::Status;
+  tree.open(row);
+  for (int i = 0; i < 4; ++i) {
+    Node dot = sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10);
+    dot.box.radius = px(5);
+    dot.box.fill = i <= now ? palette.accent : palette.track;
+    tree.leaf(dot);
+  }
+  tree.close();
+}
+
+}  // namespace relievo::ui

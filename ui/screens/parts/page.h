@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Page: what every screen is built with: the tree, the words, the palette, and the widgets. Lengths
+// that go in are dp; text grows with the person's text size, pictures and gaps do not.
+// Thread: main. Errors: none.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "ui/draw/theme.h"
+#include "ui/language/language.h"
+#include "ui/tree/tree.h"
+#include "ui/view/view_state.h"
+#include "ui/view/visit.h"
+
+namespace relievo::ui {
+
+namespace icon {  // letters of the icon font
+inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d", *kDown = "\uf045",
+                            *kTranslate = "\uf5ca", *kHelp = "\uf2d7", *kGood = "\uf5e0", *kCheck = "\uf12c",
+                            *kClose = "\uf156", *kCamera = "\uf100", *kAgain = "\uf450", *kErase = "\uf06e",
+                            *kText = "\uf27f", *kAlert = "\uf028", *kSun = "\uf5a8", *kZoomIn = "\uf34b",
+                            *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636",
+                            *kContrast = "\uf197", *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f",
+                            *kTurnLeft = "\uf465", *kTurnRight = "\uf467", *kShape = "\uf563",
+                            *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
+                            *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
+                            *kMore = "\uf415";
+}  // namespace icon
+
+// What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of
+// them alone would turn round the line it is read in. First: with the direction of its first letter; Left:
+// from the left.
+namespace isolate {
+inline constexpr char kFirst[] = {'\xe2', '\x81', '\xa8', '\0'}, kLeft[] = {'\xe2', '\x81', '\xa6', '\0'},
+                      kEnd[] = {'\xe2', '\x81', '\xa9', '\0'};
+}  // namespace isolate
+
+enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
+
+// Lengths of a button, in dp; of the letters, as they are at 100 %.
+struct ButtonSize {
+  float height = 0, width = 0;  // at least
+  float pad_x = 0, pad_y = 0, gap = 0, radius = 0;
+  float sign = 0, text = 0;
+  bool shadow = false;
+};
+// Of every page a visitor reads: what it leaves free at its sides, and above and below.
+inline constexpr float kPageMargin = 40, kPageTop = 24;
+
+namespace size {
+inline constexpr ButtonSize kMainButton{kBigTarget, kTarget, 26, 12, 14, kRadius, 34, type::kButton, true};
+inline constexpr ButtonSize kOtherButton{kTarget, kTarget, 26, 12, 14, kRadius, 30, type::kBody};
+}  // namespace size
+
+// Pixels of one dp on a screen of this size.
+float unit_of(const Rect& screen);
+
+class Page {
+ public:
+  Page(Tree& tree, const ViewState& view, const Visit& visit, const Palette& palette, const Rect& screen);
+
+  Tree& tree;
+  const ViewState& view;
+  const Visit& visit;
+  const Palette& palette;
+  Words tr;
+  float unit;        // pixels of a dp
+  float text_share;  // 1 to 1.5
+  float width_dp, height_dp;
+  bool portrait;
+
+  float px(float dp) const { return dp * unit; }
+  bool mirrored() const { return info_of(visit.language).right_to_left; }
+  // A box with nothing in it yet; gap and padding in dp.
+  Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;
+  Node grown(Node node, float share = 1) const {
+    node.box.grow = share;
+    return node;
+  }
+  Node sized(Node node, float width_dp_, float height_dp_) const {
+    node.box.width = px(width_dp_), node.box.height = px(height_dp_);
+    return node;
+  }
+  void space(float grow_share);
+
+  Node text(std::string_view words, float size, Weight weight, Colour colour,
+            TextAlign align = TextAlign::Start) const;
+  void heading(std::string_view id, std::string_view words, float size = type::kTitle,
+               TextAlign align = TextAlign::Start);
+  void body(std::string_view id, std::string_view words, TextAlign align = TextAlign::Start);
+  void sign(const char* letter, float size, Colour colour);
+  // An icon that points along the line of reading, turned for right-to-left.
+  const char* onward() const { return mirrored() ? icon::kBack : icon::kNext; }
+  const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }
+
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
+              float grow = 0) {
+    button(id, label, letter, look, action, grow,
+           look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
+  }
+  void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
+  // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
+  void reading_tools();
+  // Kept for the frame, with a zero at its end, as gettext wants its keys.
+  const char* kept(std::string_view words);
+  // "… {} …" with the value in it, kept apart from the direction of the words around.
+  std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
+  // The same for several, in the order of their places.
+  std::string_view filled(const char* words, std::initializer_list<std::string_view> values) {
+    return filled(words, std::span(values.begin(), values.size()));
+  }
+  std::string_view filled(const char* words, std::span<const std::string_view> values);
+
+  // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
+  void begin(bool with_back);
+  void end() { tree.close(); }
+
+ protected:
+  void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
+              float grow, const ButtonSize& lengths);
+
+ private:
+  void bar(bool with_back);
+  void steps();
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/staff_screens.h"
+
+#include <array>
+
+#include "ui/screens/parts/overlay.h"
+#include "ui/screens/service/bench/bench_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+// Marks words for the catalogues; the frame translates them when it draws.
+constexpr const char* mark_tr(const char* english) { return english; }
+
+constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016",
+                     *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kDocument = "\uf219";
+
+constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e",
+                     *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe";
+
+// In the order of the menu.
+constexpr std::array kPages{
+    StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page},
+    StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true,
+                  statistics_page},
+    StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true,
+                  consent_text_page},
+    StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false,
+                  self_test_page},
+    StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
+                  trigger_page},
+    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
+    StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
+    StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page},
+    StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page},
+    StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
+    StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
+                  bench_cameras_page},
+    StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
+                  bench_calibrate_page},
+    StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
+                  bench_stages_page},
+    StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model in 3D"), icon::kShape, true, false,
+                  bench_model_page},
+    StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
+                  bench_tables_page},
+    StaffPageInfo{StaffPage::Algorithms, "open algorithms", mark_tr("Algorithms"), kTune, true, false,
+                  bench_algorithms_page},
+    StaffPageInfo{StaffPage::Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
+                  bench_compare_page},
+};
+
+void draw_page(StaffFrame& page) {
+  if (page.service.page == StaffPage::Pin) return pin_page(page);
+  if (page.service.page == StaffPage::FirstStart) return first_start_page(page);
+  for (const StaffPageInfo& info : kPages) {
+    if (info.page != page.service.page || !may_open(page.staff.role, info)) continue;
+    page.begin(page.tr(info.title), info.letter);
+    info.draw(page);
+    return page.end();
+  }
+  menu_page(page);
+}
+
+}  // namespace
+
+std::span<const StaffPageInfo> staff_pages() { return kPages; }
+
+bool may_open(StaffRole role, const StaffPageInfo& info) {
+  return (role == StaffRole::Technician && info.technician) || (role == StaffRole::Operator && info.clerk);
+}
+
+const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit& visit,
+                                  const Service& service, const Rect& screen) {
+  const Palette& palette = visit.high_contrast ? kHighContrast : kLight;
+  tree.begin(info_of(visit.language).right_to_left);
+  StaffFrame page(tree, view, visit, service, palette, screen);
+  Node root = page.box(Flow::Stack);
+  root.id = "screen";
+  tree.open(root);
+  draw_page(page);
+  if (visit.overlay != Overlay::None) overlay_screen(page);
+  tree.close();
+  return palette;
+}
+
+void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& visit, const Service& service) {
+  list.pictures = {};
+  list.cloud = nullptr;
+  if (view.service->bench != nullptr && fill_bench_pictures(list, *view.service->bench, visit, service.page))
+    return;
+  list.face = view.service->model;
+  list.face_version = view.service->model == nullptr ? 0 : view.service->model_number;
+  list.face_look = visit.look;
+}
+
+void staff_entrance(Page& page) {
+  if (page.view.service == nullptr || page.visit.overlay != Overlay::None) return;
+  const Step step = page.visit.step;
+  if (step != Step::Attract && step != Step::Trouble) return;
+  Node corner = page.box(Flow::Row, 0, 16, 16);
+  corner.box.along = Along::End;
+  corner.box.across = Across::Start;
+  page.tree.open(corner);
+  Node door = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
+  door.id = "staff";
+  door.name = page.tr("Staff: hold for three seconds");
+  door.role = Role::Button;
+  door.action = {ActionKind::StaffEnter, 0};
+  door.hold = true;
+  door.filling = page.palette.accent;
+  door.box.along = Along::Centre;
+  door.box.across = Across::Centre;
+  door.box.radius = page.px(size::kRadius);
+  page.tree.open(door);
+  page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);
+  page.tree.close();
+  page.tree.close();
+}
+
+}  // namespace relievo::ui

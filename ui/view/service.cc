@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/view/service.h"
+
+#include <string.h>
+
+#include <algorithm>
+
+#include "ui/view/view_state.h"
+
+namespace relievo::ui {
+namespace {
+
+bool needs_role(StaffPage page) { return page != StaffPage::Pin && page != StaffPage::FirstStart; }
+
+}  // namespace
+
+bool Service::takes(ActionKind kind) const {
+  if (kind == ActionKind::StaffEnter) return true;
+  // Language, text size and help are the same for everybody.
+  const bool staff = kind > ActionKind::StaffEnter || kind == ActionKind::TypeKey ||
+                     kind == ActionKind::Erase || kind == ActionKind::Back;
+  return open && staff;
+}
+
+void Service::enter(const ViewState& view) {
+  if (open || view.service == nullptr) return;
+  open = true;
+  last_touch_ = view.now;
+  go(view.service->access.set_up ? StaffPage::Pin : StaffPage::FirstStart);
+}
+
+void Service::act(const Action& action, const ViewState& view) {
+  const ActionKind kind = action.kind;
+  if (kind == ActionKind::StaffEnter) enter(view);
+  if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
+  if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer)
+    wish(static_cast<std::uint8_t>(action.value), action.detail);
+  if (kind == ActionKind::StaffAnswer) mode = 0;
+  if (kind == ActionKind::StaffMode) mode = action.value;
+  if (kind == ActionKind::StaffChoose) {
+    chosen = action.value;
+    mode = action.detail;
+  }
+  if (kind == ActionKind::StaffLeave) leave();
+  if (kind == ActionKind::Erase) erase_letter();
+  if (kind == ActionKind::Back) back(view.service != nullptr && view.service->inner);
+}
+
+void Service::leave() {
+  wish(kPageLeft, 0);
+  close();
+}
+
+void Service::back(bool inner) {
+  if (mode != 0) {
+    mode = 0;
+    return;
+  }
+  if (inner) return go(page);
+  if (page != StaffPage::Menu && needs_role(page)) return go(StaffPage::Menu);
+  leave();
+}
+
+void Service::type(std::string_view letter) {
+  const std::size_t most = digits_only() ? kMostPinDigits : typed_.size();
+  if (length_ + letter.size() > most) return;
+  if (digits_only() && (letter.size() != 1 || letter[0] < '0' || letter[0] > '9')) return;
+  letter.copy(typed_.data() + length_, letter.size());
+  length_ += letter.size();
+}
+
+void Service::erase_letter() {
+  while (length_ > 0) {
+    const char last = typed_[--length_];
+    typed_[length_] = 0;
+    if ((static_cast<unsigned char>(last) & 0xC0U) != 0x80U) break;  // the first byte of a letter
+  }
+}
+
+void Service::forget_typed() {
+  explicit_bzero(typed_.data(), typed_.size());
+  length_ = 0;
+}
+
+void Service::show(StaffPage which, int in_mode) {
+  open = true;
+  page = which;
+  mode = in_mode;
+}
+
+void Service::go(StaffPage to) {
+  forget_typed();
+  page = to;
+  mode = 0;
+  chosen = 0;
+  wish(kPageOpened, 0);
+}
+
+void Service::close() {
+  forget_typed();
+  open = false;
+  page = StaffPage::Pin;
+  mode = 0;
+  chosen = 0;
+}
+
+void Service::wish(std::uint8_t verb, std::int64_t number) {
+  if (wish_count_ == wishes_.size()) return;
+  StaffWish& next = wishes_[wish_count_++];
+  next.page = page;
+  next.verb = verb;
+  next.number = number;
+  next.bytes = {};
+  typed().copy(next.bytes.data(), kStaffTextBytes);
+  // A PIN is not kept longer than its check, a name not longer than its search.
+  if (verb != kPageOpened) forget_typed();
+}
+
+std::optional<StaffWish> Service::take_wish() {
+  if (wish_count_ == 0) return std::nullopt;
+  const StaffWish first = wishes_[0];
+  std::move(wishes_.begin() + 1, wishes_.begin() + static_cast<std::ptrdiff_t>(wish_count_), wishes_.begin());
+  explicit_bzero(wishes_[--wish_count_].bytes.data(), kStaffTextBytes);
+  return first;
+}
+
+void Service::follow(const ViewState& view) {
+  // Whoever comes first would choose the PINs: that is the staff, before there are visitors.
+  if (!open && view.service != nullptr && view.service->access.demanded && !view.service->access.set_up &&
+      (view.screen == Screen::Idle || view.screen == Screen::Fault))
+    enter(view);
+  if (!open) return;
+  if (view.service == nullptr) return close();
+  const StaffRole role = view.service->role;
+  if (needs_role(page) && role == StaffRole::None) return close();
+  if (!needs_role(page) && role != StaffRole::None) return go(StaffPage::Menu);
+  if (page == StaffPage::FirstStart && view.service->access.set_up) return go(StaffPage::Pin);
+  if (page == StaffPage::Pin && view.now - last_touch_ > kPinPatience) leave();
+}
+
+}  // namespace relievo::ui

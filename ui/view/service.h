@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Service: where a member of staff is on their side of the screen, what they have typed and chosen.
+// The sibling of Visit. It decides nothing: what is to be done goes out as StaffWish, who may come in
+// the appliance says (ServiceView::role).
+//
+//   closed --StaffEnter--> Pin (or FirstStart) --role--> Menu <--> pages --role None--> closed
+//
+// What is typed lives in fixed memory and is wiped on every change of page.
+// Thread: main. Errors: none: what does not fit is not typed.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "ui/view/action.h"
+#include "ui/view/service_view.h"
+
+namespace relievo::ui {
+
+struct ViewState;
+
+inline constexpr std::size_t kStaffTextBytes = 128, kMostPinDigits = 8, kLeastPinDigits = 4;
+inline constexpr std::chrono::seconds kPinPatience{30};
+inline constexpr std::chrono::seconds kHold{3};  // a finger on the way in
+
+// Verbs every page has; its own begin at 1.
+inline constexpr std::uint8_t kPageOpened = 0, kPageLeft = 255;
+
+// What a page asks of the appliance: one of its verbs, a number, what was typed.
+struct StaffWish {
+  StaffPage page = StaffPage::Menu;
+  std::uint8_t verb = kPageOpened;
+  std::int64_t number = 0;
+  std::array<char, kStaffTextBytes + 1> bytes{};
+  std::string_view text() const { return {bytes.data()}; }
+};
+
+class Service {
+ public:
+  bool open = false;
+  StaffPage page = StaffPage::Pin;
+  int mode = 0;             // the page's own: a question, a step; 0 when the page is opened
+  std::int64_t chosen = 0;  // the page's own: a row
+
+  std::string_view typed() const { return {typed_.data(), length_}; }
+  bool takes(ActionKind kind) const;
+  void act(const Action& action, const ViewState& view);
+  void type(std::string_view letter);
+  void touched(hal::Instant now) { last_touch_ = now; }
+  // Follows the appliance, and the time.
+  void follow(const ViewState& view);
+  // What is to be asked of the appliance; nothing when there is no more.
+  std::optional<StaffWish> take_wish();
+  // For screenshots and tests: the page, as if somebody had walked there.
+  void show(StaffPage which, int in_mode = 0);
+  void close();
+
+ private:
+  static constexpr std::size_t kWishes = 8;
+  void go(StaffPage to);
+  void wish(std::uint8_t verb, std::int64_t number);
+  void enter(const ViewState& view);
+  void leave();
+  void back(bool inner);
+  void erase_letter();
+  void forget_typed();
+  bool digits_only() const {
+    return page == StaffPage::Pin || page == StaffPage::FirstStart || page == StaffPage::Pins;
+  }
+
+  std::array<char, kStaffTextBytes> typed_{};
+  std::size_t length_ = 0;
+  std::array<StaffWish, kWishes> wishes_{};
+  std::size_t wish_count_ = 0;
+  hal::Instant last_touch_{};
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the pages of the staff's side draw, one struct a page, as plain data.
+// Ownership: borrowed for the length of one frame. Thread: main.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "ui/view/service_view.h"
+
+namespace relievo::ui {
+
+// --- statistics: numbers, nobody's name -----------------------------------------------------------
+enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory, Camera, Slow, Other, Count };
+inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
+
+struct StatisticsView {
+  std::string_view since;  // a date
+  std::uint64_t visits = 0, captures = 0, models = 0, stored = 0, left = 0;
+  std::array<std::uint64_t, kRefusals> refused{};
+  double median_s = 0, slow_s = 0;  // from the pictures to the model: half, nine of ten are faster
+};
+
+// What has been noted, to be said in the reader's language.
+struct LogLine {
+  std::string_view at;  // date and time
+  bool fault = false;
+  std::string_view sentence;  // English
+  std::string_view key;       // of its words; empty: nobody knows it any more, the sentence is said as it is
+  std::array<std::string_view, 2> values{};  // for the places {} of the key
+};
+
+// --- health ---------------------------------------------------------------------------------------
+enum class Gauge : std::uint8_t { Stages, Process, Disk, Temperature };
+
+struct GaugeRow {
+  Gauge gauge = Gauge::Process;
+  std::string_view name;    // of a sensor; empty: the gauge's own
+  double used = 0, of = 0;  // MiB, or degrees Celsius
+  Mood mood = Mood::Plain;
+};
+
+struct HealthView {
+  std::span<const GaugeRow> gauges;
+  std::span<const LogLine> faults;  // newest first
+};
+
+// --- log: the newest lines -------------------------------------------------------------------------
+struct LogView {
+  std::span<const LogLine> lines;  // newest first
+};
+
+// --- consent text: which is in force, ViewState::consent says --------------------------------------
+inline constexpr std::uint8_t kConsentTake = 5;  // from the stick; also on the page of the first start
+
+struct ConsentShelfView {
+  bool taking = false;
+  Outcome outcome =
+      Outcome::None;       // of the last try; Done: it is in force. NotFound: the stick has no such folder
+  std::string_view file;   // what is wrong, by its name
+  std::string_view fault;  // and why: English, the key of its words
+};
+
+// --- self-test --------------------------------------------------------------------------------------
+inline constexpr std::uint8_t kSelfTestBegin = 1;
+enum class Check : std::uint8_t { Memory, Store, Calibration, Disk, Cameras, Count };
+enum class CheckState : std::uint8_t { NotTested, Running, Good, Bad };
+inline constexpr std::size_t kChecks = static_cast<std::size_t>(Check::Count);
+
+struct SelfTestView {
+  std::array<CheckState, kChecks> states{};
+  std::array<std::string_view, kChecks> problems{};  // English, of those that are bad
+};
+
+// --- trigger test -----------------------------------------------------------------------------------
+inline constexpr std::uint8_t kTriggerBegin = 1;
+
+struct TriggerView {
+  int pulses = 0, pairs = 0;                      // given; seen by both cameras
+  double apart_ms = 0;                            // between the two exposures, at most
+  double delay_ms = 0;                            // from asking to having both pictures, at most
+  std::uint64_t late = 0, lost = 0, damaged = 0;  // of both cameras, in this test
+  bool ended = false;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ViewState: everything a screen may draw, as plain data made anew for every frame. A screen reads
+// it, draws, and answers with an Intent: it decides nothing and remembers nothing about the person.
+// Thread: main. Ownership: pictures and models are borrowed for the length of one frame.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "pipeline/model/advice.h"
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/stereo_frame.h"
+#include "ui/device/settings.h"
+#include "ui/language/language.h"
+#include "ui/view/consent_text.h"
+#include "ui/view/service_view.h"
+
+namespace relievo::ui {
+
+// The states a person or a technician can see: the same words as the machine's states.
+enum class Screen : std::uint8_t {
+  SelfTest,
+  Idle,
+  Calibrate,
+  Position,
+  Capture,
+  Match,
+  Reconstruct,
+  Mesh,
+  Texture,
+  Review,
+  Store,
+  Export,
+  Technician,
+  Fault
+};
+std::string_view name_of(Screen screen);
+
+// What went wrong, as far as it makes a difference to the person who reads it.
+enum class Trouble : std::uint8_t {
+  None,
+  Camera,       // unplugged, or silent
+  Calibration,  // the cameras have moved
+  Refused,      // no model could be made of these pictures
+  Storage,      // full or broken
+  TookTooLong,
+  Uncalibrated,  // nobody has calibrated this device yet
+  Clock,         // set to a time that cannot be: a consent would bear a wrong date
+  Restarted,     // the power went, or the program did, in the middle of something
+  Other
+};
+
+// Nothing a visitor can pass by: it stands until the staff have mended it.
+constexpr bool bars_the_way(Trouble trouble) {
+  return trouble == Trouble::Uncalibrated || trouble == Trouble::Calibration || trouble == Trouble::Clock;
+}
+
+// What the records say to the name or code that was typed.
+enum class Known : std::uint8_t {
+  NotAsked,
+  Asking,
+  Nobody,  // somebody new
+  Name,    // somebody has this name
+  Code,    // a code, and the record it was given for
+  NoSuchCode
+};
+
+// The newest picture of the left camera, made small, while a person finds their place.
+struct LiveView {
+  ImageView picture;         // Rgb8; empty: none yet
+  std::uint32_t number = 0;  // grows with every picture
+  pipeline::Advice advice = pipeline::Advice::NoFace;
+  float face_x = 0, face_y = 0;  // its middle from the middle of where it should be, in widths of the face
+  float ideal_width = 0;         // of a face at the best distance, share of the picture's width; 0: not known
+  float steady_s = 0;            // so long everything has been right
+};
+
+// What a stage made, as a picture; kept while the session is open.
+struct StageView {
+  ImageView picture;  // empty: not born yet
+  std::uint32_t number = 0;
+};
+inline constexpr std::size_t kStageViews = 4;  // Match, Reconstruct, Mesh, Texture
+
+struct ViewState {
+  Screen screen = Screen::SelfTest;
+  hal::Instant now{};
+  std::chrono::system_clock::time_point wall_now{};
+  float progress = 0;  // 0 to 1 within the present state; 0 where nothing runs
+  pipeline::Advice advice = pipeline::Advice::None;
+  Trouble trouble = Trouble::None;
+  std::string_view problem;           // one sentence for a technician; empty when all is well
+  std::string_view calibration_note;  // for the technician: the cameras have moved, packed
+                                      // (hal/base/sentence.h); empty when all is well
+  std::string_view subject;           // who is being enrolled
+  std::string_view receipt;           // what to quote for an erasure; from the moment of storing on
+  int attempt = 0;                    // 1 for the first capture of a session
+  LiveView live;
+  std::array<StageView, kStageViews> stages{};
+  const pipeline::StereoFrame* frame = nullptr;    // the pictures of this session, once taken
+  const pipeline::FaceModel* model = nullptr;      // from Review on
+  std::uint32_t model_number = 0;                  // another for every model
+  const pipeline::FaceModel* showpiece = nullptr;  // a simulated head for the page that invites
+  std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
+  Language home = Language::English;      // the one a visit begins in; one of them
+  Settings settings;                      // the staff's
+  const ServiceView* service = nullptr;   // for the staff's pages; none: there are none
+  const ConsentTexts* consent = nullptr;  // the operator's own; none: the sample
+  Known known = Known::NotAsked;
+  Trouble out_of_order =
+      Trouble::None;  // Uncalibrated, Calibration, Clock, Restarted: shown instead of the page that invites
+};
+
+}  // namespace relievo::ui

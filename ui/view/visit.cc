@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/view/visit.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relievo::ui {
+namespace {
+
+bool is_stage(Screen screen) {
+  return screen == Screen::Capture || screen == Screen::Match || screen == Screen::Reconstruct ||
+         screen == Screen::Mesh || screen == Screen::Texture;
+}
+
+}  // namespace
+
+int Visit::seconds_left(hal::Instant now) const {
+  const auto left =
+      std::chrono::ceil<std::chrono::seconds>(last_touch_ + patience() + kLastCall - now).count();
+  return static_cast<int>(std::clamp<long>(left, 0, kLastCall.count()));
+}
+
+std::optional<float> Visit::countdown(const LiveView& live) const {
+  if (!settings_.is_on(Setting::Automatic) || overlay != Overlay::None ||
+      live.advice != pipeline::Advice::None || live.steady_s < kSteadyFor)
+    return std::nullopt;
+  return std::max(0.0F, kSteadyFor + countdown_s() - live.steady_s);
+}
+
+void Visit::touched(hal::Instant now) {
+  last_touch_ = now;
+  if (overlay == Overlay::StillThere) overlay = Overlay::None;
+}
+
+void Visit::forget() {
+  forget_person();
+  look_as_set();
+}
+
+void Visit::forget_person() {
+  wipe_name();
+  errand_ = Errand::New;
+  quotes_code_ = looking_up_ = false;
+  look_ups_ = 0;
+  agreed_at_ = {};
+  look = {};
+  touches = 0;
+  shot_ = false;
+  overlay = Overlay::None;
+  capitals = true;
+  accents = false;
+}
+
+void Visit::go(Step to, hal::Instant now) {
+  step = to;
+  entered_ = now;
+  overlay = Overlay::None;
+  if (to == Step::Attract) forget();
+  if (to == Step::Trouble) forget_person();  // who reads it reads it in their language
+}
+
+void Visit::look_at(ActionKind kind) {
+  if (kind == ActionKind::TurnLeft) look.yaw_deg = std::max(-75.0F, look.yaw_deg - 25);
+  if (kind == ActionKind::TurnRight) look.yaw_deg = std::min(75.0F, look.yaw_deg + 25);
+  if (kind == ActionKind::ZoomIn) look.zoom = std::min(3.0F, look.zoom * 1.25F);
+  if (kind == ActionKind::ZoomOut) look.zoom = std::max(0.8F, look.zoom / 1.25F);
+  if (kind == ActionKind::MoveLight) look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30;
+  if (kind == ActionKind::ShowShape) look.textured = !look.textured;
+  if (kind == ActionKind::LookPoints) look.points = !look.points;
+  if (kind == ActionKind::LookEdges) look.edges = !look.edges;
+  if (kind == ActionKind::LookFill) look.fill = !look.fill;
+  if (kind == ActionKind::LookLight) look.lit = !look.lit;
+}
+
+std::optional<Intent> Visit::back(const ViewState& view) {
+  if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
+  switch (step) {
+    case Step::Consent:
+      go(Step::Attract, view.now);
+      break;
+    case Step::Name:
+      step = Step::Consent;
+      break;
+    case Step::Known:
+      step = Step::Name;
+      break;
+    case Step::Position:
+      step = Step::Name;
+      return Intent::Cancel;
+    case Step::Review:
+      return Intent::Pose;
+    case Step::Attract:
+    case Step::Working:
+    case Step::Thanks:
+    case Step::Trouble:
+    case Step::Starting:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Intent> Visit::act(Action action, const ViewState& view) {
+  switch (action.kind) {
+    case ActionKind::ShowLanguages:
+    case ActionKind::ShowHelp:
+    case ActionKind::Leave:
+    case ActionKind::CloseOverlay:
+    case ActionKind::Stay:
+    case ActionKind::ChooseLanguage:
+    case ActionKind::BiggerText:
+    case ActionKind::Contrast:
+      act_on_page(action, view);
+      break;
+    case ActionKind::LeaveNow:
+      return leave_now(view);
+    case ActionKind::Back:
+      return back(view);
+    case ActionKind::TurnLeft:
+    case ActionKind::TurnRight:
+    case ActionKind::ZoomIn:
+    case ActionKind::ZoomOut:
+    case ActionKind::MoveLight:
+    case ActionKind::LookPoints:
+    case ActionKind::LookEdges:
+    case ActionKind::LookFill:
+    case ActionKind::LookLight:
+    case ActionKind::ShowShape:
+      look_at(action.kind);
+      break;
+    case ActionKind::Erase:
+      erase_letter();
+      break;
+    case ActionKind::Shift:
+      capitals = !capitals;
+      break;
+    case ActionKind::Accents:
+      accents = !accents;
+      break;
+    case ActionKind::Start:
+    case ActionKind::Agree:
+    case ActionKind::Decline:
+    case ActionKind::Done:
+    case ActionKind::TakePicture:
+    case ActionKind::Accept:
+    case ActionKind::Retake:
+    case ActionKind::Finish:
+      return act_on_path(action.kind, view);
+    case ActionKind::HaveCode:
+    case ActionKind::SomebodyElse:
+    case ActionKind::Renew:
+    case ActionKind::AddAnother:
+      return act_on_record(action.kind);
+    case ActionKind::TypeKey:
+    case ActionKind::TurnFace:
+    case ActionKind::StaffEnter:
+    case ActionKind::StaffLeave:
+    case ActionKind::StaffOpen:
+    case ActionKind::StaffDo:
+    case ActionKind::StaffAnswer:
+    case ActionKind::StaffMode:
+    case ActionKind::StaffChoose:
+    case ActionKind::None:
+      break;
+  }
+  return std::nullopt;
+}
+
+// How it is read, and what lies over it: wherever the person is.
+void Visit::act_on_page(Action action, const ViewState& view) {
+  if (action.kind == ActionKind::BiggerText) text_size = (text_size + 1) % kTextPercents.size();
+  else if (action.kind == ActionKind::Contrast) high_contrast = !high_contrast;
+  else if (action.kind == ActionKind::ShowLanguages) overlay = Overlay::Languages;
+  else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
+  else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
+  else overlay = Overlay::None;
+  if (action.kind == ActionKind::ChooseLanguage && view.languages[static_cast<std::size_t>(action.value)])
+    language = static_cast<Language>(action.value);
+}
+
+std::optional<Intent> Visit::leave_now(const ViewState& view) {
+  go(Step::Attract, view.now);
+  return Intent::Cancel;
+}
+
+std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view) {
+  ++touches;
+  if (kind == ActionKind::Start && step == Step::Attract) go(Step::Consent, view.now);
+  if (kind == ActionKind::Decline || kind == ActionKind::Finish) go(Step::Attract, view.now);
+  if (kind == ActionKind::Agree) {
+    touches = 1;
+    agreed_at_ = view.wall_now;
+    step = Step::Name;
+  }
+  if (kind == ActionKind::Done) {
+    while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
+    if (length_ == 0) return std::nullopt;
+    // Who tries many codes is not the one they were given to; who tries many names is told nothing more.
+    if (++look_ups_ > kMostLookUps && quotes_code_) {
+      go(Step::Attract, view.now);
+      return Intent::Cancel;
+    }
+    if (look_ups_ > kMostLookUps) return Intent::Pose;
+    looking_up_ = true;
+    return Intent::LookUp;
+  }
+  if (kind == ActionKind::TakePicture) {
+    shot_ = true;
+    return Intent::Begin;
+  }
+  if (kind == ActionKind::Accept) return Intent::Accept;
+  if (kind == ActionKind::Retake) {
+    look = {};
+    return Intent::Pose;
+  }
+  return std::nullopt;
+}
+
+std::optional<Intent> Visit::act_on_record(ActionKind kind) {
+  ++touches;
+  if (step != Step::Known) return std::nullopt;
+  if (kind == ActionKind::HaveCode) {
+    wipe_name();
+    quotes_code_ = true;
+    step = Step::Name;
+    return std::nullopt;
+  }
+  errand_ = kind == ActionKind::Renew        ? Errand::Renew
+            : kind == ActionKind::AddAnother ? Errand::Add
+                                             : Errand::New;
+  return Intent::Pose;
+}
+
+// The records have answered: who is new goes on, who is not is asked.
+std::optional<Intent> Visit::follow_look_up(const ViewState& view) {
+  if (!looking_up_ || view.known == Known::NotAsked || view.known == Known::Asking) return std::nullopt;
+  looking_up_ = false;
+  if (step != Step::Name || overlay == Overlay::Leave) return std::nullopt;
+  errand_ = Errand::New;
+  if (view.known == Known::Nobody) return Intent::Pose;
+  if (view.known == Known::Name || view.known == Known::Code) step = Step::Known;
+  return std::nullopt;
+}
+
+// A language the operator's text does not exist in cannot be chosen.
+void Visit::follow_language(const ViewState& view) {
+  if (home_ != view.home && (step == Step::Attract || step == Step::Starting)) language = view.home;
+  home_ = view.home;
+  if (!view.languages[static_cast<std::size_t>(language)]) language = home_;
+}
+
+bool Visit::person_expected() const {
+  return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position ||
+         step == Step::Review;
+}
+
+std::optional<Intent> Visit::follow(const ViewState& view) {
+  follow_language(view);
+  follow_settings(view);
+  const bool new_screen = view.screen != last_screen_;
+  const Screen before = last_screen_;
+  last_screen_ = view.screen;
+  if (new_screen) {
+    if (view.screen == Screen::Position) {
+      go(Step::Position, view.now);
+      last_touch_ = view.now;
+      shot_ = false;
+    } else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
+    else if (view.screen == Screen::Review) {
+      go(Step::Review, view.now);
+      last_touch_ = view.now;
+    } else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
+    else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working &&
+             view.trouble == Trouble::None)
+      go(Step::Thanks, view.now);
+    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known &&
+             step != Step::Attract) {
+      const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
+      go(told ? Step::Trouble : Step::Attract, view.now);
+    }
+  }
+  // Out of order is said before anybody begins, and to who is in the middle only when they are done.
+  const bool idle = view.screen == Screen::Idle;
+  if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
+  if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None)
+    go(Step::Attract, view.now);
+  const bool barred = idle && step == Step::Trouble && bars_the_way(view.out_of_order);
+  if ((step == Step::Thanks || (step == Step::Trouble && idle && !barred)) &&
+      view.now - std::max(entered_, last_touch_) > kThanks)
+    go(Step::Attract, view.now);
+  if (person_expected()) {
+    const auto silent = view.now - last_touch_;
+    if (silent > patience() + kLastCall) {
+      go(Step::Attract, view.now);
+      return Intent::Cancel;
+    }
+    if (silent > patience()) overlay = Overlay::StillThere;
+  } else if ((step == Step::Attract || step == Step::Trouble) &&
+             (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {
+    forget();
+  }
+  if (const auto intent = follow_look_up(view)) return intent;
+  if (step == Step::Position && !shot_) {
+    const auto left = countdown(view.live);
+    if (left && *left <= 0) {
+      shot_ = true;
+      return Intent::Begin;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace relievo::ui

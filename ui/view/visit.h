@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Visit: where a person is on the way through the screens, and what they have typed so far. The
+// appliance knows nothing of them before Intent::Pose; what is typed lives here, in fixed memory, and
+// is wiped when they leave, are done, or nobody has touched the screen for kPatience.
+//
+//   Attract -> Consent -> Name (-> Known) -> Position -> Working -> Review -> Thanks -> Attract
+//      (from Position to Review the machine leads and the visit follows)
+//
+// Thread: main. Errors: none: what does not fit is not typed.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+#include "ui/draw/draw_list.h"
+#include "ui/language/language.h"
+#include "ui/view/action.h"
+#include "ui/view/intent.h"
+#include "ui/view/view_state.h"
+
+namespace relievo::ui {
+
+enum class Step : std::uint8_t {
+  Attract,
+  Consent,
+  Name,
+  Known,
+  Position,
+  Working,
+  Review,
+  Thanks,
+  Trouble,
+  Starting
+};
+inline constexpr std::array<std::string_view, 10> kStepNames{
+    "Attract", "Consent", "Name", "Known", "Position", "Working", "Review", "Thanks", "Trouble", "Starting"};
+constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
+enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
+
+inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15},
+    kThanks{30};  // the first where nobody has set another
+inline constexpr float kSteadyFor = 0.6F,
+                       kCountdown =
+                           1.5F;  // seconds, before the picture is taken by itself; the second as above
+inline constexpr std::size_t kMostNameBytes = 128;
+inline constexpr const char* kConsentWording = "sample-1";  // where the operator has no text of their own
+inline constexpr int kMostLookUps = 5;                      // a visit; then nobody is told anything any more
+inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
+
+class Visit {
+ public:
+  Step step = Step::Starting;
+  Overlay overlay = Overlay::None;
+  Language language = Language::English;
+  std::size_t text_size = 0;  // index into kTextPercents
+  bool high_contrast = false;
+  bool capitals = true;
+  bool accents = false;  // the keyboard shows á, ß, ø ...
+  FaceLook look;
+  int touches = 0;  // since "I agree", typing not counted
+
+  int text_percent() const { return kTextPercents[text_size]; }
+  std::string_view name() const { return {name_.data(), length_}; }
+  // Is the code of an earlier record asked for, instead of a name?
+  bool quotes_code() const { return quotes_code_; }
+  Errand errand() const { return errand_; }
+  std::chrono::system_clock::time_point agreed_at() const { return agreed_at_; }
+  // Seconds until the visit is wiped; only while Overlay::StillThere asks.
+  int seconds_left(hal::Instant now) const;
+  // Seconds until the picture is taken by itself; nothing while something is to be mended first.
+  std::optional<float> countdown(const LiveView& live) const;
+  float countdown_s() const { return static_cast<float>(settings_.of(Setting::CountdownMs)) / 1000; }
+
+  // A finger or key somewhere: the person is there.
+  void touched(hal::Instant now);
+  // What is to be asked of the appliance, if anything.
+  std::optional<Intent> act(Action action, const ViewState& view);
+  // Follows the machine, and the time.
+  std::optional<Intent> follow(const ViewState& view);
+  void type(std::string_view letter);
+  // A text that was shown to the cameras, as though it had been typed; not over something typed.
+  void enter(std::string_view text, hal::Instant now);
+  void forget();
+
+ private:
+  void go(Step to, hal::Instant now);
+  void forget_person();  // not how they like to read
+  std::optional<Intent> act_on_path(ActionKind kind, const ViewState& view);
+  void act_on_page(Action action, const ViewState& view);
+  std::optional<Intent> leave_now(const ViewState& view);
+  std::optional<Intent> back(const ViewState& view);  // what lies over the page first
+  void look_at(ActionKind kind);
+  void erase_letter();
+  bool person_expected() const;
+  std::optional<Intent> follow_look_up(const ViewState& view);
+  std::optional<Intent> act_on_record(ActionKind kind);
+  void follow_language(const ViewState& view);
+  void follow_settings(const ViewState& view);
+  void look_as_set();
+  bool looks_as_set() const;
+  std::chrono::seconds patience() const { return std::chrono::seconds(settings_.of(Setting::PatienceS)); }
+  void wipe_name();
+
+  std::array<char, kMostNameBytes> name_{};
+  std::size_t length_ = 0;
+  std::chrono::system_clock::time_point agreed_at_{};
+  hal::Instant last_touch_{};
+  hal::Instant entered_{};
+  Screen last_screen_ = Screen::SelfTest;
+  Language home_ = Language::English;
+  Settings settings_;  // as the last view had them
+  Errand errand_ = Errand::New;
+  bool quotes_code_ = false;
+  bool looking_up_ = false;
+  int look_ups_ = 0;
+  bool shot_ = false;  // asked for, and not yet under way
+};
+
+}  // namespace relievo::ui
