@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -103,6 +104,15 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   }
   options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
   options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
+  if (args.rig) {
+    const IdealRigArgs& r = *args.rig;
+    options.rig = {.width_px = r.width_px,
+                   .height_px = r.height_px,
+                   .focal_px = r.focal_px * 1920 / std::max(r.width_px, r.height_px),
+                   .baseline_mm = r.baseline_mm,
+                   .convergence_mm = r.convergence_mm,
+                   .perturbation = 0};
+  }
   if (args.portrait) std::swap(options.rig.width_px, options.rig.height_px);
   if (!args.held.picture.empty()) return hold_picture(args.held, options, folder);
   return hal::sim::render_to_folder(options, folder, pool_size());

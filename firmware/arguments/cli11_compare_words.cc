@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 #include "firmware/arguments/compare_words.h"
 #include "firmware/arguments/two_numbers.h"
 
@@ -16,7 +18,26 @@ bool disparity_range(const std::string& text, int& least, int& most) {
   return true;
 }
 
+// The dissertation's report is one of its own, on one pair, or on a simulated person.
+void check_dissertation(const CompareArgs& args) {
+  if (args.suites.size() > 1 || !args.set_files.empty() || !args.set_words.empty() || args.keep_maps)
+    throw CLI::ValidationError(
+        "--suite dissertation",
+        "is a report of its own: give no other --suite, no --sets, --set-of or --keep-maps");
+  if (args.pictures.size() > 2)
+    throw CLI::ValidationError("--suite dissertation",
+                               "takes one pair, LEFT RIGHT, or none: a simulated person");
+}
+
 void check_counts(const CompareArgs& args) {
+  const bool dissertation =
+      std::find(args.suites.begin(), args.suites.end(), "dissertation") != args.suites.end();
+  if (dissertation) check_dissertation(args);
+  if (args.pictures.empty()) {
+    if (dissertation && args.calibrations.empty() && !args.rectified && args.truths.empty()) return;
+    throw CLI::ValidationError("LEFT RIGHT",
+                               "are wanted: two pictures; without any there is --suite dissertation only");
+  }
   if (args.pictures.size() % 2 != 0)
     throw CLI::ValidationError("pictures", "come in pairs: LEFT RIGHT [LEFT RIGHT ...]");
   const std::size_t pairs = args.pictures.size() / 2;
@@ -36,8 +57,9 @@ void check_counts(const CompareArgs& args) {
 CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   CLI::App* command = app.add_subcommand(
       "compare", "sets of algorithms beside each other, on one pair or many: a page and its figures");
-  command->add_option("pictures", args.pictures, "left, right, left, right, ...")
-      ->required()
+  command
+      ->add_option("pictures", args.pictures,
+                   "left, right, left, right, ...; none is needed for --suite dissertation")
       ->type_name("LEFT RIGHT");
   const auto each = [command](const char* name, std::vector<Path>& to, const char* help, const char* type) {
     return command->add_option(name, to, help)->type_name(type)->take_all()->allow_extra_args(false);
@@ -77,7 +99,7 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   command
       ->add_option(
           "--suite", args.suites,
-          "sets that belong together: dissertation, dissertation-face, peers, matchers, constraints, selectors, preprocessors, meshers")
+          "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
       ->type_name("NAME")
       ->take_all()
       ->allow_extra_args(false);

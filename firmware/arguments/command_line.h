@@ -135,8 +135,15 @@ struct HeldPictureArgs {
   double gloss = 0;
 };
 
+// Another rig than the kiosk's, without tolerances of assembly. No word of the command line.
+struct IdealRigArgs {
+  int width_px = 0, height_px = 0;
+  double focal_px = 0, baseline_mm = 0, convergence_mm = 0;
+};
+
 struct SimulateArgs {
   bool board = false;  // the chessboard; else a face, or what is held
+  std::optional<IdealRigArgs> rig;
   HeldPictureArgs held;
   Path output;
   unsigned seed = 1;

@@ -11,7 +11,9 @@
 #include "firmware/command/commands.h"
 #include "firmware/compare/compare_job.h"
 #include "firmware/compare/compare_json.h"
+#include "firmware/compare/dissertation_job.h"
 #include "firmware/compare/page/compare_page.h"
+#include "firmware/compare/page/dissertation_page.h"
 #include "firmware/compare/set_choice.h"
 #include "firmware/jobs/watched_job.h"
 #include "firmware/measure/pfm.h"
@@ -23,6 +25,19 @@ namespace {
 
 using compare::Comparison;
 using compare::Run;
+
+const std::string kProduct = "Relievo " + std::string(kVersion);
+
+std::string now_of(const Services& services) {
+  return text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
+}
+
+Result<void> write_result(const OutputFolder& folder, const Path& place, const Result<std::string>& page,
+                          const std::string& json) {
+  if (!page) return page.error();
+  RELIEVO_TRY(write_text(folder.path() / "index.html", *page, place));
+  return write_text(folder.path() / "compare.json", json, place);
+}
 
 // A line a run, for a terminal.
 std::string line_of(const Comparison& c, const Run& run) {
@@ -69,15 +84,52 @@ Result<void> write_maps(const Comparison& c, const OutputFolder& folder, const P
   return {};
 }
 
+Result<void> run_dissertation(const CompareArgs& args, Services& services) {
+  compare::DissertationOrder order;
+  RELIEVO_TRY_ASSIGN(order.rule_sets, compare::make_sets(args.algorithms, compare::dissertation_rule_sets()));
+  RELIEVO_TRY_ASSIGN(order.face_sets, compare::make_sets(args.algorithms, compare::dissertation_face_sets()));
+  RELIEVO_TRY_ASSIGN(auto pairs, compare::read_pairs(args));
+  if (!pairs.empty()) order.pair = std::move(pairs.front());
+  order.whole_view = args.algorithms.whole_view;
+  order.limit_px = args.limit_px;
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  order.work = folder.path() / "simulated";
+  services.console.say("tables 1 and 2, figures 6 to 12 and 17 of the dissertation: a minute or two");
+  compare::DissertationJob job(std::move(order), services.simulate);
+  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
+  std::error_code ignored;
+  std::filesystem::remove_all(folder.path() / "simulated", ignored);
+
+  const compare::Dissertation& made = job.result();
+  RELIEVO_TRY(write_result(folder, args.output, compare::dissertation_html(made, kProduct, now_of(services)),
+                           compare::dissertation_json(made, now_of(services))));
+  RELIEVO_TRY(folder.commit());
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "table 1: baseline %.3f units, the dissertation's %.3f (true %.3f)\n"
+                "table 2: worst corner off by %.2f units, the dissertation's within %.0f",
+                made.rig.baseline_units, compare::recorded::kFoundBaselineUnits,
+                compare::recorded::kBaselineUnits, made.cube.worst_units,
+                compare::recorded::kWorstCornerUnits);
+  services.console.say(line);
+  for (const compare::Figure& figure : compare::figures_of(made))
+    for (const Run* run : figure.runs)
+      services.console.say("figure " + std::to_string(figure.number) + ": " + line_of(figure.of, *run));
+  services.console.say("report and figures: " + args.output.string());
+  return {};
+}
+
 }  // namespace
 
 Result<void> run_compare(const CompareArgs& args, Services& services) {
   interrupted();  // from here on Ctrl-C is heard: the output's folder must not be left behind
+  if (args.suites == std::vector{std::string(compare::kDissertation)})
+    return run_dissertation(args, services);
   RELIEVO_TRY_ASSIGN(auto sets, compare::choose_sets(args));
   RELIEVO_TRY_ASSIGN(auto pairs, compare::read_pairs(args));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   // One set on one pair is a reconstruction that is measured: its model goes along.
-  compare::CompareJob::KeepModel keep_model;
+  std::function<Result<void>(const pipeline::FaceModel&)> keep_model;
   if (sets.size() == 1 && pairs.size() == 1)
     keep_model = [&](const pipeline::FaceModel& model) -> Result<void> {
       const auto files = storage::write_model_files(model, folder.path(), storage::ExportFrame::Camera);
@@ -87,18 +139,14 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
       std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") +
       std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
       (args.truths.empty() ? "; no truth is known: nothing below says how wrong a set is" : ""));
-  compare::CompareJob job(std::move(pairs), std::move(sets), args.algorithms.whole_view, args.limit_px,
-                          keep_model);
+  compare::CompareJob job(std::move(pairs), std::move(sets),
+                          {args.algorithms.whole_view, args.limit_px, true, keep_model});
   RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
 
   const Comparison& comparison = job.comparison();
-  const std::string made_at =
-      text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
-  RELIEVO_TRY_ASSIGN(const std::string page,
-                     compare::comparison_html(comparison, "Relievo " + std::string(kVersion), made_at));
-  RELIEVO_TRY(write_text(folder.path() / "index.html", page, args.output));
-  RELIEVO_TRY(
-      write_text(folder.path() / "compare.json", compare::comparison_json(comparison, made_at), args.output));
+  RELIEVO_TRY(write_result(folder, args.output,
+                           compare::comparison_html(comparison, kProduct, now_of(services)),
+                           compare::comparison_json(comparison, now_of(services))));
   if (args.keep_maps) RELIEVO_TRY(write_maps(comparison, folder, args.output));
   RELIEVO_TRY(folder.commit());
   for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));

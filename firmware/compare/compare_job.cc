@@ -8,11 +8,10 @@
 
 namespace relievo::firmware::compare {
 
-CompareJob::CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, bool whole_view,
-                       double limit_px, KeepModel keep_model)
-    : pairs_(std::move(pairs)), whole_view_(whole_view), keep_model_(std::move(keep_model)) {
+CompareJob::CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options)
+    : pairs_(std::move(pairs)), options_(std::move(options)) {
   comparison_.sets = std::move(sets);
-  comparison_.limit_px = limit_px;
+  comparison_.limit_px = options_.limit_px;
   for (const ComparedPair& pair : pairs_)
     for (const NamedSet& set : comparison_.sets) labels_.push_back(pair.name + ", " + set.name);
 }
@@ -27,8 +26,7 @@ Result<void> CompareJob::run(JobControl& control) {
       Run& run = comparison_.runs.emplace_back();
       run.set = s;
       run.pair = p;
-      RELIEVO_TRY(run_set({pairs_[p], comparison_.sets[s], whole_view_, comparison_.limit_px, keep_model_},
-                          pool, control, facts, run));
+      RELIEVO_TRY(run_set({pairs_[p], comparison_.sets[s], options_}, pool, control, facts, run));
     }
     pairs_[p] = {};  // what is looked at again lies in the facts
   }

@@ -13,21 +13,18 @@ namespace relievo::firmware::compare {
 
 class CompareJob final : public Job {
  public:
-  using KeepModel = std::function<Result<void>(const pipeline::FaceModel&)>;
-  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, bool whole_view, double limit_px,
-             KeepModel keep_model);
+  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options);
 
   Result<void> run(JobControl& control) override;
   std::string_view now() const { return labels_[at_.load(std::memory_order_relaxed)]; }  // "pair, set"
-  const Comparison& comparison() const { return comparison_; }
+  Comparison& comparison() { return comparison_; }
 
  private:
   std::vector<ComparedPair> pairs_;
   Comparison comparison_;
   std::vector<std::string> labels_;
   std::atomic<std::size_t> at_{0};
-  bool whole_view_;
-  KeepModel keep_model_;
+  RunOptions options_;
 };
 
 }  // namespace relievo::firmware::compare

@@ -6,10 +6,12 @@
 
 #include <string>
 
+#include "firmware/compare/page/dissertation.h"
 #include "firmware/measure/comparison.h"
 
 namespace relievo::firmware::compare {
 
 std::string comparison_json(const Comparison& comparison, const std::string& made_at);
+std::string dissertation_json(const Dissertation& dissertation, const std::string& made_at);
 
 }  // namespace relievo::firmware::compare

@@ -140,27 +140,84 @@ Json shared_json(const Comparison& c) {
   return all;
 }
 
-}  // namespace
-
-std::string comparison_json(const Comparison& c, const std::string& made_at) {
+Json sets_json(const Comparison& c) {
   Json sets = Json::array();
   for (const NamedSet& set : c.sets)
     sets.push_back({{"name", set.name}, {"algorithms", settings_json(set.set)}});
+  return sets;
+}
+
+Json pair_json(const PairFacts& pair) {
+  return {{"name", pair.name},
+          {"width_px", pair.width_px},
+          {"height_px", pair.height_px},
+          {"rectified", pair.rectified},
+          {"disparities_px", {pair.least_px, pair.most_px}},
+          {"truth", pair.truth.has_value()}};
+}
+
+// A name may hold bytes that are no UTF-8: they are replaced, never thrown about.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json cube_json(const CubeTable& cube) {
+  Json corners = Json::array();
+  const auto three = [](const pipeline::Vec3d& p) { return Json{p.x, p.y, p.z}; };
+  for (const CubeTable::Corner& corner : cube.corners)
+    corners.push_back({{"true_units", three(corner.truth)},
+                       {"found_units", three(corner.found)},
+                       {"off_units", corner.off_units}});
+  return {{"worst_units", cube.worst_units},
+          {"rms_units", cube.rms_units},
+          {"side_units", cube.side_units},
+          {"corners", corners}};
+}
+
+}  // namespace
+
+std::string dissertation_json(const Dissertation& d, const std::string& made_at) {
+  const RigTable& rig = d.rig;
+  Json json{{"version", kVersion},
+            {"made_at", made_at},
+            {"bad_beyond_px", d.rules.limit_px},
+            {"table_1",
+             {{"dissertation",
+               {{"true_baseline_units", recorded::kBaselineUnits},
+                {"baseline_units", recorded::kFoundBaselineUnits},
+                {"focal_px", recorded::kFoundFocalPx}}},
+              {"relievo",
+               {{"true_baseline_units", recorded::kBaselineUnits},
+                {"baseline_units", rig.baseline_units},
+                {"true_focal_px", rig.true_focal_px},
+                {"focal_px", rig.focal_px},
+                {"pair_rms_px", rig.pair_rms_px}}}}},
+            {"table_2",
+             {{"dissertation", {{"worst_units_below", recorded::kWorstCornerUnits}}},
+              {"relievo", cube_json(d.cube)}}}};
+  for (const Figure& figure : figures_of(d)) {
+    Json runs = Json::array();
+    for (const Run* run : figure.runs) runs.push_back(run_json(figure.of, *run));
+    json["figure_" + std::to_string(figure.number)] = {{"pair", pair_json(figure.of.pairs.front())},
+                                                       {"runs", runs}};
+  }
+  json["sets_of_figures_6_to_12"] = sets_json(d.rules);
+  json["sets_of_figure_17"] = sets_json(d.face);
+  return text_of(json);
+}
+
+std::string comparison_json(const Comparison& c, const std::string& made_at) {
   Json pairs = Json::array();
-  for (const PairFacts& pair : c.pairs)
-    pairs.push_back({{"name", pair.name},
-                     {"width_px", pair.width_px},
-                     {"height_px", pair.height_px},
-                     {"rectified", pair.rectified},
-                     {"disparities_px", {pair.least_px, pair.most_px}},
-                     {"truth", pair.truth.has_value()}});
+  for (const PairFacts& pair : c.pairs) pairs.push_back(pair_json(pair));
   Json runs = Json::array();
   for (const Run& run : c.runs) runs.push_back(run_json(c, run));
-  const Json json{
-      {"version", kVersion}, {"made_at", made_at}, {"bad_beyond_px", c.limit_px},    {"sets", sets},
-      {"pairs", pairs},      {"runs", runs},       {"shared_pixels", shared_json(c)}};
-  // A name may hold bytes that are no UTF-8: they are replaced, never thrown about.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of({{"version", kVersion},
+                  {"made_at", made_at},
+                  {"bad_beyond_px", c.limit_px},
+                  {"sets", sets_json(c)},
+                  {"pairs", pairs},
+                  {"runs", runs},
+                  {"shared_pixels", shared_json(c)}});
 }
 
 }  // namespace relievo::firmware::compare

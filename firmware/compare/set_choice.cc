@@ -77,13 +77,17 @@ Result<std::vector<SetWords>> all_words(const CompareArgs& args) {
 
 Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
   RELIEVO_TRY_ASSIGN(auto all, all_words(args));
-  // Algorithms are judged here, not people: a set that makes hardly a face of one is a row with its figures.
-  AlgorithmArgs base = args.algorithms;
-  base.settings.insert(base.settings.begin(), "relief=off");
   if (all.empty()) {
-    RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(base));
+    RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(args.algorithms));
     all.push_back({only.get("matcher"), {}});
   }
+  return make_sets(args.algorithms, all);
+}
+
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& algorithms, const std::vector<SetWords>& all) {
+  // Algorithms are judged here, not people: a set that makes hardly a face of one is a row with its figures.
+  AlgorithmArgs base = algorithms;
+  base.settings.insert(base.settings.begin(), "relief=off");
   if (all.size() > kMostSets)
     return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(
         std::to_string(all.size()));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
+#include "firmware/compare/suites.h"
 #include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
 
@@ -19,5 +20,6 @@ namespace relievo::firmware::compare {
 inline constexpr std::size_t kMostSets = 64;
 
 Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args);
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& base, const std::vector<SetWords>& words);
 
 }  // namespace relievo::firmware::compare

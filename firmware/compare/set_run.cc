@@ -72,7 +72,7 @@ Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeli
         if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
         RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair,
                            pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
-        if (order.whole_view) return pair;
+        if (order.options.whole_view) return pair;
         RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
         RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
         RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
@@ -123,7 +123,7 @@ Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeli
   if (!model) return model.error();
   if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
   made.model.emplace(*std::move(model));
-  return order.keep_model ? order.keep_model(*made.model) : Result<void>{};
+  return order.options.keep_model ? order.options.keep_model(*made.model) : Result<void>{};
 }
 
 void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, PairFacts& facts) {
@@ -143,7 +143,7 @@ void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, Pair
 Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Made& made, Run& run) {
   std::optional<pipeline::Pipeline> pipeline;  // without a rig there is nothing to build
   if (order.pair.calibration) {
-    const auto region = order.whole_view ? pipeline::Region::All : pipeline::Region::Face;
+    const auto region = order.options.whole_view ? pipeline::Region::All : pipeline::Region::Face;
     RELIEVO_TRY_ASSIGN(pipeline,
                        pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
   }
@@ -153,10 +153,10 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   RELIEVO_TRY(match(order.set, bench, made));
   for (std::size_t i = before; i < run.stages.size(); ++i) run.match_ms += run.stages[i].ms;
   run.map = disparity_map(*made.matches, made.pair->width_px, made.pair->height_px);
-  run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.limit_px);
+  run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.options.limit_px);
   run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
-  if (facts.truth) run.score = score(run.map, *facts.truth, order.limit_px);
-  return pipeline ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
+  if (facts.truth) run.score = score(run.map, *facts.truth, order.options.limit_px);
+  return pipeline && order.options.models ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
 }
 
 // Of places that are no lattice, which is no choice.

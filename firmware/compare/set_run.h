@@ -13,13 +13,18 @@
 
 namespace relievo::firmware::compare {
 
+struct RunOptions {
+  bool whole_view = false;
+  double limit_px = 1;
+  bool models = true;  // of calibrated pairs; else only their matches
+  // Called with a model while the memory it lies in stands; may be empty.
+  std::function<Result<void>(const pipeline::FaceModel&)> keep_model{};
+};
+
 struct RunOrder {
   const ComparedPair& pair;
   const NamedSet& set;
-  bool whole_view = false;
-  double limit_px = 1;
-  // Called with a model while the memory it lies in stands; may be empty.
-  std::function<Result<void>(const pipeline::FaceModel&)> keep_model;
+  const RunOptions& options;
 };
 
 // What the algorithms say against it becomes `run.failure`; `facts` is filled in by the first set that

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/compare/suites.h"
 
-#include <algorithm>
 #include <array>
 
+#include "firmware/compare/page/dissertation.h"
 #include "pipeline/algorithms.h"
 
 namespace relievo::firmware::compare {
@@ -19,26 +19,10 @@ std::vector<std::string> names_of(std::string_view kind) {
   return {};
 }
 
-bool has(std::string_view kind, std::string_view name) {
-  const auto names = names_of(kind);
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// The six of the dissertation, in its order, as far as they are here.
-constexpr std::array<std::string_view, 6> kRules{"similarity", "uniqueness", "continuity",
-                                                 "ordering",   "left-right", "statistical"};
-
 // ZMNCC keeps nothing whose cost is above 0.6 (its min_score), and the rule's own limit stands above that: it
 // is for plain skin, which correlates little under noise and is matched right by `refined`. Of what lies
 // between, 76 % is wrong on aloe.
 constexpr std::string_view kSimilarityLimit = "similarity.max_cost=0.4";
-
-std::string all_rules() {
-  std::string all;
-  for (const std::string_view rule : kRules)
-    if (has("constraints", rule)) all += (all.empty() ? "" : "+") + std::string(rule);
-  return all.empty() ? "none" : all;
-}
 
 // Every matcher, as it is by default; those of a file match nothing without it.
 Words matchers() {
@@ -78,51 +62,10 @@ Words preprocessors() {
   return words;
 }
 
-// Bardsley 2004, figures 6 to 12 and 17: sums of squared differences against zero-mean correlation, then the
-// constraints one after the other, then all of it; beside them what is the default here.
-Words dissertation() {
-  Words words;
-  const auto add = [&words](std::string name, std::string_view matcher, const std::string& rules) {
-    if (has("matcher", matcher))
-      words.push_back({std::move(name),
-                       {"preprocessor=none", "matcher=" + std::string(matcher), "constraints=" + rules,
-                        std::string(kSimilarityLimit)}});
-  };
-  add("SSD", "ssd", "none");
-  add("ZMNCC", "zmncc", "none");
-  std::string rules;
-  for (const std::string_view rule : kRules) {
-    if (!has("constraints", rule)) continue;
-    rules.append(rules.empty() ? "" : "+").append(rule);
-    add("ZMNCC + " + std::string(rule), "zmncc", rules);
-  }
-  words.push_back({"Relievo", {}});
-  return words;
-}
-
-// Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
-Words dissertation_face() {
-  std::vector<std::string> chain{"triangulator=linear-least-squares", "mesher=delaunay",
-                                 "texturer=single-view"};
-  if (has("preprocessor", "histogram-match")) chain.emplace_back("preprocessor=histogram-match");
-  if (has("matcher", "zmncc")) chain.emplace_back("matcher=zmncc");
-  chain.push_back("constraints=" + all_rules());
-  chain.emplace_back(kSimilarityLimit);
-  Words words{{"2004, dense", chain}};
-  for (const char* selector : {"good-features", "haar"}) {
-    if (!has("selector", selector)) continue;
-    words.push_back({std::string("2004, ") + selector, chain});
-    words.back().settings.push_back(std::string("selector=") + selector);
-  }
-  words.push_back({"Relievo", {}});
-  return words;
-}
-
 // What an OpenCV user writes today beside what is ours; the peer's own checks instead of our rules.
 Words peers() {
   Words words{{"Relievo", {}}};
-  if (has("matcher", "sgm")) words.push_back({"sgm", {"matcher=sgm"}});
-  if (!has("matcher", "opencv-sgbm")) return words;
+  words.push_back({"sgm", {"matcher=sgm"}});
   const std::vector<std::string> peer{"matcher=opencv-sgbm",     "constraints=none",
                                       "opencv-sgbm.window_px=5", "opencv-sgbm.uniqueness=8",
                                       "opencv-sgbm.max_lr_px=1", "opencv-sgbm.speckle_px=200"};
@@ -145,17 +88,48 @@ struct Suite {
   Words (*make)();
 };
 constexpr std::array kSuites{
-    Suite{"dissertation", dissertation},
-    Suite{"dissertation-face", dissertation_face},
-    Suite{"peers", peers},
-    Suite{"matchers", matchers},
-    Suite{"constraints", constraints},
-    Suite{"selectors", selectors},
-    Suite{"preprocessors", preprocessors},
-    Suite{"meshers", meshers},
+    Suite{"peers", peers},         Suite{"matchers", matchers},           Suite{"constraints", constraints},
+    Suite{"selectors", selectors}, Suite{"preprocessors", preprocessors}, Suite{"meshers", meshers},
 };
 
 }  // namespace
+
+std::vector<SetWords> dissertation_rule_sets() {
+  Words words;
+  const auto add = [&words](std::string name, const std::string& matcher, const std::string& rules) {
+    words.push_back(
+        {std::move(name),
+         {"preprocessor=none", "matcher=" + matcher, "constraints=" + rules, std::string(kSimilarityLimit)}});
+  };
+  add("SSD", "ssd", "none");
+  add("ZMNCC", "zmncc", "none");
+  std::string rules;
+  for (const std::string_view rule : kDissertationRules) {
+    rules.append(rules.empty() ? "" : "+").append(rule);
+    add("ZMNCC + " + std::string(rule), "zmncc", rules);
+  }
+  words.push_back({"Relievo", {}});
+  return words;
+}
+
+std::vector<SetWords> dissertation_face_sets() {
+  std::string rules;
+  for (const std::string_view rule : kDissertationRules) rules.append(rules.empty() ? "" : "+").append(rule);
+  const std::vector<std::string> chain{"preprocessor=histogram-match",
+                                       "matcher=zmncc",
+                                       "constraints=" + rules,
+                                       std::string(kSimilarityLimit),
+                                       "triangulator=linear-least-squares",
+                                       "mesher=delaunay",
+                                       "texturer=single-view"};
+  Words words{{"2004, dense", chain}};
+  for (const char* selector : {"good-features", "haar"}) {
+    words.push_back({std::string("2004, ") + selector, chain});
+    words.back().settings.push_back(std::string("selector=") + selector);
+  }
+  words.push_back({"Relievo", {}});
+  return words;
+}
 
 std::vector<std::string_view> suite_names() {
   std::vector<std::string_view> names;
@@ -167,8 +141,8 @@ std::vector<std::string_view> suite_names() {
 Result<std::vector<SetWords>> suite_sets(std::string_view name) {
   for (const Suite& suite : kSuites)
     if (suite.name == name) return suite.make();
-  std::string all;
-  for (const Suite& suite : kSuites) all += (all.empty() ? "" : ", ") + std::string(suite.name);
+  std::string all(kDissertation);
+  for (const Suite& suite : kSuites) all += ", " + std::string(suite.name);
   return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" +
                                                                                     all + ")");
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sets that belong together, by name. A suite is made from the algorithms that this program has.
+// Sets that belong together, by name. A suite is made from the algorithms that this program has; that of the
+// dissertation is more than sets: dissertation/ makes a report of its own of it.
 // Errors: NotFound (no such suite; the error's place lists them). Thread: any.
 #pragma once
 
@@ -17,6 +18,14 @@ struct SetWords {
   std::string name;
   std::vector<std::string> settings;  // "matcher=ssd", "ssd.window_px=21"
 };
+
+inline constexpr std::string_view kDissertation = "dissertation";
+
+// Figures 6 to 12 (Bardsley 2004): SSD, ZMNCC, ZMNCC with the first rule, with the first two and so on, and
+// last what is the default here.
+std::vector<SetWords> dissertation_rule_sets();
+// Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
+std::vector<SetWords> dissertation_face_sets();
 
 std::vector<std::string_view> suite_names();
 Result<std::vector<SetWords>> suite_sets(std::string_view suite);

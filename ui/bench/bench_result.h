@@ -59,7 +59,8 @@ struct BenchResult {
   std::size_t rule_count = 0;
   float median_sigma_mm = 0, coverage = 0;  // 0: no model
   float epipolar_px = -1;                   // rms disagreement of the rows; below 0: not measured
-  float photo_correlation = -2;  // of the right view predicted through the model; below -1: not measured
+  float photo_correlation = 0;              // median, of the right view predicted through the model
+  std::uint64_t photo_windows = 0;          // that it is the median of; 0: not measured
 };
 
 // A place that was touched, and its partner.

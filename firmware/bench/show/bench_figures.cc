@@ -64,7 +64,8 @@ Result<void> BenchFigures::measure(const Products& products, pipeline::StageCont
     Arena::Mark mark(c.output);
     const auto photo =
         compare::photo_figures(*products.pair, compare::model_view(*products.pair, products.model->mesh), c);
-    if (photo.asked > 0) result_.photo_correlation = static_cast<float>(photo.median);
+    result_.photo_correlation = static_cast<float>(photo.median);
+    result_.photo_windows = photo.asked;
     return {};
   });
 }

@@ -14,50 +14,7 @@ namespace sections {
 
 using pipeline::report::escaped;
 
-std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair) {
-  std::vector<const Run*> runs;
-  for (const Run& run : c.runs)
-    if (run.pair == pair) runs.push_back(&run);
-  return runs;
-}
-
-const std::string& name_of(const Comparison& c, const Run& run) { return c.sets[run.set].name; }
-std::string cell(const std::string& html) { return "<td class=\"value\">" + html + "</td>"; }
-std::string best_cell(const std::string& html, bool best) {
-  return best ? "<td class=\"value best\">" + html + "</td>" : cell(html);
-}
-std::string row_head(const std::string& name) { return "<th scope=\"row\">" + escaped(name) + "</th>"; }
-
-std::string table_head(const std::vector<std::string>& columns, std::size_t words) {
-  std::string out = "<table class=\"sets\">\n<thead><tr>";
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    out +=
-        std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
-  return out + "</tr></thead>\n<tbody>\n";
-}
-
-std::string settings(const Comparison& c) {
-  std::string out =
-      "<section>\n<h2>The sets</h2>\n<p class=\"lead\">What was chosen; every other setting is its default.</p>\n" +
-      std::string("<table class=\"numbers set\">\n<tbody>\n");
-  for (const NamedSet& set : c.sets) {
-    std::string words;
-    std::istringstream lines(set.set.to_text());
-    for (std::string line; std::getline(lines, line);) words += (words.empty() ? "" : ", ") + line;
-    out += "<tr>" + row_head(set.name) + "<td>" + escaped(words) + "</td></tr>\n";
-  }
-  return out + "</tbody>\n</table>\n</section>\n";
-}
-
-}  // namespace sections
-
-namespace {
-
-using pipeline::report::counted;
-using pipeline::report::escaped;
-using pipeline::report::figure;
-
-constexpr std::string_view kStyle = R"css(
+const std::string_view kStyle = R"css(
 .sets { font-size: 14px; margin-top: 6px; }
 .sets thead th { padding-right: 10px; } .sets thead th.value { white-space: normal; } .sets thead small { font-size: 12px; }
 .sets td, .sets tbody th { padding: 6px 10px 6px 0; } .sets tbody th { font-weight: 600; } .sets td small { font-size: 12px; }
@@ -80,6 +37,49 @@ image { image-rendering: auto; }
 @media print { .sets { font-size: 8pt; } .topic { margin: 14pt 0 4pt; } .set { margin-top: 9pt; } .three { gap: 4pt 8pt; } }
 )css";
 
+std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair) {
+  std::vector<const Run*> runs;
+  for (const Run& run : c.runs)
+    if (run.pair == pair) runs.push_back(&run);
+  return runs;
+}
+
+const std::string& name_of(const Comparison& c, const Run& run) { return c.sets[run.set].name; }
+std::string cell(const std::string& html) { return "<td class=\"value\">" + html + "</td>"; }
+std::string best_cell(const std::string& html, bool best) {
+  return best ? "<td class=\"value best\">" + html + "</td>" : cell(html);
+}
+std::string row_head(const std::string& name) { return "<th scope=\"row\">" + escaped(name) + "</th>"; }
+
+std::string table_head(const std::vector<std::string>& columns, std::size_t words) {
+  std::string out = "<table class=\"sets\">\n<thead><tr>";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    out +=
+        std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
+  return out + "</tr></thead>\n<tbody>\n";
+}
+
+std::string settings(const Comparison& c, const std::string& title) {
+  std::string out = "<section>\n<h2>" + title +
+                    "</h2>\n<p class=\"lead\">What was chosen; every other setting is its default.</p>\n" +
+                    std::string("<table class=\"numbers set\">\n<tbody>\n");
+  for (const NamedSet& set : c.sets) {
+    std::string words;
+    std::istringstream lines(set.set.to_text());
+    for (std::string line; std::getline(lines, line);) words += (words.empty() ? "" : ", ") + line;
+    out += "<tr>" + row_head(set.name) + "<td>" + escaped(words) + "</td></tr>\n";
+  }
+  return out + "</tbody>\n</table>\n</section>\n";
+}
+
+}  // namespace sections
+
+namespace {
+
+using pipeline::report::counted;
+using pipeline::report::escaped;
+using pipeline::report::figure;
+
 std::string facts_of(const PairFacts& pair) {
   if (pair.width_px == 0) return "nothing could be rectified";
   return std::string(pair.truth ? "The truth is known" : "No truth is known") + ". " +
@@ -91,7 +91,8 @@ std::string facts_of(const PairFacts& pair) {
 Result<std::string> pair_section(const Comparison& c, std::size_t pair) {
   std::string out = "<section>\n<h2>" + escaped(c.pairs[pair].name) + "</h2>\n<p class=\"lead\">" +
                     facts_of(c.pairs[pair]) + "</p>\n";
-  out += sections::figures(c, pair) + sections::surfaces(c, pair) + sections::shared_pixels(c, pair);
+  const sections::Runs runs = sections::runs_of(c, pair);
+  out += sections::figures(c, runs) + sections::surfaces(c, runs) + sections::shared_pixels(c, pair);
   RELIEVO_TRY_ASSIGN(const std::string maps, sections::maps(c, pair));
   out += maps + sections::histograms(c, pair) + sections::costs(c, pair) + sections::rules(c, pair);
   RELIEVO_TRY_ASSIGN(const std::string selectors, sections::selectors(c, pair));
@@ -145,7 +146,8 @@ Result<std::string> comparison_html(const Comparison& c, const std::string& prod
     RELIEVO_TRY_ASSIGN(const std::string section, pair_section(c, pair));
     body += section;
   }
-  return pipeline::report::page("Comparison of algorithms", kStyle, body + sections::settings(c));
+  return pipeline::report::page("Comparison of algorithms", sections::kStyle,
+                                body + sections::settings(c, "The sets"));
 }
 
 }  // namespace relievo::firmware::compare

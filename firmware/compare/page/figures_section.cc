@@ -147,8 +147,7 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
 
 }  // namespace
 
-std::string figures(const Comparison& c, std::size_t pair) {
-  const std::vector<const Run*> runs = runs_of(c, pair);
+std::string figures(const Comparison& c, const Runs& runs) {
   const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
   std::string out;
   const bool models = any([](const Run* r) { return r->model.has_value(); });

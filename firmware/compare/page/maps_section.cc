@@ -80,10 +80,37 @@ bool same_matches(const Run& a, const Run& b) {
          std::equal(a.map.values.begin(), a.map.values.end(), b.map.values.begin(), b.map.values.end(), same);
 }
 
-// Of sets with the same matches; `run` is the first of them.
-Result<std::string> row_of(const Comparison& c, const Run& run, const std::string& name, const Reach& reach,
-                           const Window& window) {
+// Of the truth, or of the first set that matched.
+Reach reach_of_pair(const Comparison& c, std::size_t index) {
+  const PairFacts& pair = c.pairs[index];
+  if (pair.truth) return reach_of(pair.truth->map);
+  for (const Run* run : runs_of(c, index))
+    if (run->matches.accepted > 0) return reach_of(run->map);
+  return {pair.least_px, pair.most_px};
+}
+
+}  // namespace
+
+Result<std::string> ground(const Comparison& c, std::size_t index) {
+  const PairFacts& pair = c.pairs[index];
+  if (pair.width_px == 0) return std::string();
+  const Window window = window_of(pair, runs_of(c, index));
+  const Reach reach = reach_of_pair(c, index);
+  std::string out = legend(c, pair, reach) + "<div class=\"pair\">\n";
+  RELIEVO_TRY_ASSIGN(const Png grey, grey_picture(pair, window, kWidthPx));
+  out += drawn(window, grey, "the left view", "Left view",
+               "as the matchers are given it, before any preprocessing");
+  if (pair.truth) {
+    RELIEVO_TRY_ASSIGN(const Png truth, disparity_picture(pair.truth->map, reach, window, kWidthPx));
+    out += drawn(window, truth, "the true disparities", "Truth", "what every set is judged by");
+  }
+  return out + "</div>\n";
+}
+
+Result<std::string> map_row(const Comparison& c, const Run& run, const std::string& name) {
   const PairFacts& pair = c.pairs[run.pair];
+  const Window window = window_of(pair, runs_of(c, run.pair));
+  const Reach reach = reach_of_pair(c, run.pair);
   const bool scattered = run.selector.has_value();
   const DisparityMap shown = scattered ? thickened(run.map, kDotPx) : run.map;
   RELIEVO_TRY_ASSIGN(const Png disparities, disparity_picture(shown, reach, window, kWidthPx));
@@ -108,30 +135,11 @@ Result<std::string> row_of(const Comparison& c, const Run& run, const std::strin
   return out + "</div>\n</div>\n";
 }
 
-}  // namespace
-
 Result<std::string> maps(const Comparison& c, std::size_t index) {
-  const PairFacts& pair = c.pairs[index];
-  if (pair.width_px == 0) return std::string();
-  const Window window = window_of(pair, runs_of(c, index));
-  Reach reach{pair.least_px, pair.most_px};
-  if (pair.truth) reach = reach_of(pair.truth->map);
-  else
-    for (const Run* run : runs_of(c, index))
-      if (run->matches.accepted > 0) {
-        reach = reach_of(run->map);
-        break;
-      }
-  std::string out = "<h3 class=\"topic\">Maps</h3>\n" + legend(c, pair, reach) + "<div class=\"pair\">\n";
-  RELIEVO_TRY_ASSIGN(const Png grey, grey_picture(pair, window, kWidthPx));
-  out += drawn(window, grey, "the left view", "Left view",
-               "as the matchers are given it, before any preprocessing");
-  if (pair.truth) {
-    RELIEVO_TRY_ASSIGN(const Png truth, disparity_picture(pair.truth->map, reach, window, kWidthPx));
-    out += drawn(window, truth, "the true disparities", "Truth", "what every set is judged by");
-  }
-  out += "</div>\n";
-  std::vector<const Run*> left = runs_of(c, index);
+  RELIEVO_TRY_ASSIGN(std::string out, ground(c, index));
+  if (out.empty()) return out;
+  out.insert(0, "<h3 class=\"topic\">Maps</h3>\n");
+  Runs left = runs_of(c, index);
   std::erase_if(left, [](const Run* run) { return run->map.values.empty(); });
   while (!left.empty()) {
     const Run& first = *left.front();
@@ -141,7 +149,7 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
       if (same) names += (names.empty() ? "" : ", ") + name_of(c, *run);
       return same;
     });
-    RELIEVO_TRY_ASSIGN(const std::string row, row_of(c, first, names, reach, window));
+    RELIEVO_TRY_ASSIGN(const std::string row, map_row(c, first, names));
     out += row;
   }
   return out;

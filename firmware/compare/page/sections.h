@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "firmware/measure/comparison.h"
@@ -13,18 +14,24 @@
 
 namespace relievo::firmware::compare::sections {
 
-std::string figures(const Comparison& c, std::size_t pair);       // one row a set: what matters
-std::string surfaces(const Comparison& c, std::size_t pair);      // every model, and what its mesh took
-Result<std::string> maps(const Comparison& c, std::size_t pair);  // disparities, errors, rejected matches
+using Runs = std::vector<const Run*>;  // of one pair
+
+std::string figures(const Comparison& c, const Runs& runs);         // one row a set: what matters
+std::string surfaces(const Comparison& c, const Runs& runs);        // every model, and what its mesh took
+Result<std::string> maps(const Comparison& c, std::size_t pair);    // the two below, sets of one map once
+Result<std::string> ground(const Comparison& c, std::size_t pair);  // colours, left view, truth
+// Disparities, errors, rejected matches: a row of pictures.
+Result<std::string> map_row(const Comparison& c, const Run& run, const std::string& title);
 std::string histograms(const Comparison& c, std::size_t pair);
 std::string shared_pixels(const Comparison& c, std::size_t pair);  // every two sets where both give one
 std::string costs(const Comparison& c, std::size_t pair);          // times by step, memory
 std::string rules(const Comparison& c, std::size_t pair);          // what constraints took away
 Result<std::string> selectors(const Comparison& c, std::size_t pair);
-std::string settings(const Comparison& c);
+std::string settings(const Comparison& c, const std::string& title);
+extern const std::string_view kStyle;  // that all of these need
 
 // The runs of one pair, in the order of the sets.
-std::vector<const Run*> runs_of(const Comparison& c, std::size_t pair);
+Runs runs_of(const Comparison& c, std::size_t pair);
 const std::string& name_of(const Comparison& c, const Run& run);
 std::string cell(const std::string& html);  // a number's
 std::string best_cell(const std::string& html, bool best);

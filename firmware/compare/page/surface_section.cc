@@ -30,9 +30,9 @@ std::string facts_of(const Run& run) {
 
 }  // namespace
 
-std::string surfaces(const Comparison& c, std::size_t pair) {
+std::string surfaces(const Comparison& c, const Runs& runs) {
   std::string out;
-  for (const Run* run : runs_of(c, pair)) {
+  for (const Run* run : runs) {
     if (!run->surface) continue;
     Drawing d({480, 240}, name_of(c, *run) + ": its surface from in front and from the side");
     d.picture({{0, 0}, {240, 240}}, run->surface->front);

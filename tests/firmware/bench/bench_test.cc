@@ -87,6 +87,9 @@ TEST_F(BenchTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
   EXPECT_EQ(result.accepted + rejected, result.matches)
       << "every rejected match has the rule that took it first";
   EXPECT_GT(result.photo_correlation, 0.5F);
+  rig().open(StaffPage::Compare);
+  EXPECT_TRUE(rig().shows("windows")) << "a correlation says little without the area it is of";
+  EXPECT_GT(result.photo_windows, 100U);
 
   rig().open(StaffPage::Tables);
   rig().tap("table 0");

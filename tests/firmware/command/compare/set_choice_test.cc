@@ -38,11 +38,9 @@ TEST(SetChoice, AllSetsStartFromTheSettingsForAll) {
 
 // A limit that the matcher has already held to would make a rule of figure 7 that says nothing.
 TEST(SetChoice, TheDissertationsSimilarityAsksForMoreThanItsMatcher) {
-  for (const char* suite : {"dissertation", "dissertation-face"}) {
-    CompareArgs args;
-    args.suites = {suite};
-    const auto sets = choose_sets(args);
-    ASSERT_TRUE(sets);
+  for (const auto& words : {dissertation_rule_sets(), dissertation_face_sets()}) {
+    const auto sets = make_sets({}, words);
+    ASSERT_TRUE(sets) << sets.error().where();
     int judged = 0;
     for (const NamedSet& set : *sets) {
       if (set.set.get("matcher") != "zmncc" ||
@@ -52,19 +50,18 @@ TEST(SetChoice, TheDissertationsSimilarityAsksForMoreThanItsMatcher) {
       EXPECT_LT(std::stod(set.set.get("similarity.max_cost")), 1 - std::stod(set.set.get("zmncc.min_score")))
           << set.name;
     }
-    EXPECT_GE(judged, 3) << suite;
+    EXPECT_GE(judged, 3);
   }
 }
 
 // Scattered places make hardly a face of one, and the page is to say how good they are.
 TEST(SetChoice, NobodyIsRefusedAsAPictureUnlessAskedFor) {
-  CompareArgs args;
-  args.suites = {"dissertation-face"};
-  const auto sets = choose_sets(args);
+  AlgorithmArgs base;
+  const auto sets = make_sets(base, dissertation_face_sets());
   ASSERT_TRUE(sets);
   for (const NamedSet& set : *sets) EXPECT_EQ(set.set.get("relief"), "off") << set.name;
-  args.algorithms.settings = {"relief=check"};
-  const auto asked = choose_sets(args);
+  base.settings = {"relief=check"};
+  const auto asked = make_sets(base, dissertation_face_sets());
   ASSERT_TRUE(asked);
   for (const NamedSet& set : *asked) EXPECT_EQ(set.set.get("relief"), "check") << set.name;
 }

@@ -109,10 +109,13 @@ void table(BenchFrame& b) {
       model);
   two(
       "coverage", b.tr("Face covered"), [](const BenchResult& r) { return 100 * r.coverage; }, 1, "%", model);
+  const auto predicted = [](const BenchResult& r) { return r.photo_windows > 0; };
   two(
       "photo", b.tr("Likeness of the predicted right view"),
-      [](const BenchResult& r) { return r.photo_correlation; }, 3, "",
-      [](const BenchResult& r) { return r.photo_correlation > -1; });
+      [](const BenchResult& r) { return r.photo_correlation; }, 3, "", predicted);
+  two(
+      "windows", b.tr("Compared windows"), [](const BenchResult& r) { return r.photo_windows; }, 0, "",
+      predicted);
   two(
       "rows", b.tr("Disagreement of the rows"), [](const BenchResult& r) { return r.epipolar_px; }, 3, "px",
       [](const BenchResult& r) { return r.epipolar_px >= 0; });
