@@ -156,7 +156,15 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.limit_px);
   run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
   if (facts.truth) run.score = score(run.map, *facts.truth, order.limit_px);
-  return pipeline ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
+  if (!pipeline) return {};
+  const auto built = build_model(order, *pipeline, bench, made, run);
+  // A handful of places is compared all the same; that they make no face is no failure of theirs.
+  const bool few = !built && made.matches->lattice_step_px == 0 &&
+                   (built.error().code == Errc::PoorGeometry || built.error().code == Errc::TooFewMatches);
+  if (!few) return built;
+  run.no_surface = "no surface, not judged to be a face: " + std::to_string(run.matches.accepted) +
+                   " accepted matches are too few, or too far apart";
+  return {};
 }
 
 // Of places that are no lattice, which is no choice.
