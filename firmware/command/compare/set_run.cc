@@ -159,8 +159,9 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   if (!pipeline) return {};
   const auto built = build_model(order, *pipeline, bench, made, run);
   // A handful of places is compared all the same; that they make no face is no failure of theirs.
-  const bool few = !built && made.matches->lattice_step_px == 0 &&
-                   (built.error().code == Errc::PoorGeometry || built.error().code == Errc::TooFewMatches);
+  const Errc code = built ? Errc::Cancelled : built.error().code;
+  const bool few = made.matches->lattice_step_px == 0 && run.stages.back().name != "texture" &&
+                   (code == Errc::PoorGeometry || code == Errc::TooFewMatches || code == Errc::NoFace);
   if (!few) return built;
   run.no_surface = "no surface, not judged to be a face: " + std::to_string(run.matches.accepted) +
                    " accepted matches are too few, or too far apart";
