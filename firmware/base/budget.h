@@ -31,10 +31,19 @@ inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;   // what the stage
 inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;  // what one stage needs for itself
 inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
 
+// The technician's pages: both pictures of three stages and one of five; beside them, of every result that
+// was put aside, one picture of each stage and the model (a simulated face at 1920 x 1200: 463,000 triangles
+// and 775,000 texels, 26 MiB; what is larger than the room is not kept).
+inline constexpr std::size_t kBenchPictureBytes = std::size_t{3} * kBenchPictureSidePx * kBenchPictureSidePx;
+inline constexpr std::size_t kKeptResults = 3;
+inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
+inline constexpr std::size_t kBenchBytes =
+    (11 + 8 * kKeptResults) * kBenchPictureBytes + kKeptResults * kKeptModelBytes;
+
 inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;
 inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;  // of the machine's memory, for the process
-static_assert(kBlockBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
+static_assert(kBlockBytes + kBenchBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
               "the parts need more than the appliance has");
 
 // --- queues and names ---------------------------------------------------------------------------

@@ -58,6 +58,7 @@ bool Bench::is_calibrated() {
 void Bench::say(const Error& error) { problem_ = ui::fault_of(error); }
 
 void Bench::opened(ui::BenchPage page) {
+  recording_.hide();
   if (page == ui::BenchPage::Cameras) watch_cameras(true);
   if (page == ui::BenchPage::Calibrate) calibrations_.load_history();
   if (page == ui::BenchPage::Algorithms) algorithms_.act({BenchAct::LeaveOption, 0});
@@ -100,6 +101,8 @@ void Bench::act(ui::BenchOrder order) {
       return apply_set();
     case BenchAct::KeepResult:
       return keep_result();
+    case BenchAct::DropResult:
+      return kept_.drop(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
     case BenchAct::ShowTable:
       if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::BenchTable::Count))
         tables_.show(static_cast<ui::BenchTable>(order.argument), source());
@@ -141,7 +144,9 @@ void Bench::act(ui::BenchOrder order) {
     case BenchAct::LeaveSaved:
       return recording_.hide();
     case BenchAct::Load:
-      return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+    case BenchAct::LoadBeside:
+      return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)),
+                  order.act == BenchAct::LoadBeside);
     case BenchAct::ChooseKind:
     case BenchAct::ChooseName:
     case BenchAct::EditOption:
@@ -168,9 +173,10 @@ void Bench::choose(ui::BenchOrder order) {
 }
 
 void Bench::keep_result() {
-  if (!at_rest() || !run_.figures().view().there) return;
-  kept_ = run_.figures();
-  kept_pictures_.copy_from(run_.pictures());
+  if (!at_rest() || !run_.figures().view().there || kept_.has(model_number_)) return;
+  const Products* made = products();
+  kept_.keep(run_.figures(), run_.pictures(), made != nullptr && made->model ? &*made->model : nullptr,
+             model_number_);
 }
 
 void Bench::record() {
@@ -211,6 +217,7 @@ void Bench::begin_next() {
 
 void Bench::shoot() {
   phase_ = BenchPhase::Capturing;
+  run_.name(recording_.name_now());
   parts_.errands.send(
       JobPlace::Capture, [this](JobControl& control) { return shot_.run(control); },
       [this](const std::optional<Error>& error) { shot_done(error); });
@@ -265,14 +272,17 @@ void Bench::save() {
 }
 
 // What is in the session stays until a whole document has been read.
-void Bench::load(std::size_t row) {
+void Bench::load(std::size_t row, bool beside) {
+  const std::string name = recording_.saved_name(row);
   recording_.load(
       row,
-      [this](std::shared_ptr<const SavedBytes> saved) {
+      [this, name, beside](std::shared_ptr<const SavedBytes> saved) {
         const auto document = storage::Document::open(saved->bytes());
         auto making = document ? making_of(*document) : Result<Making>(document.error());
         if (!making) return say(making.error());
+        if (beside) keep_result();
         saved_ = std::move(saved);
+        saved_name_ = name;
         saved_making_ = *std::move(making);
         wait_for_cameras(Next::Loaded);
       },
@@ -281,6 +291,7 @@ void Bench::load(std::size_t row) {
 
 void Bench::take_over() {
   algorithms_.begin(saved_making_->set);
+  run_.name(saved_name_);
   run_.order(std::exchange(saved_, nullptr), *std::exchange(saved_making_, std::nullopt));
   loaded_ = true;
   send_run();
@@ -370,8 +381,7 @@ void Bench::leave() {
   watch_.wipe();
   run_.pictures().wipe();
   run_.figures().forget();
-  kept_pictures_.wipe();
-  kept_.forget();
+  kept_.wipe();
   tables_.forget();
   calibrations_.forget();
   recording_.forget();

@@ -27,6 +27,7 @@
 #include "firmware/bench/run_job.h"
 #include "firmware/bench/show/bench_tables.h"
 #include "firmware/bench/show/hand_pairs.h"
+#include "firmware/bench/show/kept_results.h"
 #include "firmware/service/errands.h"
 #include "ui/bench/bench_view.h"
 
@@ -72,7 +73,7 @@ class Bench {
   void run(std::int64_t latest);
   void send_run();
   void save();
-  void load(std::size_t row);
+  void load(std::size_t row, bool beside);
   void take_over();
   const pipeline::StereoCalibration* calibration() const;
   void stop();
@@ -98,14 +99,14 @@ class Bench {
   RecordingDesk recording_;
   AlgorithmDesk algorithms_;
   BenchTables tables_;
-  BenchPictures kept_pictures_;
-  BenchFigures kept_;
+  KeptResults kept_;
   ui::BenchPhase phase_ = ui::BenchPhase::Empty;
   ui::BenchStage stage_ = ui::BenchStage::Rectified;
   ui::BenchPoint point_;
   HandPairs pairs_;
   Next next_ = Next::None;
   std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
+  std::string saved_name_;
   std::optional<Making> saved_making_;
   bool loaded_ = false;  // what is in the session was, with a calibration of its own
   bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,

@@ -25,8 +25,8 @@ void Bench::look() {
   view_.calibration = calibrations_.view();
   view_.rows = tables_.view();
   if (watching_) view_.cameras = watch_.newest();
-  view_.kept = kept_.view();
-  view_.compared[0] = kept_pictures_.picture(stage_, 0);
+  view_.put_aside = kept_.count();
+  for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
   if (phase_ == ui::BenchPhase::Running) {
     view_.working_on =
         static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
@@ -38,13 +38,14 @@ void Bench::look() {
   view_.result = run_.figures().view();
   view_.choice.changed = changed_;
   for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
-  view_.compared[1] = run_.pictures().picture(stage_, 0);
   if (made->model) view_.model = &*made->model;
   if (made->cloud) view_.cloud = &*made->cloud;
   view_.model_number = model_number_;
   view_.pairs = pairs_.points();
   view_.pairs_changed = pairs_.changed();
   view_.change = run_.change().figures();
+  view_.compared[view_.put_aside] = {view_.result, run_.pictures().picture(stage_, 0), view_.model,
+                                     model_number_};
 }
 
 const ui::BenchView& Bench::view() {

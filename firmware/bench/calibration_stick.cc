@@ -25,11 +25,7 @@ Result<void> read_back(const fs::path& file, const std::string& written) {
   const bool same =
       read->size() == written.size() && std::equal(read->begin(), read->end(), written.begin(),
                                                    [](auto a, char b) { return static_cast<char>(a) == b; });
-  if (!same)
-    return Error{Errc::IoFailed,
-                 "what was read back from the stick is not what was written: use another stick"}
-        .at(file.filename().string());
-  return {};
+  return same ? Result<void>() : not_as_written(file);
 }
 
 Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target,
@@ -60,17 +56,8 @@ std::vector<fs::path> places(const fs::path& root) {
 
 Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name,
                                 hal::RemovableMedia& media) {
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  const fs::path target = medium->root / kCalibrationsFolder / name;
-  tidy_folder(target.parent_path());
-  const Result<void> written = write(calibration, target, media);
-  // Whatever failed: a stick that is gone is the reason.
-  std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error)))
-    return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
-  RELIEVO_TRY(written);
-  return media.flush_and_eject();
+  return put_on_stick(media, fs::path(kCalibrationsFolder) / name, nullptr,
+                      [&](const fs::path& target) { return write(calibration, target, media); });
 }
 
 Result<StickCalibration> import_calibration(hal::RemovableMedia& media) {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <cstring>
-#include <system_error>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
@@ -36,34 +35,23 @@ bool same(const ImageView& a, const ImageView& b) {
   return true;
 }
 
-Result<void> reach(ExportStep step, float share, JobControl& control, ExportTrace& trace) {
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "the recording was stopped"};
-  trace.step = step;
-  control.progress.done.store(share);
-  return {};
-}
-
 Result<void> read_back(const fs::path& file, const ImageView& written) {
   const Result<hal::Picture> read = hal::read_picture(file);
   const bool unread = !read && (read.error().code == Errc::IoFailed || read.error().code == Errc::NotFound);
   if (unread) return read.error();
-  if (!read || !same(read->view(), written))
-    return Error{Errc::IoFailed,
-                 "what was read back from the stick is not what was written: use another stick"}
-        .at(file.filename().string());
-  return {};
+  return read && same(read->view(), written) ? Result<void>() : not_as_written(file);
 }
 
 Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::RemovableMedia& media,
-                   JobControl& control, ExportTrace& trace) {
-  RELIEVO_TRY(reach(ExportStep::Write, 0.1F, control, trace));
+                   StickWork& work) {
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   RELIEVO_TRY_ASSIGN(const std::int64_t number, hal::record_pair(folder.path(), pair));
-  RELIEVO_TRY(reach(ExportStep::ReadBack, 0.6F, control, trace));
+  RELIEVO_TRY(work.reach(ExportStep::ReadBack, 0.6F));
   RELIEVO_TRY(media.settle(folder.path()));
   RELIEVO_TRY(read_back(folder.path() / hal::recorded_name("left", number), pair.left));
   RELIEVO_TRY(read_back(folder.path() / hal::recorded_name("right", number), pair.right));
-  RELIEVO_TRY(reach(ExportStep::Write, 0.9F, control, trace));
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0.9F));
   return replace_folder(folder, target);
 }
 
@@ -82,18 +70,9 @@ CaptureCopy::~CaptureCopy() {
 Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name,
                             hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
   trace = {};
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  const fs::path target = medium->root / kCapturesFolder / name;
-  tidy_folder(target.parent_path());
-  const Result<void> written = write(pair, target, media, control, trace);
-  // Whatever failed: a stick that is gone is the reason.
-  std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error)))
-    return Error{Errc::Disconnected, "the stick was pulled out before the recording had ended"};
-  RELIEVO_TRY(written);
-  RELIEVO_TRY(reach(ExportStep::LetGo, 1, control, trace));
-  return media.flush_and_eject();
+  StickWork work{control, trace};
+  return put_on_stick(media, fs::path(kCapturesFolder) / name, &work,
+                      [&](const fs::path& target) { return write(pair, target, media, work); });
 }
 
 }  // namespace relievo::firmware

@@ -38,6 +38,12 @@ void RecordingDesk::ended(const std::optional<Error>& error, const ExportTrace& 
 
 std::string RecordingDesk::name_now() const { return name_at(board_.clock().wall_now()); }
 
+std::string RecordingDesk::saved_name(std::size_t row) const {
+  if (!names_ || row >= names_->size()) return {};
+  const std::string& file = names_->at(row);
+  return file.substr(0, file.size() - std::string_view(kSavedEnding).size());
+}
+
 void RecordingDesk::record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) {
   const std::shared_ptr<ExportTrace> trace = begin(false);
   if (trace == nullptr) return;

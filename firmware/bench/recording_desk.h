@@ -34,6 +34,10 @@ class RecordingDesk {
   void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
             std::function<void(const Error&)> refused);
   void stop();
+  // What a capture of this moment is called.
+  std::string name_now() const;
+  // Of what list() has found: without its ending.
+  std::string saved_name(std::size_t row) const;
   // There is another capture now.
   void capture_gone();
   void forget();
@@ -45,7 +49,6 @@ class RecordingDesk {
   std::shared_ptr<ExportTrace> begin(bool reading);
   void write(std::shared_ptr<const SavedBytes> document);
   void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
-  std::string name_now() const;
 
   Errands& errands_;
   hal::Board& board_;

@@ -38,7 +38,7 @@ Result<void> RunJob::run(JobControl& control) {
 
 Result<void> RunJob::work(JobControl& control) {
   pictures_.wipe();
-  figures_.begin(making_.set);
+  figures_.begin(making_.set, name_);
   if (document_ != nullptr) return load(control);
   session_.rework(first_);
   for (const StageRecord& record : making_.records) figures_.add(record);

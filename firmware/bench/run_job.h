@@ -13,6 +13,8 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/bench/saved_reconstruction.h"
@@ -27,6 +29,8 @@ class RunJob final : public Job {
  public:
   RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
       : session_(session), pool_(pool), clock_(clock) {}
+  // What is in the session from now on is called.
+  void name(std::string capture) { name_ = std::move(capture); }
   // The stages from `first` on; those before it are done, and stay.
   // `by_hand`: matches beside the matcher's.
   void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first,
@@ -51,6 +55,7 @@ class RunJob final : public Job {
   EnrolmentSession& session_;
   ThreadPool& pool_;
   const hal::Clock& clock_;
+  std::string name_;
   Making making_;
   State first_ = State::Match;
   std::shared_ptr<const SavedBytes> document_;  // to be loaded

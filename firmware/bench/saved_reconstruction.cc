@@ -23,13 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
-Result<void> reach(ExportStep step, float share, JobControl& control, ExportTrace& trace) {
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "it was stopped"};
-  trace.step = step;
-  control.progress.done.store(share);
-  return {};
-}
-
 Error unread(const fs::path& file) {
   return Error{Errc::IoFailed, "cannot be read from the stick: pull it out, plug it in and try again", errno}
       .at(file.filename().string());
@@ -63,29 +56,27 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
 }
 
 Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal::RemovableMedia& media,
-                   JobControl& control, ExportTrace& trace) {
-  RELIEVO_TRY(reach(ExportStep::Write, 0, control, trace));
+                   StickWork& work) {
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0));
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
   RELIEVO_TRY_ASSIGN(storage::PendingFile file, storage::PendingFile::create(target));
   for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
-    RELIEVO_TRY(reach(ExportStep::Write, 0.5F * static_cast<float>(at) / static_cast<float>(bytes.size()),
-                      control, trace));
+    RELIEVO_TRY(
+        work.reach(ExportStep::Write, 0.5F * static_cast<float>(at) / static_cast<float>(bytes.size())));
     RELIEVO_TRY(file.write(bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at))));
   }
   RELIEVO_TRY(file.finish());
-  RELIEVO_TRY(reach(ExportStep::ReadBack, 0.5F, control, trace));
+  RELIEVO_TRY(work.reach(ExportStep::ReadBack, 0.5F));
   RELIEVO_TRY(media.settle(target.parent_path()));
-  const Error other{Errc::IoFailed,
-                    "what was read back from the stick is not what was written: use another stick"};
   RELIEVO_TRY(
-      each_piece(file.temporary(), control, 0.5F, 0.95F,
+      each_piece(file.temporary(), work.control, 0.5F, 0.95F,
                  [&](std::span<const std::byte> piece, std::size_t at, std::size_t size) -> Result<void> {
                    if (size != bytes.size() || !std::ranges::equal(piece, bytes.subspan(at, piece.size())))
-                     return other;
+                     return not_as_written(target);
                    return {};
                  }));
-  RELIEVO_TRY(reach(ExportStep::Write, 0.95F, control, trace));
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0.95F));
   RELIEVO_TRY(file.publish());
   return storage::sync_directory(target.parent_path());
 }
@@ -97,18 +88,9 @@ SavedBytes::~SavedBytes() { explicit_bzero(bytes_.data(), bytes_.size()); }
 Result<void> save_reconstruction(const SavedBytes& document, const std::string& name,
                                  hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
   trace = {};
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  const fs::path target = medium->root / kSavedFolder / (name + kSavedEnding);
-  tidy_folder(target.parent_path());
-  const Result<void> written = write(document.bytes(), target, media, control, trace);
-  // Whatever failed: a stick that is gone is the reason.
-  std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error)))
-    return Error{Errc::Disconnected, "the stick was pulled out before the recording had ended"};
-  RELIEVO_TRY(written);
-  RELIEVO_TRY(reach(ExportStep::LetGo, 1, control, trace));
-  return media.flush_and_eject();
+  StickWork work{control, trace};
+  return put_on_stick(media, fs::path(kSavedFolder) / (name + kSavedEnding), &work,
+                      [&](const fs::path& target) { return write(document.bytes(), target, media, work); });
 }
 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {

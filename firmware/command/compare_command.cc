@@ -62,7 +62,8 @@ std::string line_of(const Comparison& c, const Run& run) {
   }
   char meshed[40] = "";
   if (run.surface) std::snprintf(meshed, sizeof meshed, ", mesh %.0f ms", run.surface->mesh_ms);
-  return name + figures + meshed + (run.failure.empty() ? "" : "; failed: " + run.failure);
+  return name + figures + meshed + (run.failure.empty() ? "" : "; failed: " + run.failure) +
+         (run.no_surface.empty() ? "" : "; " + run.no_surface);
 }
 
 // "2-1_d2_refined.pfm": numbers of pair and set, and their names as far as files may be called so.

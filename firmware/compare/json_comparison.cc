@@ -103,6 +103,7 @@ Json run_json(const Comparison& c, const Run& run) {
             {"heap_peak_bytes", run.heap_peak_bytes},
             {"matches", matches_json(run.matches)}};
   if (!run.failure.empty()) json["failure"] = run.failure;
+  if (!run.no_surface.empty()) json["no_surface"] = run.no_surface;
   if (run.left_right) json["left_right"] = left_right_json(*run.left_right);
   if (run.photo)
     json["photo_consistency"] = {

@@ -156,7 +156,16 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.options.limit_px);
   run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
   if (facts.truth) run.score = score(run.map, *facts.truth, order.options.limit_px);
-  return pipeline && order.options.models ? build_model(order, *pipeline, bench, made, run) : Result<void>{};
+  if (!pipeline || !order.options.models) return {};
+  const auto built = build_model(order, *pipeline, bench, made, run);
+  // A handful of places is compared all the same; that they make no face is no failure of theirs.
+  const Errc code = built ? Errc::Cancelled : built.error().code;
+  const bool few = made.matches->lattice_step_px == 0 && run.stages.back().name != "texture" &&
+                   (code == Errc::PoorGeometry || code == Errc::TooFewMatches || code == Errc::NoFace);
+  if (!few) return built;
+  run.no_surface = "no surface, not judged to be a face: " + std::to_string(run.matches.accepted) +
+                   " accepted matches are too few, or too far apart";
+  return {};
 }
 
 // Of places that are no lattice, which is no choice.

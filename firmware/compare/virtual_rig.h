@@ -12,8 +12,8 @@
 #include "firmware/arguments/command_line.h"
 #include "firmware/compare/page/dissertation.h"
 #include "hal/base/result.h"
-#include "pipeline/model/calibration.h"
 #include "pipeline/base/stage.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::firmware::compare {
 

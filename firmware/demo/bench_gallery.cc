@@ -48,6 +48,7 @@ constexpr std::array<std::string_view, 40> kCalibrationCells{
 ui::BenchResult made_up_result() {
   ui::BenchResult r;
   r.there = true;
+  r.name = "2026-03-12_09-14-07";
   r.seconds = {1.42F, 0.18F, 0.31F, 0.66F};
   r.made = {148220, 141873, 97342, 1048576};
   r.arena_peak_mib = 147;
@@ -264,7 +265,39 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   }
 }
 
-// The model, the tables, the choice of algorithms, and two results beside each other.
+// The same capture by other algorithms, another document, and one whose matcher gave up.
+void add_comparisons(Lender& all, const ui::ViewState& review, BenchView view) {
+  const auto put_aside = [&view] {
+    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number};
+  };
+  const auto add_with_present = [&](std::string_view name) {
+    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number};
+    all.add(name, StaffPage::Compare, view);
+  };
+  lend(review, BenchStage::Mesh, view);
+  put_aside();
+  view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
+  view.result.seconds[0] = 3.87F;
+  view.result.accepted = view.result.made[0] = 96114;
+  add_with_present("bench_compare");
+  put_aside();
+  view.result.name = "2026-03-11_16-40-52";
+  view.result.algorithms = {};
+  add_with_present("bench_compare_three");
+  lend(review, BenchStage::Disparity, view);
+  for (std::size_t i = 0; i < view.put_aside; ++i) view.compared[i].picture = view.shown[0];
+  put_aside();
+  view.result.algorithms = "matcher = sgm";
+  view.result.failure = {
+      Errc::NoFace,
+      "the points form no surface of a face's size: look straight into the cameras and try again"};
+  view.result.failed_at = 2;
+  view.result.coverage = 0;
+  view.model = nullptr;
+  add_with_present("bench_compare_four");
+}
+
+// The model, the tables, the choice of algorithms, and results beside each other.
 void add_results(Lender& all, const ui::ViewState& review) {
   static const AlgorithmDesk chosen = edited(false), typing = edited(true);
   BenchView view = ready(review);
@@ -279,11 +312,7 @@ void add_results(Lender& all, const ui::ViewState& review) {
   all.add("bench_algorithms", StaffPage::Algorithms, view);
   view.choice = typing.view();
   all.add("bench_option", StaffPage::Algorithms, view);
-  lend(review, BenchStage::Mesh, view);
-  view.kept = view.result;
-  view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
-  view.compared = {view.shown[0], view.shown[0]};
-  all.add("bench_compare", StaffPage::Compare, view);
+  add_comparisons(all, review, view);
 }
 
 void add_cameras(Lender& all, const ui::ViewState& review) {

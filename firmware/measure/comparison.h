@@ -65,6 +65,7 @@ struct SurfaceLook {
 struct Run {
   std::size_t set = 0, pair = 0;  // indices
   std::string failure;            // empty: it worked; else at what and why
+  std::string no_surface;         // why points of a list, which worked, are not the surface of a face
   std::vector<StageCost> stages;
   double match_ms = 0;               // preprocess to judge
   std::size_t arena_peak_bytes = 0;  // both arenas together

@@ -48,6 +48,34 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   return {};
 }
 
+Result<void> StickWork::reach(ExportStep step, float share) {
+  if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
+  trace.step = step;
+  control.progress.done.store(share);
+  return {};
+}
+
+Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, StickWork* work,
+                          const std::function<Result<void>(const fs::path& target)>& write) {
+  const auto medium = media.current();
+  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  const fs::path target = medium->root / place;
+  tidy_folder(target.parent_path());
+  const Result<void> written = write(target);
+  // Whatever failed: a stick that is gone is the reason.
+  std::error_code error;
+  if (!media.current() || (written && !fs::exists(target, error)))
+    return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+  RELIEVO_TRY(written);
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::LetGo, 1));
+  return media.flush_and_eject();
+}
+
+Error not_as_written(const fs::path& file) {
+  return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"}
+      .at(file.filename().string());
+}
+
 void tidy_folder(const fs::path& folder, bool (*ours)(std::string_view name)) {
   std::error_code error;
   std::vector<fs::path> left;

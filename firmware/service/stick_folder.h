@@ -1,20 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Folders of ours on a stick, on which a hand may pull at any moment: a folder in them is replaced as a
+// Folders of ours on a stick, on which a hand may pull at any moment: what is in them is replaced as a
 // whole, and what a pulled stick has left is put in order when it comes back.
-// Thread: the keeper. Errors: IoFailed, MediaFull.
+// Thread: the keeper. Errors: IoFailed, MediaFull; of put_on_stick() also MediaMissing, Disconnected (pulled
+// out meanwhile), Cancelled and those of `write`.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 #include "firmware/base/output_folder.h"
+#include "firmware/jobs/job_thread.h"
+#include "firmware/service/export_records.h"
+#include "hal/removable_media.h"
 
 namespace relievo::firmware {
 
 // `made` becomes `target`; a folder that has this name already goes when the new one is there, not before.
 Result<void> replace_folder(OutputFolder& made, const std::filesystem::path& target);
+// How far the work on a stick has come, for who waits and for who may stop it between two steps.
+struct StickWork {
+  JobControl& control;
+  ExportTrace& trace;
+  Result<void> reach(ExportStep step, float share);
+};
+// `write` makes the file or folder `place` of the stick, whole or not at all and read back; then the stick is
+// let go. `work` may be missing.
+Result<void> put_on_stick(hal::RemovableMedia& media, const std::filesystem::path& place, StickWork* work,
+                          const std::function<Result<void>(const std::filesystem::path& target)>& write);
+// What `write` says where it read back something else.
+Error not_as_written(const std::filesystem::path& file);
 // Clears away what is half written (".NAME.part…"), and brings back a folder whose successor did not come.
 // Names that are not `ours` are somebody else's.
 void tidy_folder(

@@ -19,7 +19,7 @@ class BenchDesk final : public DeskPage {
   }
   void show(ui::ServiceView& view) override {
     view.bench = &bench_.view();
-    if (page_ == ui::BenchPage::Stages)
+    if (page_ == ui::BenchPage::Stages || page_ == ui::BenchPage::Compare)
       view.work = {view.bench->recording.running, view.bench->recording.progress,
                    view.bench->recording.outcome};
     view.inner = page_ == ui::BenchPage::Algorithms && view.bench->choice.edited != nullptr;

@@ -155,8 +155,8 @@ pipeline::FaceModel square_at(float middle_mm) {
 
 TEST_F(RendererTest, AModelIsSeenFromTheFront) {
   const pipeline::FaceModel model = square_at(0);
-  list.face = &model;
-  list.face_version = 1;
+  list.faces[0].model = &model;
+  list.faces[0].version = 1;
   add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
   draw();
   EXPECT_GT(at(100, 60).r, 60) << "lit";
@@ -178,11 +178,11 @@ TEST_F(RendererTest, AModelStandsInTheMiddleOfWhatIsFree) {
     EXPECT_GT(last, first + 20);
     return static_cast<float>(first + last) / 2;
   };
-  list.face_version = 7;
+  list.faces[0].version = 7;
   for (const float middle_mm : {0.0F, 30.0F, -30.0F}) {
     const pipeline::FaceModel model = square_at(middle_mm);
-    list.face = &model;
-    ++list.face_version;
+    list.faces[0].model = &model;
+    ++list.faces[0].version;
     list.commands.clear();
     add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
     draw();
@@ -200,8 +200,8 @@ TEST_F(RendererTest, EverySwitchOfAModelIsItsOwn) {
   model.texture.width_px = model.texture.height_px = 1;
   model.texture.rgb.assign({200, 40, 40});
   model.texture.uv.assign(6, {0.5F, 0.5F});
-  list.face = &model;
-  list.face_version = 1;
+  list.faces[0].model = &model;
+  list.faces[0].version = 1;
   add(Mark::Face, {40, 0, 120, 120}, {255, 255, 255, 255});
   const auto shown = [this](unsigned state) {
     FaceLook& look = list.face_look;

@@ -32,7 +32,8 @@ enum class BenchAct : std::uint8_t {
   LeaveOption,
   ResetSet,    // every choice as it is by default
   ApplySet,    // visitors are measured with these from now on
-  KeepResult,  // the present result is put aside, to be compared with the next
+  KeepResult,  // the present result is put aside, to be compared with others: kCompared - 1 at most
+  DropResult,  // one of those: which
   ShowTable,   // BenchTable
   TurnPage,    // by so many pages
   WatchCameras,
@@ -55,7 +56,8 @@ enum class BenchAct : std::uint8_t {
   Save,           // all of the reconstruction, on the stick
   ListSaved,
   LeaveSaved,  // those that are on it
-  Load         // one of them: its row; what was captured goes when it is read
+  Load,        // one of them: its row; what was captured goes when it is read
+  LoadBeside   // the same, and the present result is put aside first
 };
 
 // What a wish of the staff's side (ui/view/service.h) says, once it has come to the workbench.

@@ -48,6 +48,7 @@ struct BenchRule {
 // What a set of algorithms made of the capture.
 struct BenchResult {
   bool there = false;
+  std::string_view name;                // of the capture: the document's, else when it was taken
   std::string_view algorithms;          // what differs from the default, one "key = value" a line
   Fault failure;                        // of a stage; empty: all four are done
   std::size_t failed_at = 0;            // Match, Reconstruct, Mesh, Texture

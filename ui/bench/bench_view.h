@@ -38,6 +38,15 @@ struct BenchSaved {
   std::span<const std::string> names;  // the newest first, kSavedRows at most
 };
 
+// A result beside others: what it made of the stage that is shown.
+inline constexpr std::size_t kCompared = 4;
+struct BenchCompared {
+  BenchResult result;
+  BenchPicture picture;                        // empty: the stage made none
+  const pipeline::FaceModel* model = nullptr;  // of a surface: to be turned; missing: none, or too large
+  std::uint32_t model_number = 0;
+};
+
 struct BenchView {
   BenchPhase phase = BenchPhase::Empty;
   bool calibrated =
@@ -46,8 +55,7 @@ struct BenchView {
   std::uint8_t working_on = 0;  // while phase is Running: Match, Reconstruct, Mesh, Texture
   Fault problem;
   BenchStage stage = BenchStage::Rectified;
-  std::array<BenchPicture, 2> shown{};     // of the stage; the second is empty where there is one only
-  std::array<BenchPicture, 2> compared{};  // the same stage of the result put aside, and of the present one
+  std::array<BenchPicture, 2> shown{};  // of the stage; the second is empty where there is one only
   BenchPoint point;
   bool by_hand = false;  // touches make pairs; `point` is the chosen one
   std::span<const BenchPoint> pairs;
@@ -56,8 +64,10 @@ struct BenchView {
   bool can_record = false;  // there is a capture, and nobody is at work on it
   BenchRecording recording;
   BenchSaved saved;
-  BenchResult result, kept;  // the present one, and the one put aside
-  bool applied = false;      // visitors are measured with the chosen algorithms now
+  BenchResult result;                               // the present one
+  std::array<BenchCompared, kCompared> compared{};  // those put aside, and behind them the present one
+  std::size_t put_aside = 0;                        // so many of them
+  bool applied = false;                             // visitors are measured with the chosen algorithms now
   const pipeline::FaceModel* model = nullptr;
   const pipeline::PointCloud* cloud = nullptr;
   std::uint32_t model_number = 0;

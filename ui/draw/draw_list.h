@@ -57,6 +57,8 @@ enum class PictureSlot : std::uint8_t {
   Attract,
   BenchLeft,
   BenchRight,
+  BenchThird,
+  BenchFourth,
   Count
 };
 inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlot::Count);
@@ -68,7 +70,16 @@ struct Picture {
   }
 };
 
-// How the model is looked at.
+// A model that can be turned; `version` tells the renderer when it is another one.
+inline constexpr std::size_t kFaces = 4;
+struct Face {
+  const pipeline::FaceModel* model = nullptr;
+  const pipeline::PointCloud* cloud = nullptr;  // the points it was made of, where they are known
+  std::uint32_t version = 0;                    // 0: there is none
+  bool operator==(const Face&) const = default;
+};
+
+// How the models are looked at.
 struct FaceLook {
   float yaw_deg = 0, pitch_deg = 0;
   float zoom = 1;
@@ -90,16 +101,15 @@ struct Command {
   Colour fill, fill_end, border;
   float radius = 0, border_px = 0, blur_px = 0, share = 1;
   PictureSlot picture = PictureSlot::None;
+  std::uint8_t face = 0;  // which of the models
   bool operator==(const Command&) const = default;
 };
 
 struct DrawList {
   std::vector<Command> commands;
   std::array<Picture, kPictureSlots> pictures{};
-  const pipeline::FaceModel* face = nullptr;
-  const pipeline::PointCloud* cloud = nullptr;  // the points it was made of, where they are known
-  std::uint32_t face_version = 0;
-  FaceLook face_look;
+  std::array<Face, kFaces> faces{};
+  FaceLook face_look;  // all are looked at alike
 
   void clear() { commands.clear(); }
   // Does it look the same? Then nobody need draw it again.

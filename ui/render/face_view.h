@@ -18,15 +18,10 @@ class FaceView {
   static Result<std::unique_ptr<FaceView>> make();
   virtual ~FaceView() = default;
   // The GL name of a texture with the model on nothing (premultiplied alpha; its first row is the
-  // bottom one); 0 when there is no model. Leaves the framebuffer bound that was.
-  struct Subject {
-    const pipeline::FaceModel* model = nullptr;
-    const pipeline::PointCloud* cloud = nullptr;  // may be missing: then the model's vertices are its points
-    std::uint32_t version = 0;
-  };
-  // `covered`: the share of the window, at its lower end, that something else lies on: the model stands in
-  // the middle of the rest.
-  virtual std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px,
+  // bottom one); 0 when there is no model. Leaves the framebuffer bound that was. Without a cloud the model's
+  // vertices are its points. `covered`: the share of the window, at its lower end, that something else lies
+  // on: the model stands in the middle of the rest.
+  virtual std::uint32_t draw(const Face& subject, const FaceLook& look, int width_px, int height_px,
                              float covered = 0) = 0;
   virtual void forget() = 0;
 };

@@ -140,7 +140,7 @@ class GlesFaceView final : public FaceView {
     return {};
   }
 
-  std::uint32_t draw(const Subject& subject, const FaceLook& look, int width_px, int height_px,
+  std::uint32_t draw(const Face& subject, const FaceLook& look, int width_px, int height_px,
                      float covered) override {
     if (subject.model == nullptr || subject.version == 0) return 0;
     const std::uint32_t version = subject.version;
@@ -228,7 +228,7 @@ class GlesFaceView final : public FaceView {
     }
   }
 
-  void upload_points(const Subject& subject) {
+  void upload_points(const Face& subject) {
     if (point_buffer_ == 0) glGenBuffers(1, &point_buffer_);
     const std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
     point_count_ = static_cast<int>(dots.size());
@@ -239,7 +239,7 @@ class GlesFaceView final : public FaceView {
   }
 
   // Indices of corners, so that sides have normals and texels. A level holds for a range of zooms.
-  void upload_edges(const Subject& subject, float least_mm) {
+  void upload_edges(const Face& subject, float least_mm) {
     const float level_mm = std::exp2(std::round(2 * std::log2(least_mm)) / 2);
     if (edges_version_ == subject.version && edge_level_mm_ == level_mm) return;
     edges_version_ = subject.version;

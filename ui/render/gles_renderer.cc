@@ -62,7 +62,9 @@ class GlesRenderer final : public Renderer {
       programs_[i].screen = glGetUniformLocation(programs_[i].name, "screen");
       programs_[i].texels = glGetUniformLocation(programs_[i].name, "texels");
     }
-    RELIEVO_TRY_ASSIGN(face_, FaceView::make());
+    for (auto& view : faces_) {
+      RELIEVO_TRY_ASSIGN(view, FaceView::make());
+    }
     glGenVertexArrays(1, &array_);
     glGenBuffers(1, &buffer_);
     glGenTextures(1, &atlas_);
@@ -76,6 +78,7 @@ class GlesRenderer final : public Renderer {
     height_ = height_px;
     upload_atlas(atlas);
     for (std::size_t i = 1; i < kPictureSlots; ++i) upload_picture(i, list.pictures[i]);
+    forget_faces(list);
     upload_instances(list);
     glViewport(0, 0, width_px, height_px);
     glClearColor(0, 0, 0, 1);
@@ -105,7 +108,7 @@ class GlesRenderer final : public Renderer {
   }
 
   void forget() override {
-    face_->forget();
+    for (const auto& view : faces_) view->forget();
     glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
     glGenTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
     versions_.fill(0);
@@ -153,6 +156,14 @@ class GlesRenderer final : public Renderer {
     versions_[slot] = picture.version;
   }
 
+  // Models beside the first are seldom there: what was uploaded of them goes with them.
+  void forget_faces(const DrawList& list) {
+    for (std::size_t i = 1; i < kFaces; ++i) {
+      if (list.faces[i].version == 0 && had_face_[i]) faces_[i]->forget();
+      had_face_[i] = list.faces[i].version != 0;
+    }
+  }
+
   void upload_instances(const DrawList& list) {
     instances_.clear();
     for (const Command& c : list.commands) {
@@ -189,9 +200,9 @@ class GlesRenderer final : public Renderer {
     const Command& c = list.commands[first];
     GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[static_cast<std::size_t>(c.picture)];
     if (c.mark == Mark::Face) {
-      texture = face_->draw({list.face, list.cloud, list.face_version}, list.face_look,
-                            static_cast<int>(std::lround(c.rect.w)), static_cast<int>(std::lround(c.rect.h)),
-                            1 - c.share);
+      texture =
+          faces_[c.face]->draw(list.faces[c.face], list.face_look, static_cast<int>(std::lround(c.rect.w)),
+                               static_cast<int>(std::lround(c.rect.h)), 1 - c.share);
       if (texture == 0) return;
       glViewport(0, 0, width_, height_);
       glEnable(GL_BLEND);
@@ -216,7 +227,8 @@ class GlesRenderer final : public Renderer {
   }
 
   std::array<Program, kPrograms> programs_{};
-  std::unique_ptr<FaceView> face_;
+  std::array<std::unique_ptr<FaceView>, kFaces> faces_;
+  std::array<bool, kFaces> had_face_{};
   GLuint array_ = 0, buffer_ = 0, atlas_ = 0;
   std::array<GLuint, kPictureSlots> pictures_{};
   std::array<std::uint32_t, kPictureSlots> versions_{};

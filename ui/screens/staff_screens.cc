@@ -87,11 +87,11 @@ const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit
 
 void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& visit, const Service& service) {
   list.pictures = {};
-  list.cloud = nullptr;
+  list.faces = {};
   if (view.service->bench != nullptr && fill_bench_pictures(list, *view.service->bench, visit, service.page))
     return;
-  list.face = view.service->model;
-  list.face_version = view.service->model == nullptr ? 0 : view.service->model_number;
+  list.faces[0].model = view.service->model;
+  list.faces[0].version = view.service->model == nullptr ? 0 : view.service->model_number;
   list.face_look = visit.look;
 }
 

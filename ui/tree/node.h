@@ -60,8 +60,9 @@ struct Node {
   Colour filling{};         // of the bar that says how long one still has to hold
   Mark mark = Mark::Shape;  // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
-  float aspect = 0;     // of the picture: width over height; a stack with one is as large as fits
-  bool pinned = false;  // in a stack: its middle lies at these shares of it; without a width it is as wide
+  std::uint8_t face = 0;  // of a Face: which of the models
+  float aspect = 0;       // of the picture: width over height; a stack with one is as large as fits
+  bool pinned = false;    // in a stack: its middle lies at these shares of it; without a width it is as wide
   float pin_x = 0, pin_y = 0;
   bool tells_place = false;  // its action's detail is where it was touched: x << 12 | y, 4096ths
   bool mirrored = false;     // the picture or the sign, as in a mirror

@@ -58,6 +58,7 @@ void paint_picture(DrawList& list, const Node& node) {
   c.share = node.mark == Mark::Face ? 1 - std::min(1.0F, node.covered_px / std::max(1.0F, node.rect.h))
                                     : node.share;
   c.picture = node.picture;
+  c.face = node.face;
   if (node.mark == Mark::Ring) {
     c.fill = node.colour;
     c.border = node.box.fill;

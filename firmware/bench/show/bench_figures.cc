@@ -21,8 +21,9 @@ std::string difference_of(const pipeline::AlgorithmSet& set) {
   return text;
 }
 
-void BenchFigures::begin(const pipeline::AlgorithmSet& set) {
+void BenchFigures::begin(const pipeline::AlgorithmSet& set, const std::string& name) {
   forget();
+  name_ = name;
   set_ = set;
   result_.there = true;
   difference_ = difference_of(set);
@@ -72,6 +73,7 @@ Result<void> BenchFigures::measure(const Products& products, pipeline::StageCont
 
 ui::BenchResult BenchFigures::view() const {
   ui::BenchResult view = result_;
+  view.name = name_;
   view.algorithms = difference_;
   view.failure = failure_;
   for (std::size_t i = 0; i < rules_.size(); ++i) view.rules[i].name = rules_[i];

@@ -24,7 +24,8 @@ std::string difference_of(const pipeline::AlgorithmSet& set);
 
 class BenchFigures {
  public:
-  void begin(const pipeline::AlgorithmSet& set);
+  // `name`: of the capture.
+  void begin(const pipeline::AlgorithmSet& set, const std::string& name);
   void add(const StageRecord& record);
   void fail(State stage, const Error& error);
   Result<void> measure(const Products& products, pipeline::StageContext& context);
@@ -40,7 +41,7 @@ class BenchFigures {
   pipeline::AlgorithmSet set_;
   ui::BenchResult result_;
   std::size_t stages_ = 0;
-  std::string difference_;
+  std::string name_, difference_;
   ui::Fault failure_;
   std::vector<std::string> rules_;
 };

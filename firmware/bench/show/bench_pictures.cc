@@ -19,7 +19,7 @@ namespace relievo::firmware {
 namespace {
 
 using ui::BenchStage;
-constexpr std::size_t kBytes = std::size_t{3} * BenchPictures::kSide * BenchPictures::kSide;
+constexpr std::size_t kBytes = budget::kBenchPictureBytes;
 
 // No two pictures have the same number: a renderer tells by it what it has to load.
 std::uint32_t next_version() {
@@ -198,17 +198,15 @@ ui::BenchPicture BenchPictures::picture(BenchStage stage, std::size_t side) cons
 void BenchPictures::copy_from(const BenchPictures& other) {
   wipe();
   for (std::size_t stage = 0; stage < all_.size(); ++stage) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const One& from = other.all_[stage][side];
-      if (from.version == 0) continue;
-      One& to = all_[stage][side];
-      to.width_px = from.width_px;
-      to.height_px = from.height_px;
-      to.version = next_version();
-      std::memcpy(to.rgb.get(), from.rgb.get(),
-                  std::size_t{3} * static_cast<std::size_t>(from.width_px) *
-                      static_cast<std::size_t>(from.height_px));
-    }
+    const One& from = other.all_[stage][0];
+    if (from.version == 0) continue;
+    One& to = all_[stage][0];
+    to.width_px = from.width_px;
+    to.height_px = from.height_px;
+    to.version = next_version();
+    std::memcpy(
+        to.rgb.get(), from.rgb.get(),
+        std::size_t{3} * static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.height_px));
   }
 }
 

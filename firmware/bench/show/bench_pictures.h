@@ -31,6 +31,7 @@ class BenchPictures {
   void draw(const Products& products, const HandChange& change);
   // The left picture (0) or the right one; empty where the stage has none.
   ui::BenchPicture picture(ui::BenchStage stage, std::size_t side) const;
+  // The left ones.
   void copy_from(const BenchPictures& other);
   void wipe();
 

@@ -131,7 +131,8 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
     out += "<tr>" + row_head(name_of(c, *run));
     bool nothing = true;
     for (const Column& column : columns) nothing = nothing && std::isnan(column.value(*run));
-    if (nothing) out += width + escaped(run->failure) + "</td>";
+    const std::string& why = run->failure.empty() ? run->no_surface : run->failure;
+    if (nothing) out += width + escaped(why) + "</td>";
     for (std::size_t i = 0; i < columns.size() && !nothing; ++i) {
       const double value = columns[i].value(*run);
       const std::string beside =
@@ -139,8 +140,8 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
       out += best_cell(figure(value, columns[i].decimals) + beside, value == best[i]);
     }
     out += "</tr>\n";
-    if (say_failures && !nothing && !run->failure.empty())
-      out += "<tr><th scope=\"row\"></th>" + width + escaped(run->failure) + "</td></tr>\n";
+    if (say_failures && !nothing && !why.empty())
+      out += "<tr><th scope=\"row\"></th>" + width + escaped(why) + "</td></tr>\n";
   }
   return out + "</tbody>\n</table>\n</div>\n";
 }

@@ -75,7 +75,7 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
   }
   if (visit.step == ui::Step::Working && still_at_ && !still_to_shot_s_)
     still_to_shot_s_ = duration<double>(now - *still_at_).count();
-  const bool face = visit.step == ui::Step::Review && kiosk.ui().draw_list().face != nullptr;
+  const bool face = visit.step == ui::Step::Review && kiosk.ui().draw_list().faces[0].model != nullptr;
   if (face && still_at_) {
     still_to_face_s_ = duration<double>(now - *still_at_).count();
     still_at_.reset();

@@ -156,7 +156,7 @@ class BenchRig {
     staff = {};
     staff.role = ui::StaffRole::Technician;
     staff.bench = &bench->view();
-    view = {};
+    view = ui::ViewState();
     view.now = clock.now();
     view.screen = ui::Screen::Technician;
     view.service = &staff;

@@ -160,7 +160,7 @@ TEST_F(BenchTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded) {
   const auto calculate = [](const char* button) {
     rig().tap(button);
     ASSERT_TRUE(rig().until(finished));
-    ASSERT_EQ(rig().now().result.failure, "");
+    ASSERT_EQ(rig().now().result.failure.detail, "");
   };
   const auto x = static_cast<float>(centre.x) + 0.3F * static_cast<float>(products().pair->face_width_px),
              y = static_cast<float>(centre.y);
@@ -208,7 +208,7 @@ TEST_F(BenchTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded) {
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
   ASSERT_TRUE(rig().until(finished));
-  ASSERT_EQ(rig().now().pairs.size(), 1U) << rig().now().problem;
+  ASSERT_EQ(rig().now().pairs.size(), 1U) << rig().now().problem.detail;
   EXPECT_EQ(rig().now().pairs[0].disparity_px, moved.disparity_px);
   EXPECT_EQ(model(), mended);
   rig().tap("stage 5");
@@ -270,10 +270,15 @@ TEST_F(BenchTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   EXPECT_NE(now.result.algorithms.find("matcher = zmncc"), std::string_view::npos);
 
   rig().open(StaffPage::Compare);
-  EXPECT_EQ(rig().now().kept.accepted, accepted) << "the one put aside stays as it was";
-  EXPECT_EQ(rig().now().kept.algorithms, "");
-  EXPECT_FALSE(rig().now().compared[0].pixels.empty() || rig().now().compared[1].pixels.empty());
-  EXPECT_NE(rig().now().compared[0].version, rig().now().compared[1].version);
+  ASSERT_EQ(rig().now().put_aside, 1U);
+  EXPECT_EQ(rig().now().compared[0].result.accepted, accepted) << "the one put aside stays as it was";
+  EXPECT_EQ(rig().now().compared[0].result.algorithms, "");
+  EXPECT_EQ(rig().now().compared[0].result.name, rig().now().compared[1].result.name) << "the same capture";
+  EXPECT_FALSE(rig().now().compared[0].picture.pixels.empty() ||
+               rig().now().compared[1].picture.pixels.empty());
+  EXPECT_NE(rig().now().compared[0].picture.version, rig().now().compared[1].picture.version);
+  rig().tap("drop 0");
+  EXPECT_EQ(rig().now().put_aside, 0U);
 
   rig().open(StaffPage::Algorithms);
   EXPECT_EQ(rig().stages->algorithms().get("matcher"), "refined") << "visitors' are another choice";
@@ -349,6 +354,74 @@ TEST_F(BenchTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEv
   EXPECT_NE(rig().now().problem.detail.find("damaged"), std::string_view::npos);
   EXPECT_EQ(rig().now().phase, BenchPhase::Ready);
   EXPECT_EQ(model(), as_saved);
+}
+
+// Documents and runs in one row: what was put aside stays as it was, and one finger turns all.
+TEST_F(BenchTest, FourResultsStandSideBySideAndTurnTogether) {
+  capture();
+  rig().plug_in();
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
+  const std::string document = std::filesystem::path(rig().now().recording.where).stem().string();
+  const std::string taken(rig().now().result.name);
+  rig().plug_in();
+  rig().open(StaffPage::Compare);
+  while (rig().now().stage != BenchStage::Mesh) rig().tap("next stage");
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("saved 0");
+  ASSERT_TRUE(rig().until([] { return rig().now().phase == BenchPhase::Running; }));
+  ASSERT_TRUE(rig().until(finished));
+  ASSERT_EQ(rig().now().put_aside, 1U) << "what was there stands beside the document";
+  EXPECT_EQ(rig().now().compared[0].result.name, taken);
+  EXPECT_EQ(rig().now().compared[1].result.name, document);
+  EXPECT_EQ(rig().now().compared[1].result.made, rig().now().compared[0].result.made);
+
+  rig().tap("keep");
+  rig().tap("keep");
+  EXPECT_EQ(rig().now().put_aside, 2U) << "the same result once";
+  const pipeline::FaceModel as_loaded = *products().model;
+  rig().open(StaffPage::Algorithms);
+  rig().tap(kind("mesher"));
+  rig().tap(name("delaunay"));
+  again();
+  rig().open(StaffPage::Compare);
+  EXPECT_TRUE(rig().shows("option 0")) << "the algorithm that differs has a row";
+  rig().tap("keep");
+  ASSERT_EQ(rig().now().put_aside, 3U);
+  EXPECT_FALSE(rig().shows("keep") || rig().shows("list saved")) << "four is all there is room for";
+  const auto& kept = rig().now().compared[1];
+  ASSERT_NE(kept.model, nullptr);
+  EXPECT_TRUE(
+      std::equal(kept.model->mesh.vertices_mm.begin(), kept.model->mesh.vertices_mm.end(),
+                 as_loaded.mesh.vertices_mm.begin(), as_loaded.mesh.vertices_mm.end(),
+                 [](const auto& a, const auto& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }));
+  EXPECT_NE(rig().now().compared[2].result.made[2], kept.result.made[2]);
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ui::Face& face = rig().screen->draw_list().faces[i];
+    EXPECT_EQ(face.version, rig().now().compared[i].model_number);
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(face.version, rig().screen->draw_list().faces[k].version);
+  }
+  const ui::Node* face = rig().screen->tree().find("kept picture 1");
+  ASSERT_NE(face, nullptr);
+  const float before = rig().screen->draw_list().face_look.yaw_deg, x = face->rect.x + face->rect.w / 2,
+              y = face->rect.y + face->rect.h / 2;
+  rig().screen->feed({ui::Input::Kind::Down, 3, x, y}, rig().view);
+  rig().screen->feed({ui::Input::Kind::Move, 3, x + 40, y}, rig().view);
+  rig().screen->feed({ui::Input::Kind::Up, 3, x + 40, y}, rig().view);
+  rig().turn();
+  EXPECT_NE(rig().screen->draw_list().face_look.yaw_deg, before);
+
+  const std::uint32_t second = kept.model_number;
+  rig().tap("drop 0");
+  EXPECT_EQ(rig().now().put_aside, 2U);
+  EXPECT_EQ(rig().now().compared[0].model_number, second) << "those behind it move up";
+  rig().tap("drop 0");
+  rig().tap("drop 0");
+  rig().open(StaffPage::Algorithms);
+  rig().tap("reset");
 }
 
 TEST_F(BenchTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
@@ -446,8 +519,8 @@ TEST_F(BenchTest, WhoLeavesLeavesNothing) {
   EXPECT_FALSE(rig().appliance->session().is_open());
   for (const std::byte byte : rig().memory.frames().first(4096)) ASSERT_EQ(byte, std::byte{0});
   EXPECT_EQ(rig().now().phase, BenchPhase::Empty);
-  EXPECT_FALSE(rig().now().kept.there);
-  EXPECT_TRUE(rig().now().shown[0].pixels.empty() && rig().now().compared[0].pixels.empty());
+  EXPECT_EQ(rig().now().put_aside, 0U);
+  EXPECT_TRUE(rig().now().shown[0].pixels.empty() && rig().now().compared[0].picture.pixels.empty());
 }
 
 }  // namespace

@@ -21,6 +21,8 @@
 namespace relievo::firmware {
 namespace {
 
+const ui::ViewState kNothing;
+
 constexpr float kTouchDp = 72, kStaffTouchDp = 56;
 
 struct Shown {
@@ -75,7 +77,7 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
     for (const Shown shown : kScreens) {
       for (std::size_t text = 0; text < ui::kTextPercents.size(); ++text) {
         if (text == 1 && shown.width_px != 1280) continue;  // 125 %: where there is least room
-        for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), text, false)) {
+        for (const Exhibit& exhibit : gallery(kNothing, GetParam(), text, false)) {
           screen_->resize(shown.width_px, shown.height_px);
           screen_->show(exhibit.view, exhibit.visit, exhibit.service);
           SCOPED_TRACE(std::string(exhibit.name) + " " + std::to_string(shown.width_px) + "x" +
@@ -205,7 +207,7 @@ void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string
 // Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its
 // end.
 TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
-  for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), ui::kTextPercents.size() - 1, false)) {
+  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), ui::kTextPercents.size() - 1, false)) {
     SCOPED_TRACE(exhibit.name);
     auto text = ui::TextEngine::make();
     ASSERT_TRUE(text.has_value());
@@ -268,7 +270,7 @@ TEST_P(GalleryTest, NoSentenceStaysEnglishButTheEnginesDetails) {
                                    "Maximiliane von und zu"};
   screen_->resize(1280, 800);
   std::size_t looked_at = 0, details = 0;
-  for (const Exhibit& exhibit : gallery(ui::ViewState{}, GetParam(), 0, false)) {
+  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
     screen_->show(exhibit.view, exhibit.visit, exhibit.service);
     for (const ui::Node& node : screen_->tree().nodes()) {
       const bool detail = !node.text.empty() && node.style.language == std::string_view("en");
@@ -289,7 +291,7 @@ TEST_P(GalleryTest, NoSentenceStaysEnglishButTheEnginesDetails) {
 }
 
 TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
-  const auto exhibits = gallery(ui::ViewState{}, GetParam(), 0, false);
+  const auto exhibits = gallery(kNothing, GetParam(), 0, false);
   screen_->resize(1280, 800);
   for (const Exhibit& exhibit : exhibits) {
     if (exhibit.name != "consent") continue;

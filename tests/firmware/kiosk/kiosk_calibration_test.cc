@@ -129,7 +129,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
     EXPECT_FALSE(says("Ada"));
     EXPECT_EQ(kiosk->ui().visit().name(), "");
     EXPECT_FALSE(kiosk->appliance().session().is_open());
-    EXPECT_EQ(kiosk->ui().draw_list().face, nullptr);
+    EXPECT_EQ(kiosk->ui().draw_list().faces[0].model, nullptr);
     if (visitor == 0) open_again();  // one face that said so is not forgotten, either
   }
   // One face may have nodded; a second one ends it: nobody else is photographed in vain.

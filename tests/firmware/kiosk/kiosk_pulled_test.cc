@@ -59,7 +59,7 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
     EXPECT_FALSE(kiosk->appliance().session().is_open());
     EXPECT_TRUE(kiosk->take_forgotten()) << "the renderer forgets, too";
     for (const auto& picture : kiosk->ui().draw_list().pictures) EXPECT_TRUE(picture.pixels.empty());
-    EXPECT_EQ(kiosk->ui().draw_list().face, nullptr);
+    EXPECT_EQ(kiosk->ui().draw_list().faces[0].model, nullptr);
   }
   // Time goes on as fast as a fault waits.
   bool later(const std::function<bool()>& reached) {

@@ -96,7 +96,7 @@ class KioskTest : public KioskHands {
                                             ? kiosk->appliance().problem()->what.view()
                                             : "");
     kiosk->turn();
-    EXPECT_NE(kiosk->ui().draw_list().face, nullptr);
+    EXPECT_NE(kiosk->ui().draw_list().faces[0].model, nullptr);
     for (const ui::StageView& stage : kiosk->view().stages)
       EXPECT_FALSE(stage.picture.empty()) << "a stage has no picture";
     // Turned with a finger.

@@ -121,7 +121,7 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   ASSERT_TRUE(until([this] { return find("record " + code_of(2)) == nullptr; }))
       << "only who was searched for";
   tap("record " + code_of(1));
-  ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().face != nullptr; }))
+  ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().faces[0].model != nullptr; }))
       << "the portrait is there to be turned";
 
   tap("export");
@@ -147,7 +147,7 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   for (const ui::Node& node : kiosk->ui().tree().nodes())
     EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
   EXPECT_EQ(kiosk->view().service->records, nullptr) << "no name is left";
-  EXPECT_EQ(kiosk->ui().draw_list().face, kiosk->view().showpiece);
+  EXPECT_EQ(kiosk->ui().draw_list().faces[0].model, kiosk->view().showpiece);
   kiosk.reset();
   auto store = storage::open_sqlite_store(args.store, clock, {});
   ASSERT_TRUE(store.has_value());
@@ -189,6 +189,7 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
     kiosk->turn();
   };
   speak(ui::Language::German);
+  EXPECT_TRUE(says("In Ordnung") && says("Kalibrierung") && !says("In order")) << "the self-test, too";
   tap("back");
   tap("open log");
   const auto read = [this](std::string_view words) { EXPECT_TRUE(says(words)) << words; };

@@ -120,7 +120,7 @@ TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
   EXPECT_GT(
       area,
       truth * 0.925);  // the outline runs most of a lattice step inside, its corners rounded as no face's are
-  const Vec3f normal = unit({0.3F, -0.2F, -1});
+  const Vec3f normal = unit(Vec3f{0.3F, -0.2F, -1});
   for (const Vec3f& n : result->normals) EXPECT_GT(dot(n, normal), expected_of(GetParam()).plane_normal);
 }
 

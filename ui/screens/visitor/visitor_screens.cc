@@ -70,8 +70,10 @@ void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   for (std::size_t i = 0; i < kStageViews; ++i)
     list.pictures[static_cast<std::size_t>(PictureSlot::Matches) + i] = {view.stages[i].picture,
                                                                          view.stages[i].number};
-  list.face = face_of(view, visit);
-  list.face_version = list.face == nullptr ? 0 : visit.step == Step::Attract ? ~0U : view.model_number;
+  list.faces = {};
+  list.faces[0].model = face_of(view, visit);
+  if (list.faces[0].model != nullptr)
+    list.faces[0].version = visit.step == Step::Attract ? ~0U : view.model_number;
   list.face_look = visit.look;
   list.face_look.backdrop = visit.step == Step::Review;
   if (visit.step == Step::Attract)

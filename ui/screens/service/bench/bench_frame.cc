@@ -159,22 +159,34 @@ void BenchFrame::pin_dot(float x, float y, Colour colour, std::string_view id) {
 }
 
 bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& visit, StaffPage page) {
-  const auto show = [&list](const BenchPicture& left, const BenchPicture& right) {
-    list.pictures[static_cast<std::size_t>(PictureSlot::BenchLeft)] = {left.pixels, left.version};
-    list.pictures[static_cast<std::size_t>(PictureSlot::BenchRight)] = {right.pixels, right.version};
+  const auto put = [&list](std::size_t place, const BenchPicture& picture) {
+    list.pictures[static_cast<std::size_t>(PictureSlot::BenchLeft) + place] = {picture.pixels,
+                                                                               picture.version};
   };
-  list.face = nullptr;
-  list.face_version = 0;
+  const auto show = [&put](const BenchPicture& left, const BenchPicture& right) {
+    put(0, left);
+    put(1, right);
+  };
   if (page == StaffPage::Stages) show(view.shown[0], view.shown[1]);
-  if (page == StaffPage::Compare) show(view.compared[0], view.compared[1]);
+  if (page == StaffPage::Compare) {
+    static_assert(kCompared == kFaces);
+    for (std::size_t i = 0; i < kCompared; ++i) {
+      const BenchCompared& one = view.compared[i];
+      put(i, one.picture);
+      if (one.model != nullptr && is_turned(view.stage))
+        list.faces[i] = {one.model, nullptr, one.model_number};
+    }
+    list.face_look = visit.look;
+    list.face_look.textured = view.stage == BenchStage::Texture;
+    list.face_look.fill = true;
+    list.face_look.edges = list.face_look.points = false;
+  }
   if (page == StaffPage::Cameras)
     show(view.cameras.camera[0].picture,
          view.cameras.relief_shown ? view.cameras.relief : view.cameras.camera[1].picture);
   if (page == StaffPage::Calibrate) show(view.calibration.pictures[0], view.calibration.pictures[1]);
   if (page == StaffPage::Model && view.model != nullptr) {
-    list.face = view.model;
-    list.cloud = view.cloud;
-    list.face_version = view.model_number;
+    list.faces[0] = {view.model, view.cloud, view.model_number};
     list.face_look = visit.look;
   }
   return page >= StaffPage::Stages && page <= StaffPage::Calibrate;
@@ -263,6 +275,35 @@ void BenchFrame::stick_buttons() {
     page.small_button("list saved", tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
                       bench(BenchAct::ListSaved), grow);
   }
+  page.tree.close();
+}
+
+void BenchFrame::stick_state() {
+  const BenchRecording& r = view.recording;
+  if (view.phase == BenchPhase::Capturing || view.phase == BenchPhase::Running) return;
+  if (r.running) return page.progress("record progress", r.progress);
+  if (r.outcome != Outcome::Done) return page.outcome();
+  page.status("recorded",
+              page.filled(tr("Recorded on the stick as {}. It can be pulled out."), left_to_right(r.where)),
+              Mood::Good);
+}
+
+void BenchFrame::saved_list(BenchAct load) {
+  problem(view.problem);
+  if (view.saved.names.empty()) {
+    page.nothing("no saved", icon::kDisk, tr("There is no saved reconstruction on the stick."));
+  } else {
+    page.begin_panel("saved");
+    page.section(tr("Saved on the stick, the newest first"));
+    page.tree.open(page.box(Flow::Column, space::kS, 0, space::kXs));
+    for (std::size_t i = 0; i < view.saved.names.size(); ++i)
+      page.small_button(id("saved", i), left_to_right(breakable(view.saved.names[i])), icon::kShape,
+                        ButtonLook::Quiet, bench(load, static_cast<std::int32_t>(i)));
+    page.tree.close();
+    page.tree.close();
+  }
+  const float grow = open_buttons();
+  page.small_button("leave saved", tr("Back"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveSaved), grow);
   page.tree.close();
 }
 

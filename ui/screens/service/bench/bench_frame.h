@@ -72,6 +72,10 @@ class BenchFrame {
   void capture_buttons(bool with_run, bool with_stick = false);
   void problem(const Fault& fault);  // empty: nothing is shown
   void failure();                    // of the present result's stages
+  // The reconstructions on the stick, in place of the page: a touch asks for `load`.
+  void saved_list(BenchAct load);
+  // What becomes of a recording, above the buttons that lead on.
+  void stick_state();
 
  private:
   void alert(std::string_view words, std::string_view detail);
@@ -79,6 +83,8 @@ class BenchFrame {
 };
 
 const char* title_of(const Words& tr, BenchStage stage);
+// Has it a surface, to be turned with a finger?
+inline bool is_turned(BenchStage stage) { return stage == BenchStage::Mesh || stage == BenchStage::Texture; }
 const char* work_of(const Words& tr, std::size_t stage);  // Match, Reconstruct, Mesh, Texture
 
 // The pictures and the model of these pages; false where `page` is none of them.

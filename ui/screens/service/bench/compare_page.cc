@@ -1,127 +1,258 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Two sets of algorithms on the same test capture, side by side: pictures of a stage, times, counts, and what
-// each result says of itself.
+// Results beside each other, a column each: those put aside, and the present one behind them. A picture of
+// the stage, or its surface, which one finger turns in all columns; the algorithms that were changed in any;
+// times, counts, and what each result says of itself.
 #include <algorithm>
+#include <array>
 
 #include "ui/screens/service/bench/bench_frame.h"
+#include "ui/screens/service/fault_words.h"
 
 namespace relievo::ui {
 namespace {
 
-void pictures(BenchFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(1.1F));
-  b.page.tree.open(row);
-  const char* const titles[] = {b.tr("Put aside"), b.tr("Now")};
-  for (std::size_t i = 0; i < 2; ++i) {
-    Node column = b.page.grown(b.page.box(Flow::Column, 6));
-    column.box.along = Along::Centre;
-    b.page.tree.open(column);
-    b.page.tree.leaf(
-        b.page.text(titles[i], type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
-    b.open_picture(i == 0 ? "kept picture" : "present picture", titles[i], b.view.compared[i],
-                   i == 0 ? PictureSlot::BenchLeft : PictureSlot::BenchRight);
-    b.close_picture();
-    b.page.tree.close();
-  }
-  b.page.tree.close();
-}
+class Columns {
+ public:
+  explicit Columns(BenchFrame& frame)
+      : b(frame), page(frame.page), count(std::min(frame.view.put_aside + 1, kCompared)) {}
 
-struct Row {
-  std::string_view id;
-  const char* label;
-  std::string_view kept, now;
+  void pictures() {
+    page.tree.open(page.grown(page.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
+    if (!labels_above()) beside_pictures();
+    for (std::size_t i = 0; i < count; ++i) {
+      Node column = page.grown(page.box(Flow::Column, 6));
+      page.tree.open(column);
+      page.tree.leaf(page.text(is_now(i) ? std::string_view(b.tr("Now")) : name_of(i), type::kSmall,
+                               Weight::Bold, page.palette.ink, TextAlign::Centre));
+      picture(i);
+      page.tree.close();
+    }
+    page.tree.close();
+  }
+
+  void table() {
+    page.begin_panel("figures");
+    row("name", b.tr("Pictures"), [this](const BenchResult& r) {
+      return r.name.empty() ? std::string_view("–") : b.left_to_right(b.breakable(r.name));
+    });
+    algorithms();
+    failures();
+    page.rule();
+    times_and_counts();
+    measures();
+    page.tree.close();
+  }
+
+ private:
+  BenchFrame& b;
+  StaffFrame& page;
+  const std::size_t count;
+
+  bool is_now(std::size_t i) const { return i == b.view.put_aside; }
+  bool labels_above() const { return page.portrait || page.text_share > 1.2F; }
+  const BenchResult& result(std::size_t i) const { return b.view.compared[i].result; }
+  std::string_view name_of(std::size_t i) const { return page.number(static_cast<double>(i + 1)); }
+
+  // What stands over the labels.
+  void beside_pictures() {
+    Node words = page.grown(page.box(Flow::Column, space::kS), label_share());
+    page.tree.open(words);
+    page.tree.leaf(page.text(title_of(b.tr, b.view.stage), type::kSmall, Weight::Bold, page.palette.ink));
+    page.tree.leaf(page.text(how(), 18, Weight::Regular, page.palette.ink_soft));
+    page.tree.close();
+  }
+  const char* how() const {
+    if (count == kCompared) return b.tr("Four stand side by side: drop one to put another beside them.");
+    return b.tr(
+        "Put this result aside, then calculate again or load another one: up to four stand side by side.");
+  }
+  float label_share() const { return count > 2 ? 0.9F : 0.7F; }
+
+  void picture(std::size_t i) {
+    const BenchCompared& one = b.view.compared[i];
+    const std::string_view spoken = is_now(i) ? std::string_view(b.tr("Now")) : name_of(i);
+    const auto slot = static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::BenchLeft) + i);
+    const std::string_view id = is_now(i) ? "present picture" : b.id("kept picture", i);
+    if (one.model != nullptr && is_turned(b.view.stage)) {
+      Node card = page.grown(page.box(Flow::Stack));
+      card.box.fill = page.palette.stage;
+      card.box.radius = page.px(12);
+      page.tree.open(card);
+      Node face = page.box(Flow::Column);
+      face.id = id;
+      face.name = b.tr("The model: turn it with a finger");
+      face.role = Role::Picture;
+      face.mark = Mark::Face;
+      face.face = static_cast<std::uint8_t>(i);
+      face.box.radius = page.px(12);
+      face.action = {ActionKind::TurnFace, 0};
+      page.tree.leaf(face);
+    } else {
+      b.open_picture(id, spoken, one.picture, slot);
+    }
+    if (!is_now(i)) drop_button(i);
+    page.tree.close();
+  }
+  void drop_button(std::size_t i) {
+    page.tree.open(page.box(Flow::Column));
+    Node end = page.box(Flow::Row);
+    end.box.along = Along::End;
+    page.tree.open(end);
+    Node cross = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
+    cross.id = b.id("drop", i);
+    cross.name = b.tr("Drop this result");
+    cross.role = Role::Button;
+    cross.action = bench(BenchAct::DropResult, static_cast<std::int32_t>(i));
+    cross.box.along = Along::Centre;
+    cross.box.across = Across::Centre;
+    cross.box.radius = page.px(12);
+    cross.box.fill = page.palette.quiet;
+    page.tree.open(cross);
+    page.sign(icon::kClose, 26 / page.text_share, page.palette.link);
+    page.tree.close();
+    page.tree.close();
+    page.tree.close();
+  }
+
+  // A line of the table: a cell for each result.
+  template <typename Cell>
+  void row(std::string_view id, std::string_view label, const Cell& cell, bool bad = false) {
+    const bool above = labels_above();
+    Node line = page.box(above ? Flow::Column : Flow::Row, above ? 2 : space::kXs, 0, 5);
+    line.id = id;
+    line.box.min_height = page.px(38);
+    if (!above) line.box.across = Across::Centre;
+    page.tree.open(line);
+    if (!label.empty() || !above) {
+      page.tree.open(above ? page.box(Flow::Column) : page.grown(page.box(Flow::Column), label_share()));
+      if (!label.empty()) page.tree.leaf(page.text(label, 18, Weight::Medium, page.palette.ink));
+      page.tree.close();
+    }
+    if (above) page.tree.open(page.box(Flow::Row, space::kXs));
+    for (std::size_t i = 0; i < count; ++i) {
+      page.tree.open(page.grown(page.box(Flow::Column)));
+      Node said = page.text(cell(result(i)), 18, Weight::Regular, bad ? page.palette.bad : page.palette.ink,
+                            TextAlign::Centre);
+      said.style.tabular = true;
+      if (!said.text.empty()) page.tree.leaf(said);
+      page.tree.close();
+    }
+    if (above) page.tree.close();
+    page.tree.close();
+  }
+  template <typename Value, typename Known>
+  void figure(std::string_view id, std::string_view label, int decimals, const char* unit, const Value& value,
+              const Known& known) {
+    row(id, label, [&](const BenchResult& r) {
+      return r.there && known(r) ? page.number(static_cast<double>(value(r)), decimals, unit)
+                                 : std::string_view("–");
+    });
+  }
+
+  // The value of a changed option; empty: as delivered.
+  static std::string_view value_of(std::string_view lines, std::string_view key) {
+    while (!lines.empty()) {
+      const std::size_t end = std::min(lines.find('\n'), lines.size());
+      const std::string_view line = lines.substr(0, end);
+      lines.remove_prefix(std::min(end + 1, lines.size()));
+      if (line.starts_with(key) && line.substr(key.size()).starts_with(" = "))
+        return line.substr(key.size() + 3);
+    }
+    return {};
+  }
+  void option(std::size_t number, std::string_view key) {
+    const char* delivered = b.tr("as delivered");
+    row(b.id("option", number), b.left_to_right(b.breakable(key)), [&](const BenchResult& r) {
+      const std::string_view value = value_of(r.algorithms, key);
+      return value.empty() ? std::string_view(delivered) : b.left_to_right(b.breakable(value));
+    });
+  }
+  void algorithms() {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::string_view rest = result(i).algorithms; !rest.empty();) {
+        const std::string_view key = rest.substr(0, rest.find(" = "));
+        const bool seen = std::any_of(
+            b.view.compared.begin(), b.view.compared.begin() + static_cast<std::ptrdiff_t>(i),
+            [key](const BenchCompared& one) { return !value_of(one.result.algorithms, key).empty(); });
+        if (!seen) option(number++, key);
+        rest.remove_prefix(std::min(std::min(rest.find('\n'), rest.size() - 1) + 1, rest.size()));
+      }
+    }
+    if (number == 0) {
+      row("option 0", b.tr("Algorithms"),
+          [this](const BenchResult&) { return std::string_view(b.tr("as delivered")); });
+    }
+  }
+  void failures() {
+    const auto failed = [](const BenchCompared& one) { return !one.result.failure.empty(); };
+    if (std::none_of(b.view.compared.begin(), b.view.compared.end(), failed)) return;
+    row(
+        "failed", "",
+        [this](const BenchResult& r) {
+          if (r.failure.empty()) return std::string_view();
+          return std::string_view(
+              page.filled(b.tr("{}: {}"), {work_of(b.tr, r.failed_at), words_of(b.tr, r.failure.code)}));
+        },
+        true);
+    row("failed detail", "", [this](const BenchResult& r) {
+      return r.failure.empty() ? std::string_view() : b.left_to_right(b.breakable(r.failure.detail));
+    });
+  }
+  void times_and_counts() {
+    const auto always = [](const BenchResult&) { return true; };
+    for (std::size_t i = 0; i < 4; ++i)
+      figure(
+          b.id("seconds", i), work_of(b.tr, i), 2, "s", [i](const BenchResult& r) { return r.seconds[i]; },
+          always);
+    figure(
+        "all matches", b.tr("Matches"), 0, "", [](const BenchResult& r) { return r.matches; }, always);
+    const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
+    for (std::size_t i = 0; i < 4; ++i)
+      figure(
+          b.id("count", i), made[i], 0, "", [i](const BenchResult& r) { return r.made[i]; }, always);
+    figure(
+        "memory", b.tr("Memory"), 0, "MiB", [](const BenchResult& r) { return r.arena_peak_mib; }, always);
+  }
+  void measures() {
+    const auto model = [](const BenchResult& r) { return r.coverage > 0; };
+    figure(
+        "sigma", b.tr("Median uncertainty"), 3, "mm", [](const BenchResult& r) { return r.median_sigma_mm; },
+        model);
+    figure(
+        "coverage", b.tr("Face covered"), 1, "%", [](const BenchResult& r) { return 100 * r.coverage; },
+        model);
+    const auto predicted = [](const BenchResult& r) { return r.photo_windows > 0; };
+    figure(
+        "photo", b.tr("Likeness of the predicted right view"), 3, "",
+        [](const BenchResult& r) { return r.photo_correlation; }, predicted);
+    figure(
+        "windows", b.tr("Compared windows"), 0, "", [](const BenchResult& r) { return r.photo_windows; },
+        predicted);
+    figure(
+        "rows", b.tr("Disagreement of the rows"), 3, "px", [](const BenchResult& r) { return r.epipolar_px; },
+        [](const BenchResult& r) { return r.epipolar_px >= 0; });
+  }
 };
 
-void figures(BenchFrame& b, const Row& row, bool heading = false) {
-  Node line = b.page.box(Flow::Row, space::kXs, 0, 5);
-  line.id = row.id;
-  line.box.min_height = b.page.px(38);
-  line.box.across = Across::Centre;
-  b.page.tree.open(line);
-  const auto cell = [&](std::string_view text, float share, Weight weight, TextAlign align) {
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column), share));
-    Node said = b.page.text(text, 18, weight, b.page.palette.ink, align);
-    said.style.tabular = true;
-    if (!text.empty()) b.page.tree.leaf(said);
-    b.page.tree.close();
-  };
-  cell(row.label, 1.5F, Weight::Medium, TextAlign::Start);
-  cell(row.kept, 1, heading ? Weight::Bold : Weight::Regular, TextAlign::End);
-  cell(row.now, 1, heading ? Weight::Bold : Weight::Regular, TextAlign::End);
-  b.page.tree.close();
-}
-
-// What a result was made with, over the width of both columns of figures: a line for each option that was
-// changed.
-void algorithms(BenchFrame& b, std::string_view id, const char* title, const BenchResult& r) {
-  Node line = b.page.box(Flow::Row, space::kXs, 0, 5);
-  line.id = id;
-  b.page.tree.open(line);
-  const auto said = [&](std::string_view text, Weight weight) {
-    b.page.tree.leaf(b.page.text(text, 18, weight, b.page.palette.ink));
-  };
-  b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
-  said(title, Weight::Medium);
-  b.page.tree.close();
-  b.page.tree.open(b.page.grown(b.page.box(Flow::Column), 2.5F));
-  if (!r.there) said("–", Weight::Regular);
-  else if (r.algorithms.empty()) said(b.tr("as delivered"), Weight::Regular);
-  for (std::string_view rest = r.there ? r.algorithms : std::string_view(); !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    said(b.left_to_right(b.breakable(rest.substr(0, end))), Weight::Regular);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+void buttons(BenchFrame& b, bool there) {
+  const bool busy = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
+  if (busy) return;
+  const float grow = b.open_buttons();
+  const bool room = b.view.put_aside + 1 < kCompared;
+  if (there) {
+    const auto next = static_cast<std::int32_t>((static_cast<std::size_t>(b.view.stage) + 1) % kBenchStages);
+    b.page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet,
+                        bench(BenchAct::ShowStage, next), grow);
+    if (room)
+      b.page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
+                          bench(BenchAct::KeepResult), grow);
   }
-  b.page.tree.close();
-  b.page.tree.close();
-}
-
-void table(BenchFrame& b) {
-  const BenchResult &k = b.view.kept, &n = b.view.result;
-  const auto figure = [&](const BenchResult& r, double value, int decimals, const char* unit_name,
-                          bool known = true) {
-    return r.there && known ? b.page.number(value, decimals, unit_name) : std::string_view("–");
-  };
-  b.page.begin_panel("figures");
-  b.page.section(b.tr("Algorithms"));
-  algorithms(b, "kept set", b.tr("Put aside"), k);
-  algorithms(b, "present set", b.tr("Now"), n);
-  b.page.rule();
-  figures(b, {"head", "", b.tr("Put aside"), b.tr("Now")}, true);
-  for (std::size_t i = 0; i < k.seconds.size(); ++i)
-    figures(b, {b.id("seconds", i), work_of(b.tr, i), figure(k, static_cast<double>(k.seconds[i]), 2, "s"),
-                figure(n, static_cast<double>(n.seconds[i]), 2, "s")});
-  figures(b, {"all matches", b.tr("Matches"), figure(k, static_cast<double>(k.matches), 0, ""),
-              figure(n, static_cast<double>(n.matches), 0, "")});
-  const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
-  for (std::size_t i = 0; i < k.made.size(); ++i)
-    figures(b, {b.id("count", i), made[i], figure(k, static_cast<double>(k.made[i]), 0, ""),
-                figure(n, static_cast<double>(n.made[i]), 0, "")});
-  const auto two = [&](std::string_view id, const char* label, auto value, int decimals,
-                       const char* unit_name, auto known) {
-    figures(b, {id, label, figure(k, static_cast<double>(value(k)), decimals, unit_name, known(k)),
-                figure(n, static_cast<double>(value(n)), decimals, unit_name, known(n))});
-  };
-  const auto model = [](const BenchResult& r) { return r.coverage > 0; };
-  two(
-      "sigma", b.tr("Median uncertainty"), [](const BenchResult& r) { return r.median_sigma_mm; }, 3, "mm",
-      model);
-  two(
-      "coverage", b.tr("Face covered"), [](const BenchResult& r) { return 100 * r.coverage; }, 1, "%", model);
-  const auto predicted = [](const BenchResult& r) { return r.photo_windows > 0; };
-  two(
-      "photo", b.tr("Likeness of the predicted right view"),
-      [](const BenchResult& r) { return r.photo_correlation; }, 3, "", predicted);
-  two(
-      "windows", b.tr("Compared windows"), [](const BenchResult& r) { return r.photo_windows; }, 0, "",
-      predicted);
-  two(
-      "rows", b.tr("Disagreement of the rows"), [](const BenchResult& r) { return r.epipolar_px; }, 3, "px",
-      [](const BenchResult& r) { return r.epipolar_px >= 0; });
-  two(
-      "memory", b.tr("Memory"), [](const BenchResult& r) { return r.arena_peak_mib; }, 0, "MiB",
-      [](const BenchResult&) { return true; });
+  if (room && !b.view.recording.running)
+    b.page.small_button("list saved", b.tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
+                        bench(BenchAct::ListSaved), grow);
   b.page.tree.close();
 }
 
@@ -130,26 +261,15 @@ void table(BenchFrame& b) {
 void bench_compare_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
-  if (b.capture_state()) {
-    b.failure();
-    if (!b.view.kept.there)
-      page.body(
-          "how",
-          b.tr("Put this result aside, choose other algorithms, calculate again: then both stand here."));
-    page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
-    pictures(b);
-    page.tree.open(page.grown(page.box(Flow::Column)));
-    table(b);
-    page.tree.close();
-    page.tree.close();
-    const float grow = b.open_buttons();
-    page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
-                      bench(BenchAct::KeepResult), grow);
-    const auto next = static_cast<std::int32_t>((static_cast<std::size_t>(b.view.stage) + 1) % kBenchStages);
-    page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet,
-                      bench(BenchAct::ShowStage, next), grow);
-    page.tree.close();
+  if (b.view.saved.listed) return b.saved_list(BenchAct::LoadBeside);
+  const bool there = b.capture_state();
+  if (there) {
+    Columns columns(b);
+    columns.pictures();
+    columns.table();
   }
+  b.stick_state();
+  buttons(b, there);
   b.capture_buttons(true);
 }
 

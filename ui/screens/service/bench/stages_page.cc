@@ -204,41 +204,6 @@ void time_rows(BenchFrame& b) {
   }
 }
 
-// What becomes of a recording, above the buttons that lead on.
-void recording_state(BenchFrame& b) {
-  const BenchRecording& r = b.view.recording;
-  if (b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running) return;
-  if (r.running) return b.page.progress("record progress", r.progress);
-  if (r.outcome == Outcome::Done) {
-    return b.page.status(
-        "recorded",
-        b.page.filled(b.tr("Recorded on the stick as {}. It can be pulled out."), b.left_to_right(r.where)),
-        Mood::Good);
-  }
-  b.page.outcome();
-}
-
-// The reconstructions on the stick, in place of the capture.
-void saved_list(BenchFrame& b) {
-  b.problem(b.view.problem);
-  if (b.view.saved.names.empty()) {
-    b.page.nothing("no saved", icon::kDisk, b.tr("There is no saved reconstruction on the stick."));
-  } else {
-    b.page.begin_panel("saved");
-    b.page.section(b.tr("Saved on the stick, the newest first"));
-    b.page.tree.open(b.page.box(Flow::Column, space::kS, 0, space::kXs));
-    for (std::size_t i = 0; i < b.view.saved.names.size(); ++i)
-      b.page.small_button(b.id("saved", i), b.left_to_right(b.breakable(b.view.saved.names[i])), icon::kShape,
-                          ButtonLook::Quiet, bench(BenchAct::Load, static_cast<std::int32_t>(i)));
-    b.page.tree.close();
-    b.page.tree.close();
-  }
-  const float grow = b.open_buttons();
-  b.page.small_button("leave saved", b.tr("Back"), nullptr, ButtonLook::Quiet, bench(BenchAct::LeaveSaved),
-                      grow);
-  b.page.tree.close();
-}
-
 void side_rows(BenchFrame& b) {
   b.failure();
   if (b.view.stage == BenchStage::Rectified) {
@@ -255,7 +220,7 @@ void side_rows(BenchFrame& b) {
 void bench_stages_page(StaffFrame& page) {
   if (page.staff.bench == nullptr) return;
   BenchFrame b(page);
-  if (b.view.saved.listed) return saved_list(b);
+  if (b.view.saved.listed) return b.saved_list(BenchAct::Load);
   const bool there = b.capture_state();
   if (there) {
     tabs(b);
@@ -271,7 +236,7 @@ void bench_stages_page(StaffFrame& page) {
     page.tree.close();
     page.tree.close();
   }
-  recording_state(b);
+  b.stick_state();
   b.capture_buttons(false, true);
 }
 
