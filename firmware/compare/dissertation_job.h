@@ -32,6 +32,7 @@ class DissertationJob final : public Job {
   const Dissertation& result() const { return result_; }
 
  private:
+  Result<void> run_all(JobControl& control);
   enum class At : std::uint8_t { Tables, Person, Rules, Face };
   Result<void> make_tables(JobControl& control);
   Result<ComparedPair> simulated_person(JobControl& control);

@@ -12,6 +12,7 @@
 // Numbers have a range, enum classes a name for each value, std::string is any text.
 #pragma once
 
+#include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,7 +54,8 @@ Result<void> check_options(const Options& options, std::string_view algorithm) {
   Options copy = options;  // describe() is for writing, too
   describe(copy, [&](const char* name, const auto& value, const OptionRange& range, const char*) {
     if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
-      if (checked && !range.holds(static_cast<double>(value)))
+      // A float as it was written: 0.01F is a little less than 0.01.
+      if (checked && !range.holds(std::strtod(option_text(value, range).c_str(), nullptr)))
         checked = out_of_range(std::string(algorithm) + "." + name, option_text(value, range), range);
   });
   if constexpr (requires { options.check(); })

@@ -151,7 +151,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   kiosk->turn();
   EXPECT_TRUE(says("Eine Kamera hat sich bewegt"))
       << "what the last face said, over a restart and in the reader's language";
-  EXPECT_TRUE(says("1,5")) << "with its figures";
+  EXPECT_TRUE(says("1.5")) << "with its figures";
   kiosk->ui().visit().language = ui::Language::English;
   kiosk->turn();
   tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");

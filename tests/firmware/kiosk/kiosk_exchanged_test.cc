@@ -73,7 +73,7 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
-  for (const char* words : {"The right camera", "serial", "R1", "R2", "calibrate again"})
+  for (const char* words : {"the right camera", "serial", "R1", "R2", "calibrate again"})
     EXPECT_TRUE(says(words)) << words;
   const auto& bench = [this]() -> const ui::BenchCalibration& {
     return kiosk->view().service->bench->calibration;

@@ -200,7 +200,7 @@ TEST_F(StaffConsentTest, TheOperatorChangesItLaterByAVersionThatComesAfter) {
   tap("start");
   EXPECT_TRUE(says("The second"));
   kiosk.reset();
-  EXPECT_NE(text_of_file(args.store / "relievo.log").find("consent text 2026-09 was taken over"),
+  EXPECT_NE(text_of_file(args.store / "relievo.log").find("Consent text 2026-09 was taken over"),
             std::string::npos);
 }
 

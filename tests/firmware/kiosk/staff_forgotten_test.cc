@@ -45,7 +45,7 @@ TEST_P(StaffForgottenTest, OneRoleChoosesItsPinAnewAndTheOthersStays) {
   set_up();
   kiosk.reset();
   ASSERT_EQ(staff(StaffArgs::Verb::ForgetPin), 0);
-  EXPECT_TRUE(log_says("the operator's PIN was forgotten"));
+  EXPECT_TRUE(log_says("The PIN was forgotten: Operator"));
   begin_anew();
   ASSERT_EQ(kiosk->ui().service().page, StaffPage::FirstStart);
   EXPECT_EQ(find("clock right"), nullptr) << "nothing else is asked";
@@ -66,7 +66,7 @@ TEST_P(StaffForgottenTest, OneRoleChoosesItsPinAnewAndTheOthersStays) {
   type_pin("80526");
   EXPECT_TRUE(kiosk->view().service->access.wrong) << "the old one opens nothing";
   kiosk.reset();
-  EXPECT_TRUE(log_says("the operator's PIN was chosen anew"));
+  EXPECT_TRUE(log_says("A new PIN was chosen: Operator"));
 }
 
 TEST_P(StaffForgottenTest, ForgettingGivesNobodyFurtherTries) {
@@ -121,7 +121,7 @@ TEST_P(StaffCommandTest, AScreenWhoseCorrectionIsWrongObeysAgain) {
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract) << "the finger is taken for another place";
   kiosk.reset();
   ASSERT_EQ(staff(StaffArgs::Verb::PlainTouch), 0);
-  EXPECT_TRUE(log_says("the touch screen is taken as it is"));
+  EXPECT_TRUE(log_says("The touch screen is taken as it is"));
   start();
   tap("start");
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Consent);

@@ -193,18 +193,18 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
   tap("back");
   tap("open log");
   const auto read = [this](std::string_view words) { EXPECT_TRUE(says(words)) << words; };
-  for (const char* words :
-       {"Technik angemeldet", "Beide PINs wurden gewählt", "noted by an earlier version", "of one, too"})
+  for (const char* words : {"Angemeldet: Technik", "Eine neue PIN wurde gewählt: Technik",
+                            "noted by an earlier version", "of one, too"})
     read(words);
-  EXPECT_FALSE(says("signed in"));
+  EXPECT_FALSE(says("Signed in"));
   const auto& nodes = kiosk->ui().tree().nodes();
   EXPECT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const ui::Node& node) {
     return node.name == "Störung";
   })) << "not by its colour alone";
   speak(ui::Language::English);
-  for (const char* words : {"Technician signed in", "Both PINs were chosen"}) read(words);
+  for (const char* words : {"Signed in: Technician", "A new PIN was chosen: Technician"}) read(words);
   speak(ui::Language::Arabic);
-  read("سجّل الفني دخوله");
+  read("تسجيل دخول: ");
   for (const ui::LogLine& line : kiosk->view().service->log->lines)
     EXPECT_TRUE(line.at.starts_with("20")) << line.text;
 }

@@ -6,6 +6,7 @@
 // times, counts, and what each result says of itself.
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "ui/screens/service/bench/bench_frame.h"
 #include "ui/screens/service/fault_words.h"
@@ -35,7 +36,9 @@ class Columns {
   void table() {
     page.begin_panel("figures");
     row("name", b.tr("Pictures"), [this](const BenchResult& r) {
-      return r.name.empty() ? std::string_view("–") : b.left_to_right(b.breakable(r.name));
+      std::string name = r.name.empty() ? "–" : r.name;
+      std::ranges::replace(name, '_', ' ');  // between date and time a line may end
+      return b.left_to_right(name);
     });
     algorithms();
     failures();
@@ -194,7 +197,7 @@ class Columns {
         [this](const BenchResult& r) {
           if (r.failure.empty()) return std::string_view();
           return std::string_view(
-              page.filled(b.tr("{}: {}"), {work_of(b.tr, r.failed_at), words_of(b.tr, r.failure.code)}));
+              page.filled("{} – {}", {work_of(b.tr, r.failed_at), words_of(b.tr, r.failure.code)}));
         },
         true);
     row("failed detail", "", [this](const BenchResult& r) {
