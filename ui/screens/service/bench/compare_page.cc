@@ -36,7 +36,7 @@ class Columns {
   void table() {
     page.begin_panel("figures");
     row("name", b.tr("Pictures"), [this](const BenchResult& r) {
-      std::string name = r.name.empty() ? "–" : r.name;
+      std::string name(r.name.empty() ? "–" : r.name);
       std::ranges::replace(name, '_', ' ');  // between date and time a line may end
       return b.left_to_right(name);
     });
