@@ -149,7 +149,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   ASSERT_TRUE(until([this] { return bench().calibration.history_count == 2; }));
   kiosk->ui().visit().language = ui::Language::German;
   kiosk->turn();
-  EXPECT_TRUE(says("Eine Kamera hat sich bewegt"))
+  EXPECT_TRUE(says("Die Kameras müssen kalibriert werden"))
       << "what the last face said, over a restart and in the reader's language";
   EXPECT_TRUE(says("1.5")) << "with its figures";
   kiosk->ui().visit().language = ui::Language::English;

@@ -193,8 +193,8 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
   tap("back");
   tap("open log");
   const auto read = [this](std::string_view words) { EXPECT_TRUE(says(words)) << words; };
-  for (const char* words : {"Angemeldet: Technik", "Eine neue PIN wurde gewählt: Technik",
-                            "noted by an earlier version", "of one, too"})
+  for (const char* words :
+       {"Angemeldet: ", "Eine neue PIN wurde gewählt: ", "noted by an earlier version", "of one, too"})
     read(words);
   EXPECT_FALSE(says("Signed in"));
   const auto& nodes = kiosk->ui().tree().nodes();
@@ -202,7 +202,7 @@ TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARe
     return node.name == "Störung";
   })) << "not by its colour alone";
   speak(ui::Language::English);
-  for (const char* words : {"Signed in: Technician", "A new PIN was chosen: Technician"}) read(words);
+  for (const char* words : {"Signed in: ", "A new PIN was chosen: "}) read(words);
   speak(ui::Language::Arabic);
   read("تسجيل دخول: ");
   for (const ui::LogLine& line : kiosk->view().service->log->lines)

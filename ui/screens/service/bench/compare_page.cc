@@ -136,8 +136,9 @@ class Columns {
     if (above) page.tree.open(page.box(Flow::Row, space::kXs));
     for (std::size_t i = 0; i < count; ++i) {
       page.tree.open(page.grown(page.box(Flow::Column)));
-      Node said = page.text(cell(result(i)), 18, Weight::Regular, bad ? page.palette.bad : page.palette.ink,
-                            TextAlign::Centre);
+      Node said =
+          page.text(cell(result(i)), count == kCompared ? 18 * std::min(1.0F, 1.25F / page.text_share) : 18,
+                    Weight::Regular, bad ? page.palette.bad : page.palette.ink, TextAlign::Centre);
       said.style.tabular = true;
       if (!said.text.empty()) page.tree.leaf(said);
       page.tree.close();
