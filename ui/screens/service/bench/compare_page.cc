@@ -121,7 +121,8 @@ class Columns {
 
   // A line of the table: a cell for each result.
   template <typename Cell>
-  void row(std::string_view id, std::string_view label, const Cell& cell, bool bad = false) {
+  void row(std::string_view id, std::string_view label, const Cell& cell, bool bad = false,
+           bool english = false) {
     const bool above = labels_above();
     Node line = page.box(above ? Flow::Column : Flow::Row, above ? 2 : space::kXs, 0, 5);
     line.id = id;
@@ -140,6 +141,7 @@ class Columns {
           page.text(cell(result(i)), count == kCompared ? 18 * std::min(1.0F, 1.25F / page.text_share) : 18,
                     Weight::Regular, bad ? page.palette.bad : page.palette.ink, TextAlign::Centre);
       said.style.tabular = true;
+      if (english) said.style.language = "en";
       if (!said.text.empty()) page.tree.leaf(said);
       page.tree.close();
     }
@@ -201,9 +203,12 @@ class Columns {
               page.filled("{} – {}", {work_of(b.tr, r.failed_at), words_of(b.tr, r.failure.code)}));
         },
         true);
-    row("failed detail", "", [this](const BenchResult& r) {
-      return r.failure.empty() ? std::string_view() : b.left_to_right(b.breakable(r.failure.detail));
-    });
+    row(
+        "failed detail", "",
+        [this](const BenchResult& r) {
+          return r.failure.empty() ? std::string_view() : b.left_to_right(b.breakable(r.failure.detail));
+        },
+        false, true);
   }
   void times_and_counts() {
     const auto always = [](const BenchResult&) { return true; };
