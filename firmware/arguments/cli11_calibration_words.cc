@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/arguments/calibration_words.h"
+#include "firmware/arguments/command_words.h"
 
 #include <CLI/CLI.hpp>
 
@@ -9,7 +9,6 @@
 #include <cmath>
 #include <string>
 
-#include "firmware/arguments/shared_words.h"
 #include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {

@@ -7,13 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "firmware/arguments/calibration_words.h"
 #include "firmware/arguments/command_line.h"
-#include "firmware/arguments/compare_words.h"
-#include "firmware/arguments/held_picture_words.h"
-#include "firmware/arguments/kiosk_words.h"
-#include "firmware/arguments/shared_words.h"
-#include "firmware/arguments/staff_words.h"
+#include "firmware/arguments/command_words.h"
 #include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {

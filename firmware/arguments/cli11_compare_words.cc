@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "firmware/arguments/compare_words.h"
+#include "firmware/arguments/command_words.h"
 #include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 
-#include "firmware/arguments/held_picture_words.h"
+#include "firmware/arguments/command_words.h"
 
 namespace relievo::firmware {
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/arguments/kiosk_words.h"
+#include "firmware/arguments/command_words.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <string>
 
-#include "firmware/arguments/shared_words.h"
 #include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/arguments/shared_words.h"
+#include "firmware/arguments/command_words.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/arguments/staff_words.h"
+#include "firmware/arguments/command_words.h"
 
 #include <CLI/CLI.hpp>
 
 #include <string>
-
-#include "firmware/arguments/shared_words.h"
 
 namespace relievo::firmware {
 
