@@ -172,7 +172,8 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     const HeadFrame frame = head ? *head : frame_as_seen(mesh, c);
     model.head_from_camera = frame.head_from_camera;
     if (head) {
-      RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, c));
+      const auto eyes = find_lids(mesh, frame.head_from_camera, pair, c);
+      RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, eyes, c));
       model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
     } else if (region_ != Region::All && relief_ && !model.unjudged) {
       model.unjudged = head.error();

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
-#include "pipeline/mesh/eyes/lid_finder.h"
+#include "pipeline/mesh/landmarks/lid_finder.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {

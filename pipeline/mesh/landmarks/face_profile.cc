@@ -116,10 +116,10 @@ std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) 
 }  // namespace
 
 std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh,
-                                          std::pmr::memory_resource* memory) {
+                                          std::pmr::memory_resource* memory, bool completed_too) {
   constexpr double kHalfWidth = 6 * kCellMm;
   FaceRelief band({-kHalfWidth, kHalfWidth, -kBelowMm, kAboveMm, kCellMm}, memory);
-  band.add(mesh, frame_from_mesh);
+  band.add(mesh, frame_from_mesh, completed_too);
   band.symmetrise();
   band.smooth(kSmoothMm, memory);
   std::pmr::vector<ProfilePoint> profile(memory);

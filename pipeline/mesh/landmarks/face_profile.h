@@ -21,9 +21,10 @@ struct ProfilePoint {
   double y_mm = 0, z_mm = 0;
 };
 
-// From the chin upwards; gaps are left out. Both sides of the nose count, or the one that was seen.
+// From the chin upwards; gaps are left out. Both sides of the nose count, or the one that was seen. Of the
+// measured surface, unless `completed_too`.
 std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh,
-                                          std::pmr::memory_resource* memory);
+                                          std::pmr::memory_resource* memory, bool completed_too = false);
 
 struct ProfileMarks {
   std::optional<ProfilePoint> tip, nasion, subnasale, chin;

@@ -20,6 +20,7 @@ struct Expected {
 };
 
 constexpr double kCellMm = 1, kSmoothMm = 1.5;
+constexpr ReliefBox kBox{-62, 62, -78, 62, kCellMm};
 constexpr int kSpan = 2;           // cells between the heights of a second difference
 constexpr double kPitWorth = 25;   // of one unit of bend (1 / mm), against half a squared deviation
 constexpr double kOwnReachMm = 3;  // a side's own pit lies that near the place of both
@@ -29,7 +30,8 @@ constexpr double kStomionBelowSubnasale = 21;
 
 // Sigmas, mm, each coordinate.
 constexpr float kTipSigma = 0.7F, kNasionSigma = 1.7F, kSubnasaleSigma = 1.5F, kChinSigma = 1.7F;
-constexpr float kInnerEyeSigma = 2.0F, kOuterEyeSigma = 4.0F, kMouthSigma = 3.0F;
+constexpr float kInnerEyeSigma = 2.0F, kOuterEyeSigma = 4.0F, kMouthSigma = 3.0F, kLidCornerSigma = 1.5F;
+constexpr float kCompleted = 2;  // times as uncertain where the surface was not measured
 
 // The lesser of the two bends of a hollow: positive only where the surface is a pit. 1 / mm.
 double pit(const FaceRelief& relief, int column, int row) {
@@ -62,21 +64,25 @@ bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Place& 
 
 class Finder {
  public:
-  Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch)
+  using Eyes = std::array<std::optional<Lids>, 2>;
+  Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, const Eyes& eyes, Arena& scratch)
       : camera_from_head_(inverse(head_from_camera)),
-        own_({-62, 62, -78, 62, kCellMm}, &scratch),
-        both_({-62, 62, -78, 62, kCellMm}, &scratch) {
+        own_(kBox, &scratch),
+        both_(kBox, &scratch),
+        shown_(kBox, &scratch),
+        eyes_(eyes),
+        measured_(profile_of(mesh, head_from_camera, &scratch)),
+        marks_(find_profile_marks(profile_of(mesh, head_from_camera, &scratch, true))) {
     own_.add(mesh, head_from_camera);
+    shown_.add(mesh, head_from_camera, true);
     both_ = own_;  // keeps its own memory
     both_.symmetrise();
-    own_.smooth(kSmoothMm, &scratch);
-    both_.smooth(kSmoothMm, &scratch);
-    const auto profile = profile_of(mesh, head_from_camera, &scratch);
-    marks_ = find_profile_marks(profile);
+    for (FaceRelief* relief : {&own_, &both_, &shown_}) relief->smooth(kSmoothMm, &scratch);
   }
 
   Landmarks find() {
-    if (marks_.tip) set(LandmarkName::Pronasale, {0, 0, 0}, kTipSigma);
+    // The frame's origin is the tip, once the profile has one there.
+    if (marks_.tip) mark(LandmarkName::Pronasale, ProfilePoint{}, kTipSigma);
     mark(LandmarkName::Nasion, marks_.nasion, kNasionSigma);
     mark(LandmarkName::Subnasale, marks_.subnasale, kSubnasaleSigma);
     mark(LandmarkName::Pogonion, marks_.chin, kChinSigma);
@@ -92,20 +98,16 @@ class Finder {
         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, sigma_mm, true};
   }
   void mark(LandmarkName name, const std::optional<ProfilePoint>& at, float sigma_mm) {
-    if (at) set(name, {0, at->y_mm, at->z_mm}, sigma_mm);
+    if (!at) return;
+    const bool measured = std::any_of(measured_.begin(), measured_.end(), [&](const ProfilePoint& p) {
+      return std::abs(p.y_mm - at->y_mm) < kCellMm;
+    });
+    set(name, {0, at->y_mm, at->z_mm}, measured ? sigma_mm : kCompleted * sigma_mm);
   }
-  // At the place, or where surface was measured nearest to it.
   void on_surface(LandmarkName name, const Place& at, float sigma_mm) {
-    constexpr int kReach = 4;
-    double nearest = kReach * kReach + 0.5, z = 0;
-    for (int dy = -kReach; dy <= kReach; ++dy)
-      for (int dx = -kReach; dx <= kReach; ++dx) {
-        const double here = own_.at(at.x + dx, at.y + dy);
-        if (std::isnan(here) || dx * dx + dy * dy >= nearest) continue;
-        nearest = dx * dx + dy * dy;
-        z = here;
-      }
-    if (nearest <= kReach * kReach) set(name, {at.x, at.y, z}, sigma_mm);
+    const double z = shown_.at(at.x, at.y);
+    const bool measured = !std::isnan(own_.at(at.x, at.y));
+    if (!std::isnan(z)) set(name, {at.x, at.y, z}, measured ? sigma_mm : kCompleted * sigma_mm);
   }
 
   // Both sides' common place first, then each side's own near it.
@@ -127,6 +129,15 @@ class Finder {
     const Place outer{inner.x + kFissureMm - 1, inner.y + kFissureRiseMm};
     on_surface(LandmarkName::ExocanthionRight, {-outer.x, outer.y}, kOuterEyeSigma);
     on_surface(LandmarkName::ExocanthionLeft, outer, kOuterEyeSigma);
+    // Where a photograph shows the lids, their corners are better known.
+    for (const bool left : {false, true}) {
+      const auto& lids = eyes_[left ? 1 : 0];
+      if (!lids) continue;
+      on_surface(left ? LandmarkName::EndocanthionLeft : LandmarkName::EndocanthionRight,
+                 {lids->inner.x, lids->inner.y}, kLidCornerSigma);
+      on_surface(left ? LandmarkName::ExocanthionLeft : LandmarkName::ExocanthionRight,
+                 {lids->outer.x, lids->outer.y}, kLidCornerSigma);
+    }
   }
 
   void mouth() {
@@ -136,7 +147,9 @@ class Finder {
   }
 
   RigidTransform camera_from_head_;
-  FaceRelief own_, both_;
+  FaceRelief own_, both_, shown_;  // measured, each side and the mean of both; with what was completed
+  Eyes eyes_;
+  std::pmr::vector<ProfilePoint> measured_;  // of the profile; its marks are found on the completed one
   ProfileMarks marks_;
   Landmarks found_{};
 };
@@ -144,10 +157,10 @@ class Finder {
 }  // namespace
 
 Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera,
-                                 StageContext& context) {
+                                 const std::array<std::optional<Lids>, 2>& eyes, StageContext& context) {
   if (context.stop()) return Error{Errc::Cancelled, "the search for landmarks was stopped"};
   const Arena::Mark mark(context.scratch);
-  return Finder(mesh, head_from_camera, context.scratch).find();
+  return Finder(mesh, head_from_camera, eyes, context.scratch).find();
 }
 
 }  // namespace relievo::pipeline

@@ -1,22 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The named points of a face, from the measured shape alone. Those on the plane of symmetry come from the
-// profile (face_profile.h); inner corners of the eyes and corners of the mouth are pits, found where both
-// sides of the face bend most like one near the place that anthropometry expects them (Farkas 1994); the
-// outer corners of the eyes leave hardly a trace on a surface and lie where the inner ones say, less surely.
+// The named points of a face. Those on the plane of symmetry come from the profile (face_profile.h). Corners
+// of the eyes are those of the lids (lid_finder.h); without lids the inner ones are pits, found like the
+// corners of the mouth where both sides of the face bend most like one near the place that anthropometry
+// expects (Farkas 1994), and the outer ones lie where the inner ones say, less surely. On a completed part of
+// the surface a point is twice as uncertain.
 // Sigmas are those of simulated heads against truth (tests/bench/frame_repeatability prints them).
-// A point is not found where its surroundings were not measured. Memory: scratch only. Thread: any.
+// Memory: scratch only. Thread: any.
 #pragma once
 
 #include "pipeline/base/stage.h"
+#include "pipeline/mesh/landmarks/lid_finder.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
 
 namespace relievo::pipeline {
 
-// `head_from_camera` as find_head_frame() gives it. Errors: Cancelled.
+// `head_from_camera` as find_head_frame() gives it, `eyes` as find_lids(). Errors: Cancelled.
 Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera,
-                                 StageContext& context);
+                                 const std::array<std::optional<Lids>, 2>& eyes, StageContext& context);
 
 }  // namespace relievo::pipeline

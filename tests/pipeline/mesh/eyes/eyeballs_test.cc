@@ -14,7 +14,7 @@
 #include "hal/sim/head/head_model.h"
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
-#include "pipeline/mesh/eyes/lid_finder.h"
+#include "pipeline/mesh/landmarks/lid_finder.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/pipeline.h"

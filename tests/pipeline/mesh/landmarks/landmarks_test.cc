@@ -35,7 +35,7 @@ Look look_at(const FieldHead& head, double yaw_deg, double pitch_deg, StageRoom&
   const auto frame = room.run([&](StageContext& c) { return find_head_frame(*mesh, c); });
   EXPECT_TRUE(frame);
   const auto landmarks =
-      room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, c); });
+      room.run([&](StageContext& c) { return find_landmarks(*mesh, frame->head_from_camera, {}, c); });
   EXPECT_TRUE(landmarks);
   return {inverse(FieldHead::camera_from_head(pose)), frame->head_from_camera, *landmarks};
 }
@@ -118,11 +118,11 @@ TEST(Landmarks, LieWhereTheSigmaSays) {
 TEST(Landmarks, AreNotFoundWhereNothingWasMeasured) {
   StageRoom room;
   const FaceMesh nothing(std::pmr::get_default_resource());
-  const auto landmarks = room.run([&](StageContext& c) { return find_landmarks(nothing, {}, c); });
+  const auto landmarks = room.run([&](StageContext& c) { return find_landmarks(nothing, {}, {}, c); });
   ASSERT_TRUE(landmarks);
   for (const Landmark& l : *landmarks) EXPECT_FALSE(l.found);
   room.cancelled = true;
-  EXPECT_FALSE(room.run([&](StageContext& c) { return find_landmarks(nothing, {}, c); }));
+  EXPECT_FALSE(room.run([&](StageContext& c) { return find_landmarks(nothing, {}, {}, c); }));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/eyes/lid_finder.h"
+#include "pipeline/mesh/landmarks/lid_finder.h"
 
 #include <algorithm>
 #include <cmath>
