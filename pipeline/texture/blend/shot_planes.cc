@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "hal/base/statistics.h"
 #include "pipeline/model/mesh_border.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
@@ -101,6 +102,27 @@ void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::spa
   });
   for (std::uint32_t v = 0; v < seen.size(); ++v)
     if (!known(v)) seen[v] &= static_cast<std::uint8_t>(~bit);
+}
+
+// Where both views see that surface and one shows it much lighter than the other does, the one that looks at
+// it more slantingly looks past it.
+void choose_at_limb(std::span<const std::uint8_t> beyond, std::span<const float> left_light,
+                    std::span<const float> right_light, VertexViews& views,
+                    std::pmr::memory_resource* memory) {
+  constexpr float kUnlike = 1.25F, kSlanting = 0.25F;  // the share of the view that looks past
+  std::pmr::vector<float> ratios(memory);
+  ratios.reserve(beyond.size());
+  for (std::size_t v = 0; v < beyond.size(); ++v)
+    if (views.seen[v] == (kSeenLeft | kSeenRight) && beyond[v] == 0)
+      ratios.push_back(left_light[v] / right_light[v]);
+  const float usual = ratios.empty() ? 1 : static_cast<float>(median(ratios));
+  for (std::size_t v = 0; v < beyond.size(); ++v) {
+    if (views.seen[v] != (kSeenLeft | kSeenRight) || beyond[v] == 0) continue;
+    const float ratio = left_light[v] / right_light[v] / usual;
+    if (ratio < kUnlike && ratio > 1 / kUnlike) continue;
+    if (views.share[v] > 1 - kSlanting) views.seen[v] = kSeenRight;
+    if (views.share[v] < kSlanting) views.seen[v] = kSeenLeft;
+  }
 }
 
 float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) {
@@ -254,20 +276,25 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   }
   const auto parts = completed_triangles(mesh, memory);
   const auto beyond = completed_to_border(mesh, parts, memory);
-  const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit) {
+  const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit, std::span<float> light) {
     const PhotoSampler photo(view, pair.width_px, pair.height_px);
-    forget_what_lies_behind(
-        parts, beyond, bit,
-        [&](std::uint32_t v) {
-          float rgb[3];
-          photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side),
-                     chart.view_y(chart.texel[v].y), rgb);
-          return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
-        },
-        views.seen, memory);
+    const auto colour = [&](std::uint32_t v) {
+      float rgb[3];
+      photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side), chart.view_y(chart.texel[v].y),
+                 rgb);
+      return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
+    };
+    forget_what_lies_behind(parts, beyond, bit, colour, views.seen, memory);
+    for (std::uint32_t v = 0; v < n; ++v) {
+      const auto rgb = colour(v);
+      light[v] = rgb[0] + rgb[1] + rgb[2] + 1;
+    }
   };
-  look(pair.left, kLeftSide, kSeenLeft);
-  if (!options.left_only) look(pair.right, kRightSide, kSeenRight);
+  std::pmr::vector<float> left_light(n, memory), right_light(n, memory);
+  look(pair.left, kLeftSide, kSeenLeft, left_light);
+  if (options.left_only) return views;
+  look(pair.right, kRightSide, kSeenRight, right_light);
+  choose_at_limb(beyond, left_light, right_light, views, memory);
   return views;
 }
 
