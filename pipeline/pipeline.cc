@@ -160,11 +160,16 @@ Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, cons
   return {};
 }
 
-Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const {
+Result<TextureAtlas> Pipeline::texture(const FaceMesh& mesh, const RectifiedPair& pair,
+                                       StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) { return texturer_->texture(mesh, pair, c); });
+}
+
+Result<FaceModel> Pipeline::assemble(FaceMesh mesh, TextureAtlas texture, const RectifiedPair& pair,
+                                     StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
     FaceModel model(&c.output);
     RELIEVO_TRY(judge_relief(model, mesh, pair, c));
-    RELIEVO_TRY_ASSIGN(model.texture, texturer_->texture(mesh, pair, c));
     const double* x_axis = pair.rectified_from_left.m;
     const Vec3d across{x_axis[0], x_axis[1], x_axis[2]};
     const auto head = find_head_frame(mesh, c, across);
@@ -181,8 +186,9 @@ Result<FaceModel> Pipeline::texture(FaceMesh mesh, const RectifiedPair& pair, St
     const ReliefFigures relief = model.quality.relief;
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;
-    model.quality.texture_sharpness = texture_sharpness(model.texture, c);
+    model.quality.texture_sharpness = texture_sharpness(texture, c);
     model.mesh = std::move(mesh);
+    model.texture = std::move(texture);
     return model;
   });
 }

@@ -3,10 +3,10 @@
 //
 // Pipeline: the stages in their order, each with the algorithm chosen for it. Data flows one way:
 //
-//   StereoFrame -> RectifiedPair -> MatchSet -> PointCloud -> FaceMesh -> FaceModel
+//   StereoFrame -> RectifiedPair -> MatchSet -> PointCloud -> FaceMesh -> TextureAtlas -> FaceModel
 //
 // Every product lives in the context's `output`; `scratch` is swept after every call. A call is one
-// stage on the technician's page: Match (rectify and match), Reconstruct, Mesh, Texture.
+// stage on the technician's page: Match (rectify and match), Reconstruct, Mesh, Texture, Assemble.
 // Thread: worker; holds no state between calls.
 #pragma once
 
@@ -47,10 +47,13 @@ class Pipeline {
                                  std::span<const Match> by_hand = {}) const;
   // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
-  // Takes the mesh over into the model, which says where it could not be told whether that is a face
-  // (FaceModel::unjudged; never with Region::All or relief=off). Errors: NoFace (a picture was held up; never
-  // so either), Cancelled, OutOfMemory.
-  Result<FaceModel> texture(FaceMesh mesh, const RectifiedPair& pair, StageContext& context) const;
+  // Errors: Cancelled, OutOfMemory.
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
+  // Takes mesh and texture over into the model; finds its head frame, landmarks, quality and backdrop. It
+  // says where it could not be told whether that is a face (FaceModel::unjudged; never with Region::All or
+  // relief=off). Errors: NoFace (a picture was held up; never so either), Cancelled, OutOfMemory.
+  Result<FaceModel> assemble(FaceMesh mesh, TextureAtlas texture, const RectifiedPair& pair,
+                             StageContext& context) const;
 
   // After a failure: what is wrong with the pictures, if anything is. May take as long as a match.
   std::optional<Error> explain(const StereoFrame& frame, StageContext& context) const;

@@ -287,6 +287,7 @@ void Appliance::entered(const Change& change) {
     case State::Reconstruct:
     case State::Mesh:
     case State::Texture:
+    case State::Assemble:
       stage_.choose(change.to);
       start(worker_, stage_);
       break;
@@ -299,7 +300,7 @@ void Appliance::entered(const Change& change) {
       close_session();
       break;
     case State::Review:
-      if (change.from == State::Texture) problem_.reset();  // an attempt before it failed; this one did not
+      if (change.from == State::Assemble) problem_.reset();  // an attempt before it failed; this one did not
       break;
     case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
     case State::Export:

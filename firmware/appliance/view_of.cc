@@ -24,6 +24,7 @@ ui::Screen screen_of(State state) {
     case State::Mesh:
       return ui::Screen::Mesh;
     case State::Texture:
+    case State::Assemble:
       return ui::Screen::Texture;
     case State::Review:
       return ui::Screen::Review;
@@ -93,6 +94,7 @@ std::size_t stages_done(State state) {
       return 2;
     case State::Texture:
       return 3;
+    case State::Assemble:
     case State::Review:
     case State::Store:
       return 4;

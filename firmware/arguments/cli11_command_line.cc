@@ -172,7 +172,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   command
       ->add_option("--from", args.from,
                    "of a saved one: the first stage to be done again; default: the first that --set changes")
-      ->check(CLI::IsMember({"match", "reconstruct", "mesh", "texture"}))
+      ->check(CLI::IsMember({"match", "reconstruct", "mesh", "texture", "assemble"}))
       ->needs(load);
   command
       ->add_option(

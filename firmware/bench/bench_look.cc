@@ -28,8 +28,7 @@ void Bench::look() {
   view_.put_aside = kept_.count();
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
   if (phase_ == ui::BenchPhase::Running) {
-    view_.working_on =
-        static_cast<std::uint8_t>(static_cast<int>(run_.stage()) - static_cast<int>(State::Match));
+    view_.working_on = static_cast<std::uint8_t>(number_of(run_.stage()));
     view_.progress = parts_.errands.progress(JobPlace::Worker);
   }
   const Products* made = products();

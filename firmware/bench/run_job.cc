@@ -18,8 +18,7 @@ void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCali
   making_.calibration = calibration;
   making_.whole_view = whole_view;
   making_.by_hand = std::move(by_hand);
-  making_.records.resize(std::min(making_.records.size(),
-                                  static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match)));
+  making_.records.resize(std::min(making_.records.size(), number_of(first)));
   first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
   document_.reset();
   now_.store(first_, std::memory_order_relaxed);
@@ -48,7 +47,7 @@ Result<void> RunJob::work(JobControl& control) {
   PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
   stages.add_by_hand(making_.by_hand);
   StageJob job(stages, session_, pool_, clock_);
-  for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
+  for (const State stage : kStages) {
     if (stage < first_) continue;
     now_.store(stage, std::memory_order_relaxed);
     job.choose(stage);
@@ -63,7 +62,7 @@ Result<void> RunJob::work(JobControl& control) {
     break;
   }
   if (session_.products().model && session_.products().model->unjudged)
-    figures_.fail(State::Texture, *session_.products().model->unjudged);
+    figures_.fail(State::Assemble, *session_.products().model->unjudged);
   return finish(control);
 }
 

@@ -92,6 +92,7 @@ Result<void> drive(Appliance& appliance, Console& console) {
       case State::Reconstruct:
       case State::Mesh:
       case State::Texture:
+      case State::Assemble:
       case State::Store:
         console.progress(name_of(appliance.state()), appliance.progress());
         break;

@@ -117,8 +117,11 @@ Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeli
   auto mesh =
       bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
   if (!mesh) return mesh.error();
-  auto model = bench.step("texture", [&](pipeline::StageContext& c) {
-    return pipeline.texture(*std::move(mesh), *made.pair, c);
+  auto texture = bench.step(
+      "texture", [&](pipeline::StageContext& c) { return pipeline.texture(*mesh, *made.pair, c); });
+  if (!texture) return texture.error();
+  auto model = bench.step("assemble", [&](pipeline::StageContext& c) {
+    return pipeline.assemble(*std::move(mesh), *std::move(texture), *made.pair, c);
   });
   if (!model) return model.error();
   if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
@@ -160,7 +163,7 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
   const auto built = build_model(order, *pipeline, bench, made, run);
   // A handful of places is compared all the same; that they make no face is no failure of theirs.
   const Errc code = built ? Errc::Cancelled : built.error().code;
-  const bool few = made.matches->lattice_step_px == 0 && run.stages.back().name != "texture" &&
+  const bool few = made.matches->lattice_step_px == 0 && run.stages.back().name != "assemble" &&
                    (code == Errc::PoorGeometry || code == Errc::TooFewMatches || code == Errc::NoFace);
   if (!few) return built;
   run.no_surface = "no surface, not judged to be a face: " + std::to_string(run.matches.accepted) +

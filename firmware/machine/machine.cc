@@ -18,6 +18,7 @@ std::optional<std::chrono::milliseconds> limit_of(State state) {
     case State::Reconstruct:
     case State::Mesh:
     case State::Texture:
+    case State::Assemble:
       return budget::kStageLimit;
     case State::Review:
       return budget::kReviewLimit;

@@ -24,6 +24,8 @@ std::string_view name_of(State state) {
       return "Mesh";
     case State::Texture:
       return "Texture";
+    case State::Assemble:
+      return "Assemble";
     case State::Review:
       return "Review";
     case State::Store:

@@ -3,11 +3,10 @@
 //
 // The whole life of the appliance, as one table.
 //
-//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Review -> Store ->
-//   Idle
-//                |                                                                |
-//                +-> Technician -> Calibrate | Export                              +-> Capture or Position
-//                (again)
+//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Assemble -> Review
+//                |                                                                 Review -> Store -> Idle
+//                +-> Technician -> Calibrate | Export                              Review -> Capture |
+//                Position (again)
 // A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
 // A person at the screen finds their place first, with a live picture, and goes back there for advice.
 //   Fault is entered when the machine cannot; it tests itself again.
@@ -34,6 +33,7 @@ enum class State : std::uint8_t {
   Reconstruct,
   Mesh,
   Texture,
+  Assemble,
   Review,
   Store,
   Export,
@@ -41,6 +41,13 @@ enum class State : std::uint8_t {
   Fault,
   Count
 };
+
+// The stages of the pipeline (pipeline/pipeline.h), in their order.
+inline constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture,
+                                    State::Assemble};
+constexpr std::size_t number_of(State stage) {
+  return static_cast<std::size_t>(stage) - static_cast<std::size_t>(kStages.front());
+}
 
 enum class Event : std::uint8_t {
   Passed,       // the self test found everything in place
@@ -112,12 +119,19 @@ inline constexpr std::array kTransitions{
     Transition{State::Mesh, Event::Timeout, State::Idle},
     Transition{State::Mesh, Event::Failed, State::Fault},
 
-    Transition{State::Texture, Event::StageDone, State::Review},
+    Transition{State::Texture, Event::StageDone, State::Assemble},
     Transition{State::Texture, Event::StageFailed, State::Capture},
     Transition{State::Texture, Event::AdviceGiven, State::Position},
     Transition{State::Texture, Event::Cancel, State::Idle},
     Transition{State::Texture, Event::Timeout, State::Idle},
     Transition{State::Texture, Event::Failed, State::Fault},
+
+    Transition{State::Assemble, Event::StageDone, State::Review},
+    Transition{State::Assemble, Event::StageFailed, State::Capture},
+    Transition{State::Assemble, Event::AdviceGiven, State::Position},
+    Transition{State::Assemble, Event::Cancel, State::Idle},
+    Transition{State::Assemble, Event::Timeout, State::Idle},
+    Transition{State::Assemble, Event::Failed, State::Fault},
 
     Transition{State::Review, Event::Accept, State::Store},
     Transition{State::Review, Event::Retake, State::Capture},

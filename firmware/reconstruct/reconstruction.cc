@@ -25,7 +25,8 @@ namespace {
 State stage_named(std::string_view word) {
   if (word == "match") return State::Match;
   if (word == "reconstruct") return State::Reconstruct;
-  return word == "mesh" ? State::Mesh : State::Texture;
+  if (word == "mesh") return State::Mesh;
+  return word == "texture" ? State::Texture : State::Assemble;
 }
 
 Result<State> first_stage(std::string_view from, State changed) {

@@ -28,7 +28,7 @@ class Reconstruction {
   Result<void> run(const Path& left, const Path& right, const Path& calibration,
                    const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
                    WhenMoved when_moved = WhenMoved::Refuse);
-  // A saved reconstruction; done again are the stages from `from` on ("match" ... "texture"; empty: from the
+  // A saved reconstruction; done again are the stages from `from` on ("match" ... "assemble"; empty: from the
   // first that the settings or `by_hand` change, or that is missing). `by_hand`: in place of the saved ones;
   // empty: those stay. Errors: also the document's; InvalidInput for what changes a stage before `from`.
   Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms,

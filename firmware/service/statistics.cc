@@ -11,7 +11,7 @@ namespace {
 bool is_visit(State state) {
   return state == State::Position || state == State::Capture || state == State::Match ||
          state == State::Reconstruct || state == State::Mesh || state == State::Texture ||
-         state == State::Review;
+         state == State::Assemble || state == State::Review;
 }
 
 ui::Refusal refusal_of(const Error& error) {
@@ -54,7 +54,7 @@ void Statistics::noted(const Change& change, const Error* problem, std::chrono::
                         change.event == Event::Failed || change.event == Event::Timeout);
   if (change.from == State::Idle && is_visit(change.to)) count(visits_);
   if (change.from == State::Capture && change.event == Event::Triggered) count(captures_);
-  if (change.to == State::Review && change.from == State::Texture) {
+  if (change.to == State::Review && change.from == State::Assemble) {
     count(models_);
     ++times_[std::min(kSteps - 1, static_cast<std::size_t>(total / kStep))];
   }

@@ -50,19 +50,20 @@ void EnrolmentSession::rework() {
   products_->frame = frame;
 }
 
-void EnrolmentSession::begins(State stage) {
-  stage_begins_.at(static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match)) = output_.used();
-}
+void EnrolmentSession::begins(State stage) { stage_begins_.at(number_of(stage)) = output_.used(); }
 
 void EnrolmentSession::rework(State from) {
   if (from <= State::Match) return rework();
   Products& made = products();
-  if (from == State::Texture && made.model)
-    made.mesh = std::move(made.model->mesh);  // it was taken over unchanged
+  if (from > State::Mesh && made.model) {  // they were taken over unchanged
+    made.mesh = std::move(made.model->mesh);
+    made.texture = std::move(made.model->texture);
+  }
   made.model.reset();
+  if (from <= State::Texture) made.texture.reset();
   if (from <= State::Mesh) made.mesh.reset();
   if (from <= State::Reconstruct) made.cloud.reset();
-  output_.wipe(stage_begins_.at(static_cast<std::size_t>(from) - static_cast<std::size_t>(State::Match)));
+  output_.wipe(stage_begins_.at(number_of(from)));
 }
 
 void EnrolmentSession::close() {

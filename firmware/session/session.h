@@ -39,7 +39,8 @@ struct Products {
   std::optional<pipeline::MatchSet> matches;
   std::optional<pipeline::DriftJudgement> drift;  // what the matches say of the calibration
   std::optional<pipeline::PointCloud> cloud;
-  std::optional<pipeline::FaceMesh> mesh;
+  std::optional<pipeline::FaceMesh> mesh;         // until it is in the model
+  std::optional<pipeline::TextureAtlas> texture;  // so is this
   std::optional<pipeline::FaceModel> model;
 };
 
@@ -105,7 +106,7 @@ class EnrolmentSession {
   StereoSlot spare_slot_;
   const StereoSlot* holds_ = nullptr;  // the capture
   Arena output_;
-  std::array<std::size_t, 4> stage_begins_{};  // in output_: Match, Reconstruct, Mesh, Texture
+  std::array<std::size_t, kStages.size()> stage_begins_{};  // in output_
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;
   Products* products_ = nullptr;  // at the front of output_

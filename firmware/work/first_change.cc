@@ -13,7 +13,8 @@ State stage_of(const pipeline::OptionDescription& option) {
   if (option.key.starts_with("face.")) return State::Match;  // what is matched is cut to it, too
   if (kind == "triangulator" || kind == "outliers") return State::Reconstruct;
   if (kind == "mesher" || kind == "completion") return State::Mesh;
-  return kind == "relief" || kind == "texturer" ? State::Texture : State::Match;
+  if (kind == "texturer") return State::Texture;
+  return kind == "relief" ? State::Assemble : State::Match;
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
                  "this device has no calibration yet: a technician has to calibrate its cameras"};
   Result<void> done = run_stage_of(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
-  if (done || stage == State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
+  if (done || stage >= State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
     return done;
   if (std::optional<Error> cause = pipeline_->explain(*products.frame, context)) return *cause;
   return done;
@@ -61,6 +61,8 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
       return mesh(products, context, record);
     case State::Texture:
       return texture(products, context, record);
+    case State::Assemble:
+      return assemble(products, context, record);
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
@@ -110,17 +112,32 @@ Result<void> PipelineStages::mesh(Products& products, pipeline::StageContext& co
 
 Result<void> PipelineStages::texture(Products& products, pipeline::StageContext& context,
                                      StageRecord& record) const {
-  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value() && products.matches.has_value());
+  RELIEVO_ASSERT(products.mesh.has_value() && products.pair.has_value());
   record.in = products.mesh->triangles.size();
-  RELIEVO_TRY_ASSIGN(products.model, pipeline_->texture(std::move(*products.mesh), *products.pair, context));
-  products.mesh.reset();  // it lives on in the model
+  RELIEVO_TRY_ASSIGN(products.texture, pipeline_->texture(*products.mesh, *products.pair, context));
+  record.out = products.texture->rgb.size() / 3;
+  return {};
+}
+
+Result<void> PipelineStages::assemble(Products& products, pipeline::StageContext& context,
+                                      StageRecord& record) const {
+  RELIEVO_ASSERT(products.texture.has_value() && products.mesh.has_value() && products.pair.has_value() &&
+                 products.matches.has_value());
+  record.in = products.mesh->vertices_mm.size();
+  RELIEVO_TRY_ASSIGN(
+      products.model,
+      pipeline_->assemble(std::move(*products.mesh), std::move(*products.texture), *products.pair, context));
+  products.mesh.reset();  // they live on in the model
+  products.texture.reset();
   if (products.model->unjudged && when_unjudged_ == WhenUnjudged::Refuse) {
     const Error why = *products.model->unjudged;
     products.model.reset();
     return why;
   }
   products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
-  record.out = products.model->texture.rgb.size() / 3;
+  record.out = static_cast<std::uint64_t>(std::count_if(products.model->landmarks.begin(),
+                                                        products.model->landmarks.end(),
+                                                        [](const pipeline::Landmark& l) { return l.found; }));
   return {};
 }
 

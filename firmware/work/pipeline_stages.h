@@ -57,6 +57,7 @@ class PipelineStages final : public StageRunner {
   Result<void> reconstruct(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> texture(Products& products, pipeline::StageContext& context, StageRecord& record) const;
+  Result<void> assemble(Products& products, pipeline::StageContext& context, StageRecord& record) const;
 
   pipeline::AlgorithmSet set_;
   std::optional<pipeline::Pipeline> pipeline_;

@@ -7,7 +7,7 @@ namespace relievo::firmware {
 Result<void> ReconstructJob::run(JobControl& control) {
   records_.clear();
   const hal::Instant begin = clock_.now();
-  for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
+  for (const State stage : kStages) {
     if (stage < first_) continue;
     now_.store(stage, std::memory_order_relaxed);
     stage_.choose(stage);

@@ -12,10 +12,8 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture};
-
 std::size_t done(const Products& made) {
-  return made.model ? 4 : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0;
+  return made.model ? kStages.size() : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0;
 }
 
 template <typename Product>
@@ -70,9 +68,7 @@ Result<Making> making_of(const storage::Document& document) {
 
 Result<State> load_products(const storage::Document& document, State first, EnrolmentSession& session,
                             JobControl& control) {
-  const std::size_t stages =
-      std::min(document.head().stages.size(),
-               static_cast<std::size_t>(first) - static_cast<std::size_t>(State::Match));
+  const std::size_t stages = std::min(document.head().stages.size(), number_of(first));
   try {
     for (std::size_t i = 0; i < stages; ++i) {
       if (control.cancelled.load()) return Error{Errc::Cancelled, "the reading was stopped"};
@@ -85,7 +81,7 @@ Result<State> load_products(const storage::Document& document, State first, Enro
   const State left = stages == kStages.size() ? State::Review : kStages.at(stages);
   if (left == State::Review) return left;
   session.begins(left);
-  session.rework(left);  // of a model only its mesh is wanted
+  session.rework(left);  // of a model only its mesh is wanted, or its texture, too
   return left;
 }
 

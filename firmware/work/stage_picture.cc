@@ -21,9 +21,9 @@ void draw_stage_picture(State stage, const Products& products, StagePictures& pi
     StageCanvas canvas(pictures.begin(2), StagePictures::kSide);
     draw_surface(pair, *products.mesh, nullptr, canvas);
     pictures.done(2);
-  } else if (stage == State::Texture && products.model) {
+  } else if (stage == State::Texture && products.mesh && products.texture) {
     StageCanvas canvas(pictures.begin(3), StagePictures::kSide);
-    draw_surface(pair, products.model->mesh, &products.model->texture, canvas);
+    draw_surface(pair, *products.mesh, &*products.texture, canvas);
     pictures.done(3);
   }
 }

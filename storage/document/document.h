@@ -32,7 +32,7 @@
 
 namespace relievo::storage {
 
-inline constexpr std::size_t kDocumentStages = 4;  // match, reconstruct, mesh, texture
+inline constexpr std::size_t kDocumentStages = 5;  // match, reconstruct, mesh, texture, assemble
 inline constexpr std::size_t kMaxDocumentBytes = std::size_t{800} << 20;
 
 // What a stage took and made.
@@ -54,7 +54,7 @@ struct DocumentHead {
 };
 
 // What is saved; borrowed. The products of the stages that head names are there: a mesh only while it is in
-// no model.
+// no model, a texture only in one.
 struct DocumentParts {
   const DocumentHead& head;
   pipeline::StereoFrame frame;

@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::uint32_t kApplicationId = 0x524C564F;  // "RLVO"
-constexpr std::uint32_t kForm = 2;                    // 1: without matches by hand, read too
-constexpr std::size_t kHeaderBytes = 100;             // of SQLite's file: its file format, section 1.3
+constexpr std::uint32_t kForm = 3;
+constexpr std::size_t kHeaderBytes = 100;  // of SQLite's file: its file format, section 1.3
 constexpr const char* kSchema =
-    "PRAGMA application_id = 1380734543; PRAGMA user_version = 2;"
+    "PRAGMA application_id = 1380734543; PRAGMA user_version = 3;"
     "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB "
     "NOT NULL) STRICT;";
-static_assert(kApplicationId == 1380734543 && kForm == 2);
+static_assert(kApplicationId == 1380734543 && kForm == 3);
 
 Error damaged() {
   return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"};
@@ -46,7 +46,7 @@ std::vector<std::string_view> names_of(std::size_t stages) {
   if (stages >= 1) names.insert(names.end(), {"pair", "matches"});
   if (stages >= 2) names.emplace_back("cloud");
   if (stages == 3) names.emplace_back("mesh");
-  if (stages >= 4) names.insert(names.end(), {"model", "backdrop"});
+  if (stages == kDocumentStages) names.insert(names.end(), {"model", "backdrop"});
   return names;
 }
 

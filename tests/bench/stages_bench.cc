@@ -91,7 +91,7 @@ void mesh(benchmark::State& s) {
   run(s, [](Bench& b) { return b.stages->mesh(*b.cloud, *b.pair, b.context).has_value(); });
 }
 void texture(benchmark::State& s) {
-  run(s, [](Bench& b) { return b.stages->texture(FaceMesh(*b.mesh), *b.pair, b.context).has_value(); });
+  run(s, [](Bench& b) { return b.stages->texture(*b.mesh, *b.pair, b.context).has_value(); });
 }
 void peer_sgbm_3way(benchmark::State& s) {
   run(s, [](Bench& b) { return match_like_the_peer(*b.pair); });

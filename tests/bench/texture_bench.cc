@@ -219,7 +219,8 @@ int main(int argc, char** argv) {
   auto mesh = need(stages.mesh(cloud, pair, c));
   const auto alone = need(pipeline::run_stage(
       c, [&](pipeline::StageContext& s) { return pipeline::SingleViewTexturer({}).texture(mesh, pair, s); }));
-  const auto model = need(stages.texture(std::move(mesh), pair, c));
+  auto texture = need(stages.texture(mesh, pair, c));
+  const auto model = need(stages.assemble(std::move(mesh), std::move(texture), pair, c));
   print_seams("seams, two-view", test::measure_seams(model.mesh, model.texture, &alone));
   print_texels(model, pair);
   std::printf("sharpness %.3f\n", model.quality.texture_sharpness);

@@ -20,9 +20,9 @@ TEST_F(ApplianceTest, OneEnrolmentFromBeginToStored) {
   appliance.ask(ui::Intent::Accept);
   ASSERT_TRUE(reach(State::Idle));
   EXPECT_EQ(kept, "Ada");
-  EXPECT_EQ(path, "Idle Capture Match Reconstruct Mesh Texture Review Store Idle ");
-  EXPECT_EQ(stages.ran, "MaReMeTe");
-  EXPECT_EQ(appliance.records().size(), 4U);
+  EXPECT_EQ(path, "Idle Capture Match Reconstruct Mesh Texture Assemble Review Store Idle ");
+  EXPECT_EQ(stages.ran, "MaReMeTeAs");
+  EXPECT_EQ(appliance.records().size(), kStages.size());
   EXPECT_FALSE(appliance.problem());
   EXPECT_GT(board.kicks, 0);
   EXPECT_TRUE(memory_is_wiped());
@@ -36,7 +36,7 @@ TEST_F(ApplianceTest, AfterAFailedStageThePersonTriesAgain) {
   ASSERT_TRUE(reach(State::Review));
   EXPECT_EQ(
       path,
-      "Idle Capture Match Capture Match Reconstruct Mesh Capture Match Reconstruct Mesh Texture Review ");
+      "Idle Capture Match Capture Match Reconstruct Mesh Capture Match Reconstruct Mesh Texture Assemble Review ");
   EXPECT_EQ(appliance.attempt(), 3);
 }
 
@@ -53,7 +53,7 @@ TEST_F(ApplianceTest, GivesUpAfterThreeAttemptsAndForgets) {
 }
 
 TEST_F(ApplianceTest, CancelStopsTheStageUnderWayAndForgets) {
-  for (const State stage : {State::Match, State::Reconstruct, State::Mesh, State::Texture}) {
+  for (const State stage : kStages) {
     stages.errors = {{stage, Errc::Cancelled}};
     stages.waiting.store(false);
     ASSERT_TRUE(reach(State::Idle));
@@ -85,7 +85,7 @@ TEST_F(ApplianceTest, RetakeMakesANewModel) {
   appliance.ask(ui::Intent::Retake);
   EXPECT_EQ(appliance.attempt(), 1);
   ASSERT_TRUE(reach(State::Review));
-  EXPECT_EQ(stages.ran, "MaReMeTeMaReMeTe");
+  EXPECT_EQ(stages.ran, "MaReMeTeAsMaReMeTeAs");
 }
 
 TEST_F(ApplianceTest, ATechnicianComesAndGoes) {

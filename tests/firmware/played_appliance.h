@@ -38,7 +38,7 @@ class TestStages final : public StageRunner {
       return Error{code, "as the test says"};
     }
     record.out = 1;
-    if (stage == State::Texture) products.model.emplace(&context.output);
+    if (stage == State::Assemble) products.model.emplace(&context.output);
     return {};
   }
 };

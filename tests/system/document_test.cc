@@ -48,7 +48,7 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
   EXPECT_NE(loaded.find("(as saved)"), std::string::npos) << loaded;
   expect_same_model("first", "loaded");
   EXPECT_EQ(read_text(here / "again.relievo"), read_text(here / "face.relievo"));
-  for (const std::string stage : {"match", "reconstruct", "mesh", "texture"}) {
+  for (const std::string stage : {"match", "reconstruct", "mesh", "texture", "assemble"}) {
     done({"reconstruct", "--load", "face.relievo", "--from", stage, "-o", stage});
     expect_same_model("first", stage);
   }

@@ -38,6 +38,8 @@ struct BenchPicture {
   std::uint32_t version = 0;
 };
 
+inline constexpr std::size_t kStages = 5;  // Match, Reconstruct, Mesh, Texture, Assemble
+
 inline constexpr std::size_t kBenchRules = 6;
 struct BenchRule {
   std::string_view name;
@@ -48,12 +50,12 @@ struct BenchRule {
 // What a set of algorithms made of the capture.
 struct BenchResult {
   bool there = false;
-  std::string_view name;                // of the capture: the document's, else when it was taken
-  std::string_view algorithms;          // what differs from the default, one "key = value" a line
-  Fault failure;                        // of a stage; empty: all four are done
-  std::size_t failed_at = 0;            // Match, Reconstruct, Mesh, Texture
-  std::array<float, 4> seconds{};       // Match, Reconstruct, Mesh, Texture
-  std::array<std::uint64_t, 4> made{};  // accepted matches, points, triangles, texels
+  std::string_view name;        // of the capture: the document's, else when it was taken
+  std::string_view algorithms;  // what differs from the default, one "key = value" a line
+  Fault failure;                // of a stage; empty: all are done
+  std::size_t failed_at = 0;    // of the stages
+  std::array<float, kStages> seconds{};
+  std::array<std::uint64_t, kStages> made{};  // accepted matches, points, triangles, texels, landmarks
   float arena_peak_mib = 0;
   std::uint64_t matches = 0, accepted = 0;
   std::array<BenchRule, kBenchRules> rules{};

@@ -52,7 +52,7 @@ struct BenchView {
   bool calibrated =
       true;  // without a calibration there is no test capture, unless it was loaded with its own
   float progress = 0;
-  std::uint8_t working_on = 0;  // while phase is Running: Match, Reconstruct, Mesh, Texture
+  std::uint8_t working_on = 0;  // of the stages, while phase is Running
   Fault problem;
   BenchStage stage = BenchStage::Rectified;
   std::array<BenchPicture, 2> shown{};  // of the stage; the second is empty where there is one only

@@ -39,7 +39,7 @@ void BenchFigures::add(const StageRecord& record) {
 
 void BenchFigures::fail(State stage, const Error& error) {
   failure_ = ui::fault_of(error);
-  result_.failed_at = static_cast<std::size_t>(stage) - static_cast<std::size_t>(State::Match);
+  result_.failed_at = number_of(stage);
 }
 
 Result<void> BenchFigures::measure(const Products& products, pipeline::StageContext& context) {

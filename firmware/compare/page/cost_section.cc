@@ -14,8 +14,8 @@ namespace {
 using pipeline::report::Drawing;
 using pipeline::report::figure;
 
-constexpr std::array<std::string_view, 8> kSteps{"rectify", "preprocess",  "select", "match",
-                                                 "judge",   "reconstruct", "mesh",   "texture"};
+constexpr std::array<std::string_view, 9> kSteps{"rectify",     "preprocess", "select",  "match",   "judge",
+                                                 "reconstruct", "mesh",       "texture", "assemble"};
 constexpr double kMiB = 1048576;
 
 double total_of(const Run& run) {

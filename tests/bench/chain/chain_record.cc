@@ -76,8 +76,11 @@ Result<ChainRecord> record_chain(const ChainPictures& pictures, int threads) {
                      stage([&](StageContext& c) { return stages.reconstruct(pair, matches, c); }));
   record.points = kept(cloud.points);
   RELIEVO_TRY_ASSIGN(FaceMesh mesh, stage([&](StageContext& c) { return stages.mesh(cloud, pair, c); }));
-  RELIEVO_TRY_ASSIGN(const FaceModel model,
-                     stage([&](StageContext& c) { return stages.texture(std::move(mesh), pair, c); }));
+  RELIEVO_TRY_ASSIGN(TextureAtlas texture,
+                     stage([&](StageContext& c) { return stages.texture(mesh, pair, c); }));
+  RELIEVO_TRY_ASSIGN(const FaceModel model, stage([&](StageContext& c) {
+                       return stages.assemble(std::move(mesh), std::move(texture), pair, c);
+                     }));
   record.vertices_mm = kept(model.mesh.vertices_mm), record.triangles = kept(model.mesh.triangles);
   record.rgb = kept(model.texture.rgb);
   return record;

@@ -20,7 +20,8 @@ Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pi
   // What was measured is told of everything, also of what is refused.
   const auto relief = run_stage(room.context, [&](StageContext& c) { return measure_relief(mesh, pair, c); });
   if (relief) verdict.relief = *relief;
-  const auto model = stages.texture(std::move(mesh), pair, room.context);
+  RELIEVO_TRY_ASSIGN(auto texture, stages.texture(mesh, pair, room.context));
+  const auto model = stages.assemble(std::move(mesh), std::move(texture), pair, room.context);
   if (!model) return model.error();
   return model->unjudged ? Result<void>(*model->unjudged) : Result<void>{};
 }

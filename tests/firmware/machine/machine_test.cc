@@ -44,6 +44,7 @@ TEST(Machine, OneEnrolment) {
         {ms(30), E::StageDone, S::Reconstruct},
         {ms(40), E::StageDone, S::Mesh},
         {ms(50), E::StageDone, S::Texture},
+        {ms(50), E::StageDone, S::Assemble},
         {ms(60), E::StageDone, S::Review},
         {ms(70), E::Accept, S::Store},
         {ms(80), E::StageDone, S::Idle}});
@@ -62,6 +63,7 @@ TEST(Machine, RetakeAndAdviceLeadBackToCapture) {
         {ms(9), E::StageDone, S::Reconstruct},
         {ms(10), E::StageDone, S::Mesh},
         {ms(11), E::StageDone, S::Texture},
+        {ms(11), E::StageDone, S::Assemble},
         {ms(12), E::StageDone, S::Review},
         {ms(13), E::Retake, S::Capture}});
 }
@@ -103,6 +105,7 @@ TEST(Machine, AFullDiskLeadsBackToReview) {
         {ms(3), E::StageDone, S::Reconstruct},
         {ms(4), E::StageDone, S::Mesh},
         {ms(5), E::StageDone, S::Texture},
+        {ms(5), E::StageDone, S::Assemble},
         {ms(6), E::StageDone, S::Review},
         {ms(7), E::Accept, S::Store},
         {ms(8), E::StageFailed, S::Review},
@@ -118,6 +121,7 @@ TEST(Machine, NoAnswerIsNoConsent) {
         {ms(0), E::StageDone, S::Reconstruct},
         {ms(0), E::StageDone, S::Mesh},
         {ms(0), E::StageDone, S::Texture},
+        {ms(0), E::StageDone, S::Assemble},
         {ms(0), E::StageDone, S::Review},
         {budget::kReviewLimit - ms(1), E::Count, S::Review},
         {budget::kReviewLimit, E::Count, S::Idle},
@@ -160,6 +164,7 @@ TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
                                     {S::Reconstruct, S::Idle, S::Idle, S::Fault},
                                     {S::Mesh, S::Idle, S::Idle, S::Fault},
                                     {S::Texture, S::Idle, S::Idle, S::Fault},
+                                    {S::Assemble, S::Idle, S::Idle, S::Fault},
                                     {S::Review, S::Idle, S::Idle, S::Fault},
                                     {S::Store, S::Store, S::Fault, S::Fault},
                                     {S::Technician, S::Idle, S::Idle, S::Fault},

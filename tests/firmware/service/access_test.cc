@@ -121,7 +121,7 @@ TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
   counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {});
   counts.noted({State::Match, Event::AdviceGiven, State::Position}, &refused, {});
   counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {});
-  counts.noted({State::Texture, Event::StageDone, State::Review}, nullptr, seconds_of(2.6));
+  counts.noted({State::Assemble, Event::StageDone, State::Review}, nullptr, seconds_of(2.6));
   counts.noted({State::Store, Event::StageDone, State::Idle}, nullptr, {});
   counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {});
   counts.noted({State::Position, Event::Cancel, State::Idle}, nullptr, {});

@@ -121,7 +121,9 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   ASSERT_TRUE(cloud);
   auto mesh = pipeline->mesh(*cloud, *pair, c);
   ASSERT_TRUE(mesh);
-  const auto model = pipeline->texture(*std::move(mesh), *pair, c);
+  auto texture = pipeline->texture(*mesh, *pair, c);
+  ASSERT_TRUE(texture);
+  const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
   ASSERT_TRUE(model);
   const auto images = make_recognition_images(*model, *heap(), *heap());
   ASSERT_TRUE(images);

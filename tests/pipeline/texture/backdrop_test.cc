@@ -35,7 +35,9 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   ASSERT_TRUE(cloud);
   auto mesh = pipeline->mesh(*cloud, *pair, c);
   ASSERT_TRUE(mesh);
-  const auto model = pipeline->texture(*std::move(mesh), *pair, c);
+  auto texture = pipeline->texture(*mesh, *pair, c);
+  ASSERT_TRUE(texture);
+  const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
   ASSERT_TRUE(model);
 
   const Backdrop& b = model->backdrop;

@@ -107,7 +107,9 @@ class SeamsOfAFace : public testing::Test {
     EXPECT_TRUE(mesh);
     const auto left_alone = SingleViewTexturer({}).texture(*mesh, *pair, c);
     EXPECT_TRUE(left_alone);
-    const auto model = pipeline->texture(*std::move(mesh), *pair, c);
+    auto texture = pipeline->texture(*mesh, *pair, c);
+    EXPECT_TRUE(texture);
+    const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
     EXPECT_TRUE(model);
     EXPECT_GT(model->quality.texture_sharpness, 0.3);
     return test::measure_seams(model->mesh, model->texture, &*left_alone);

@@ -201,9 +201,10 @@ void status(BenchFrame& b) {
   b.problem(b.view.problem);
   const bool running = b.view.phase == BenchPhase::Capturing || b.view.phase == BenchPhase::Running;
   if (running)
-    return b.page.progress("run progress", b.view.phase == BenchPhase::Running
-                                               ? (static_cast<float>(b.view.working_on) + b.view.progress) / 4
-                                               : 0);
+    return b.page.progress("run progress",
+                           b.view.phase == BenchPhase::Running
+                               ? (static_cast<float>(b.view.working_on) + b.view.progress) / kStages
+                               : 0);
   if (b.view.applied)
     b.page.status("applied", b.tr("Visitors are measured with these algorithms now."), Mood::Good);
 }

@@ -35,12 +35,13 @@ const char* title_of(const Words& tr, BenchStage stage) {
 const char* work_of(const Words& tr, std::size_t stage) {
   if (stage == 0) return tr("Matching");
   if (stage == 1) return tr("Reconstruction");
-  return stage == 2 ? tr("Surface") : tr("Texture");
+  if (stage == 2) return tr("Surface");
+  return stage == 3 ? tr("Texture") : tr("Model");
 }
 
 namespace {
 
-// Which of the four stages makes what is shown: 1 .. 4.
+// Which of the stages makes what is shown, from 1 on.
 std::int32_t work_before(BenchStage stage) {
   if (stage == BenchStage::Cloud) return 2;
   if (stage == BenchStage::Mesh) return 3;
@@ -252,8 +253,9 @@ bool BenchFrame::capture_state() {
         "working",
         view.phase == BenchPhase::Capturing ? tr("The picture is being taken") : work_of(tr, view.working_on),
         type::kHeading, TextAlign::Centre);
-    const float done =
-        view.phase == BenchPhase::Capturing ? 0 : (static_cast<float>(view.working_on) + view.progress) / 4;
+    const float done = view.phase == BenchPhase::Capturing
+                           ? 0
+                           : (static_cast<float>(view.working_on) + view.progress) / kStages;
     page.progress("run progress", done);
   }
   page.tree.close();

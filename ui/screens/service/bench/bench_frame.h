@@ -85,7 +85,7 @@ class BenchFrame {
 const char* title_of(const Words& tr, BenchStage stage);
 // Has it a surface, to be turned with a finger?
 inline bool is_turned(BenchStage stage) { return stage == BenchStage::Mesh || stage == BenchStage::Texture; }
-const char* work_of(const Words& tr, std::size_t stage);  // Match, Reconstruct, Mesh, Texture
+const char* work_of(const Words& tr, std::size_t stage);  // of kStages
 
 // The pictures and the model of these pages; false where `page` is none of them.
 bool fill_bench_pictures(DrawList& list, const BenchView& view, const Visit& visit, StaffPage page);

@@ -212,14 +212,15 @@ class Columns {
   }
   void times_and_counts() {
     const auto always = [](const BenchResult&) { return true; };
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < kStages; ++i)
       figure(
           b.id("seconds", i), work_of(b.tr, i), 2, "s", [i](const BenchResult& r) { return r.seconds[i]; },
           always);
     figure(
         "all matches", b.tr("Matches"), 0, "", [](const BenchResult& r) { return r.matches; }, always);
-    const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
-    for (std::size_t i = 0; i < 4; ++i)
+    const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels"),
+                                b.tr("Landmarks")};
+    for (std::size_t i = 0; i < kStages; ++i)
       figure(
           b.id("count", i), made[i], 0, "", [i](const BenchResult& r) { return r.made[i]; }, always);
     figure(

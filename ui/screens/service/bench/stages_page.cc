@@ -196,7 +196,8 @@ void rule_rows(BenchFrame& b) {
 
 void time_rows(BenchFrame& b) {
   const BenchResult& r = b.view.result;
-  const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels")};
+  const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels"),
+                              b.tr("Landmarks")};
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
     b.page.section(work_of(b.tr, i));
     b.page.row(b.id("time", i), b.tr("Time"), b.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
