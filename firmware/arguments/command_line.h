@@ -77,7 +77,7 @@ struct ReconstructArgs {
   Path left, right;
   Path calibration;
   Path load;         // a saved reconstruction, instead of the three
-  std::string from;  // of a saved one: match, reconstruct, mesh, texture; empty: as the settings ask
+  std::string from;  // of a saved one: match, reconstruct, mesh, texture, assemble; empty: as the settings ask
   Path save;         // empty: not saved
   Path by_hand;      // matches beside the matcher's; empty: those of a saved one, else none
   Path output;

@@ -24,7 +24,7 @@ struct NamedSet {
 };
 
 struct StageCost {
-  std::string name;  // rectify, preprocess, select, match, judge, reconstruct, mesh, texture
+  std::string name;  // rectify, preprocess, select, match, judge, reconstruct, mesh, texture, assemble
   double ms = 0;
   std::size_t arena_peak_bytes = 0;
 };

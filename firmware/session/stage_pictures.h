@@ -17,7 +17,7 @@
 
 namespace relievo::firmware {
 
-inline constexpr std::size_t kStagePictures = 4;  // Match, Reconstruct, Mesh, Texture
+inline constexpr std::size_t kStagePictures = 4;  // Match, Reconstruct, Mesh, Texture; Assemble has none
 
 class StagePictures {
  public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// PipelineStages: the four stages of the machine, done by pipeline::Pipeline. Matching also judges whether
+// PipelineStages: the stages of the machine, done by pipeline::Pipeline. Matching also judges whether
 // the cameras have moved since they were calibrated (products.drift).
 //
 //   algorithms alone --replace()--> calibrated --replace()--> other algorithms, another calibration

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ReconstructJob: the four stages in a row, or the last of them, on a frame that lies in the session already.
+// ReconstructJob: all stages in a row, or the last of them, on a frame that lies in the session already.
 // What the machine does state by state, as one job for commands that have no machine. Errors: those of the
 // stage that failed. Thread: worker; stage() and records() any, records() once done.
 #pragma once

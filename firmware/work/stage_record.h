@@ -12,7 +12,7 @@
 namespace relievo::firmware {
 
 struct StageRecord {
-  std::string_view name;  // Match, Reconstruct, Mesh, Texture
+  std::string_view name;  // of the state
   std::chrono::nanoseconds took{0};
   std::uint64_t in = 0;              // what the stage was given: pixels, matches, points, triangles
   std::uint64_t out = 0;             // and what it made: matches, points, triangles, texels

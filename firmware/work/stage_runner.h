@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StageRunner: runs one of the four stages of the pipeline on a session's products. The seam between
+// StageRunner: runs one of the stages of the pipeline on a session's products. The seam between
 // the state machine and the mathematics: tests put stages here that fail on purpose.
 // Errors: the stage's own. Thread: worker.
 #pragma once

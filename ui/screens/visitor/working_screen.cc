@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The four stages, each with its picture as it is born.
+// The first four stages, each with its picture as it is born.
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
