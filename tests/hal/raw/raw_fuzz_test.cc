@@ -15,13 +15,16 @@ namespace {
 
 TEST(RawFuzz, RandomShapesAndContents) {
   std::mt19937 random(6);
+  int developed = 0;
   for (int i = 0; i < 3000; ++i) {
     std::vector<std::uint8_t> data(kFuzzHeaderBytes + random() % 512);
     for (auto& byte : data) byte = static_cast<std::uint8_t>(random());
     if (i % 2 == 0) data[5] = data[6] = data[7] = 0;  // whole pictures in enough room
     if (i % 4 == 0) data[2] = data[3] = static_cast<std::uint8_t>(data[3] | 1U);
-    fuzz_raw(data);
+    developed += fuzz_raw(data) ? 1 : 0;
   }
+  EXPECT_GT(developed, 300) << "hardly any of these shapes is a picture";
+  EXPECT_LT(developed, 2700) << "hardly any of these shapes is wrong";
 }
 
 TEST(RawFuzz, MutatedJpegs) {
@@ -33,14 +36,14 @@ TEST(RawFuzz, MutatedJpegs) {
   ASSERT_TRUE(stream);
   std::vector<std::uint8_t> whole{static_cast<std::uint8_t>(RawCoding::Mjpeg), 0, 47, 39, 8, 0, 0, 0};
   for (const std::byte b : *stream) whole.push_back(std::to_integer<std::uint8_t>(b));
-  fuzz_raw(whole);
+  EXPECT_TRUE(fuzz_raw(whole));
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::uint8_t> data = whole;
     for (unsigned n = 1 + random() % 4; n > 0; --n)
       data[kFuzzHeaderBytes + random() % (data.size() - kFuzzHeaderBytes)] =
           static_cast<std::uint8_t>(random());
     if (i % 3 == 0) data.resize(data.size() - random() % stream->size());
-    fuzz_raw(data);
+    (void)fuzz_raw(data);
   }
 }
 
