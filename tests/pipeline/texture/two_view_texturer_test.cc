@@ -201,5 +201,44 @@ TEST(Texturers, OptionsHaveLimits) {
   EXPECT_FALSE(check_options(one, "single-view"));
 }
 
+// A strip that was completed, up to the border on the left; the left view grazes it and shows hair there, as
+// dark as the brow beside it. The right view shows skin.
+TEST(TwoViewTexturer, AViewThatLooksPastACompletedRimIsNotItsPhotograph) {
+  constexpr double kStripMm = -105, kBrowMm = 10;
+  constexpr std::array<std::uint8_t, 3> kSkin{150, 110, 90};
+  RectifiedPair pair = photographed_plane();
+  const auto shoot = [&](RectifiedView& view, const Vec2d& centre, double camera_x, bool hair) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double at_x = camera_x + (x - centre.x) / kFocal * kDepth,
+                     at_y = (y - centre.y) / kFocal * kDepth;
+        const bool dark = (at_x < -40 && std::abs(at_y) < kBrowMm) || (hair && at_x < kStripMm);
+        for (std::size_t c = 0; c < 3; ++c)
+          view.rgb[3 * static_cast<std::size_t>(y * kWidth + x) + c] =
+              static_cast<std::uint8_t>(kSkin[c] / (dark ? 2 : 1));
+      }
+  };
+  shoot(pair.left, pair.left_centre_px, 0, true);
+  shoot(pair.right, pair.right_centre_px, kBaseline, false);
+  FaceMesh mesh = plane_mesh();
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
+    if (static_cast<double>(mesh.vertices_mm[v].x) < kStripMm) {
+      mesh.measured[v] = 0;
+      mesh.normals[v] = {0.978F, 0, -0.208F};
+    }
+  StageRoom room;
+  const auto atlas = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
+  ASSERT_TRUE(atlas);
+  int looked_at = 0;
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& p = mesh.vertices_mm[v];
+    if (static_cast<double>(p.x) > kStripMm - 5 || std::abs(static_cast<double>(p.y)) < kBrowMm + 10)
+      continue;
+    ++looked_at;
+    EXPECT_NEAR(atlas->vertex_rgb[3 * v], kSkin[0], 8) << p.x << " " << p.y;
+  }
+  EXPECT_GT(looked_at, 100);
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
