@@ -13,6 +13,10 @@
 
 namespace relievo::pipeline {
 
+// What is less certain along the line of sight (a chin that moved between the exposures, hair) is surface,
+// but not measured: whichever mesher ran, a head's frame and its landmarks are found on the same.
+inline constexpr double kMeasuredSigmaMm = 0.75;
+
 class Mesher {
  public:
   virtual ~Mesher() = default;

@@ -100,7 +100,7 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   }
   const std::vector<char> free = apart(globe, off);
   if (free[0] == 0) return mesh;  // surface behind the head: no face
-  continue_over_globe(globe, kStepMm, off);
+  continue_over_globe(globe, kStepMm, radius, off);
   if (context.stop()) return stopped;
 
   const RigidTransform camera_from_head = inverse(frame->head_from_camera);

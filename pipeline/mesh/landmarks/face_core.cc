@@ -100,9 +100,11 @@ Vector3d tip_of(const FaceRelief& core) {
 
 FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch) {
   const Arena::Mark mark(scratch);
-  FaceRelief core({-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell}, &scratch);
+  const ReliefBox box{-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell};
+  FaceRelief core(box, &scratch), nose(box, &scratch);
   core.add(mesh, head_from_camera);
-  const Vector3d tip = tip_of(core);
+  nose.add(mesh, head_from_camera, true);  // below the tip nothing may be certain
+  const Vector3d tip = tip_of(nose);
   core.symmetrise();
   return {nod_of(core), tip};
 }

@@ -3,7 +3,8 @@
 //
 // The core of a face: what cameras see of it however it turns, beside the nose, below and above the eyes.
 // From it, how the face nods and where the tip of its nose lies, both robust to what highlights pull away and
-// to a side that is hidden. Memory: scratch only, given back. No errors but std::bad_alloc; thread: any.
+// to a side that is hidden. What was completed counts for the tip alone. Memory: scratch only, given back.
+// No errors but std::bad_alloc; thread: any.
 #pragma once
 
 #include <Eigen/Core>

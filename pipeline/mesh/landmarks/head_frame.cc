@@ -61,6 +61,8 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
 }
 
 constexpr int kSamplePoints = 6000;  // of the surface, that vote on the frame
+constexpr int kSettlingPoints = 24000, kSettlingRounds = 2;
+constexpr double kSettlingReach = 70;  // mm around the tip: less of a jaw that is pulled aside
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
 constexpr double kWorthOfProtrusion =
@@ -71,12 +73,12 @@ constexpr double kMostOfANose = 16;   // mm: what stands out further is no bette
 constexpr double kOneNose = 40;       // mm: places of one and the same
 constexpr double kWorthOfTheTip = 1;  // mm of mirror cost
 
-// Points within half a face of `centre`, still in the frame of `points`.
-Points around(const Points& points, const Vector3d& centre, Arena& scratch) {
+// Points near `centre`, still in the frame of `points`.
+Points around(const Points& points, const Vector3d& centre, double reach, Arena& scratch) {
   Points near(&scratch);
   near.reserve(points.size());
   for (const SurfacePoint& p : points)
-    if ((p.at_mm - centre).squaredNorm() < kHalfFace * kHalfFace) near.push_back(p);
+    if ((p.at_mm - centre).squaredNorm() < reach * reach) near.push_back(p);
   return near;
 }
 
@@ -152,6 +154,16 @@ double one_sidedness(std::span<const SurfacePoint> points) {
   return std::max(0.0, 1 - std::min(above, below) / (above + below) / kBalanced);
 }
 
+// The nod stays about what it was.
+Frame upright_on(const SymmetryPlane& plane) {
+  Frame upright;
+  upright.rows.row(0) = plane.normal;
+  upright.rows.row(1) = Vector3d::UnitZ().cross(plane.normal).normalized();
+  upright.rows.row(2) = plane.normal.cross(upright.rows.row(1).transpose());
+  upright.origin = plane.offset_mm * plane.normal;
+  return upright;
+}
+
 // The frame of the most mirror-like face around one of the places that stand out like a nose: x is
 // final, the origin is near the tip, the nod is a guess.
 Result<Frame> upright_frame(const Points& points, const Vector3d& across, SymmetryPlane& best,
@@ -163,7 +175,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
   const NoseCandidates noses = find_nose_candidates(points);
   std::size_t chosen = noses.count;
   for (std::size_t i = 0; i < noses.count; ++i) {
-    Points face = around(points, noses.best[i].at_mm, context.scratch);
+    Points face = around(points, noses.best[i].at_mm, kHalfFace, context.scratch);
     const Frame guess = first_guess(face, noses.best[i].at_mm, across);
     move_into(face, guess);
     const double one_sided = one_sidedness(face);
@@ -183,12 +195,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
     best_score = score;
     chosen = i;
     best = *plane;
-    Frame upright;
-    upright.rows.row(0) = plane->normal;
-    upright.rows.row(1) = Vector3d::UnitZ().cross(plane->normal).normalized();
-    upright.rows.row(2) = plane->normal.cross(upright.rows.row(1).transpose());
-    upright.origin = plane->offset_mm * plane->normal;
-    frame = chained(guess, upright);
+    frame = chained(guess, upright_on(*plane));
   }
   if (best_score > 1e8) return why;
   return frame;
@@ -225,6 +232,19 @@ Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, Sta
   return {};
 }
 
+// Which points were drawn, and which of them came to be the first guess of the tip, must not matter: many
+// more of them, about the tip itself, have the last word on the plane.
+Result<void> settle(const FaceMesh& mesh, Frame& frame, Points& points, StageContext& context) {
+  const Points all = sample(mesh, kSettlingPoints, context.scratch);
+  for (int round = 0; round < kSettlingRounds; ++round) {
+    Points face = around(all, frame.origin, kSettlingReach, context.scratch);
+    move_into(face, frame);
+    move(frame, points, upright_on(settle_symmetry_plane(face, context.scratch)));
+    RELIEVO_TRY(set_upright(mesh, frame, points, context));
+  }
+  return {};
+}
+
 // `points` in the frame already.
 HeadFrame measured(const Points& points, const Frame& frame, StageContext& context) {
   HeadFrame head;
@@ -247,6 +267,7 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context, c
   move_into(points, frame);
 
   RELIEVO_TRY(set_upright(mesh, frame, points, context));
+  RELIEVO_TRY(settle(mesh, frame, points, context));
 
   HeadFrame head = measured(points, frame, context);
   head.nose_relief_mm = relief_of(points);

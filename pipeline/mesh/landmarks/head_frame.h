@@ -27,8 +27,9 @@ struct HeadFrame {
   double overlap = 0;         // share of the surface whose mirror image meets surface
 };
 
-// `mesh` in the left camera's frame, normals out of the face. Only measured vertices count. `across`: the
-// first guess of which way runs across the person, from the left camera to the right one.
+// `mesh` in the left camera's frame, normals out of the face. Only measured vertices count, but for the
+// tip, whose underside may not be. `across`: the first guess of which way runs across the person, from the
+// left camera to the right one.
 Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context,
                                   const Vec3d& across = {1, 0, 0});
 

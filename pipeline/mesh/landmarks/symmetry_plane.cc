@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 constexpr double kFar = 6;  // mm: a reflection further off than this says nothing more
 constexpr double kMissing =
     2.5;  // mm: what a reflection beside the surface costs; dear enough to keep the halves overlapping
+constexpr double kCellMm = 2.5;
 constexpr double kScale = 1.5;  // mm: asymmetry of a usual face; the robust weight halves about here
 
 // Yaw about y, roll about z, offset along the normal.
@@ -159,7 +160,7 @@ const SurfacePoint* HeightMap::at(double x_mm, double y_mm) const {
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
   const Error none{Errc::PoorGeometry,
                    "the surface has no plane of symmetry: it shows less than half a face"};
-  const HeightMap map(points, 2.5, &context.scratch);
+  const HeightMap map(points, kCellMm, &context.scratch);
   Start best{1e30, Pose::Zero()};
   for (const Start& start : raster(map, points)) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
@@ -183,6 +184,15 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
       std::abs(plane.offset_mm) > 20)
     return none;
   plane.residual_mm = median(distances);
+  return plane;
+}
+
+SymmetryPlane settle_symmetry_plane(std::span<const SurfacePoint> points, Arena& scratch) {
+  const Arena::Mark mark(scratch);
+  const Pose pose = descend(HeightMap(points, kCellMm, &scratch), points, Pose::Zero());
+  SymmetryPlane plane;
+  plane.normal = normal_of(pose);
+  plane.offset_mm = pose[2];
   return plane;
 }
 

@@ -49,4 +49,7 @@ struct SymmetryPlane {
 // as the tip of a nose does. Errors: PoorGeometry, Cancelled.
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context);
 
+// The plane of symmetry nearest to x = 0, which must be near: its normal and offset alone. Memory: scratch.
+SymmetryPlane settle_symmetry_plane(std::span<const SurfacePoint> points, Arena& scratch);
+
 }  // namespace relievo::pipeline

@@ -130,7 +130,9 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& opti
   if (triangles.empty() || area_mm2(at, triangles) < options.min_area_mm2) return no_surface();
 
   FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) {
-    return PackedVertex{at[v], cloud.points[v].sigma_mm, 1};
+    const float sigma = cloud.points[v].sigma_mm;
+    return PackedVertex{at[v], sigma,
+                        static_cast<double>(sigma) <= kMeasuredSigmaMm ? std::uint8_t{1} : std::uint8_t{0}};
   });
   compute_normals(mesh, options.normal_passes, &context.scratch);
   turn_sigma_perpendicular(mesh);

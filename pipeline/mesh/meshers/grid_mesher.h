@@ -38,8 +38,7 @@ struct GridMesherOptions {
   double outline_smoothing_mm = 3;  // sigma of the outline's smoothing; 0 leaves it on the lattice
   double rim_smoothing_mm = 1.5;    // the same, of the rims of open holes
   int normal_passes = 1;            // how often normals are averaged over the neighbours; 0 to 16
-  double measured_sigma_mm =
-      0.75;                    // what is less certain along the line of sight is shown, but not as measured
+  double measured_sigma_mm = kMeasuredSigmaMm;
   double min_area_mm2 = 6000;  // less surface than this is no face: a third of a child's
 };
 
