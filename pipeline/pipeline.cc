@@ -156,7 +156,6 @@ Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, cons
   if (!relief_) return {};
   const ReliefVerdict verdict = judge(relief, *relief_);
   if (verdict == ReliefVerdict::Picture) return error_of(verdict, relief, *relief_);
-  if (verdict == ReliefVerdict::Unjudged) model.unjudged = error_of(verdict, relief, *relief_);
   return {};
 }
 
@@ -180,9 +179,8 @@ Result<FaceModel> Pipeline::assemble(FaceMesh mesh, TextureAtlas texture, const 
       const auto eyes = find_lids(mesh, frame.head_from_camera, pair, c);
       RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, eyes, c));
       model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
-    } else if (region_ != Region::All && relief_ && !model.unjudged) {
-      model.unjudged = head.error();
     }
+    if (region_ != Region::All) model.unjudged = why_unjudged(model, relief_);
     const ReliefFigures relief = model.quality.relief;
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;

@@ -54,10 +54,10 @@ Event event_of(ui::Intent intent) {
     case ui::Intent::LookUp:
     case ui::Intent::StillHere:
       break;  // no event: it only gives time
-    case ui::Intent::OpenTechnician:
-      return Event::TechnicianIn;
-    case ui::Intent::LeaveTechnician:
-      return Event::TechnicianOut;
+    case ui::Intent::OpenStaff:
+      return Event::StaffIn;
+    case ui::Intent::LeaveStaff:
+      return Event::StaffOut;
     case ui::Intent::Calibrate:
       return Event::CalibrateAsked;
     case ui::Intent::Export:
@@ -304,7 +304,7 @@ void Appliance::entered(const Change& change) {
       break;
     case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
     case State::Export:
-    case State::Technician:
+    case State::Staff:
     case State::Count:
       break;
   }

@@ -32,8 +32,8 @@ ui::Screen screen_of(State state) {
       return ui::Screen::Store;
     case State::Export:
       return ui::Screen::Export;
-    case State::Technician:
-      return ui::Screen::Technician;
+    case State::Staff:
+      return ui::Screen::Staff;
     case State::Fault:
     case State::Count:
       break;
@@ -105,7 +105,7 @@ std::size_t stages_done(State state) {
     case State::Capture:
     case State::Match:
     case State::Export:
-    case State::Technician:
+    case State::Staff:
     case State::Fault:
     case State::Count:
       break;

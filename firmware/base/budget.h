@@ -81,7 +81,7 @@ inline constexpr milliseconds kReviewLimit{60'000};  // nobody answers: nothing 
 inline constexpr milliseconds kStoreLimit{30'000};
 inline constexpr milliseconds kExportLimit{600'000};
 inline constexpr milliseconds kCalibrateLimit{600'000};
-inline constexpr milliseconds kTechnicianLimit{300'000};
+inline constexpr milliseconds kStaffLimit{300'000};
 inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this
 inline constexpr int kMovedFaces = 2;  // on end that say the cameras have moved: one may have nodded
 

@@ -72,7 +72,7 @@ void Bench::closed(ui::BenchPage page) {
 void Bench::act(ui::BenchOrder order) {
   const bool calibrating = parts_.appliance.state() == State::Calibrate;
   const bool ends = order.act == BenchAct::StopCalibration || order.act == BenchAct::CancelCalibration;
-  if (ends ? !calibrating : parts_.appliance.state() != State::Technician) return;
+  if (ends ? !calibrating : parts_.appliance.state() != State::Staff) return;
   switch (order.act) {
     case BenchAct::None:
       break;
@@ -395,14 +395,14 @@ void Bench::leave() {
 
 void Bench::turn() {
   const State state = parts_.appliance.state();
-  const bool mine = state == State::Technician || state == State::Calibrate || state == State::Export;
+  const bool mine = state == State::Staff || state == State::Calibrate || state == State::Export;
   if (!mine) {
     if (!std::exchange(left_, true)) leave();
     return;
   }
   left_ = false;
   // It took longer than the state may: what has been seen is not worked out.
-  if (calibrations_.running() && state == State::Technician) parts_.errands.stop(JobPlace::Capture);
+  if (calibrations_.running() && state == State::Staff) parts_.errands.stop(JobPlace::Capture);
   begin_next();
 }
 

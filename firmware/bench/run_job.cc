@@ -61,8 +61,6 @@ Result<void> RunJob::work(JobControl& control) {
     figures_.fail(stage, done.error());
     break;
   }
-  if (session_.products().model && session_.products().model->unjudged)
-    figures_.fail(State::Assemble, *session_.products().model->unjudged);
   return finish(control);
 }
 
@@ -91,6 +89,8 @@ Result<void> RunJob::load(JobControl& control) {
 }
 
 Result<void> RunJob::finish(JobControl& control) {
+  if (session_.products().model && session_.products().model->unjudged)
+    figures_.fail(State::Assemble, *session_.products().model->unjudged);
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};

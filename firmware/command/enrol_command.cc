@@ -99,7 +99,7 @@ Result<void> drive(Appliance& appliance, Console& console) {
       case State::Position:
       case State::Calibrate:
       case State::Export:
-      case State::Technician:
+      case State::Staff:
       case State::Count:
         break;
     }

@@ -372,7 +372,7 @@ void add_bench_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& rev
     one.staff.role = ui::StaffRole::Technician;
     one.staff.bench = &one.view;
     Exhibit exhibit{one.name, idle, visit, {}};
-    exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.screen = ui::Screen::Staff;
     exhibit.view.calibration_note = one.note;
     exhibit.view.service = &one.staff;
     exhibit.visit.look.edges = one.edges;

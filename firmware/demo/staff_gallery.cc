@@ -241,7 +241,7 @@ void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idl
     shown.view.model = turns ? idle.showpiece : nullptr;
     shown.view.model_number = 1;
     Exhibit exhibit{shown.name, idle, visit, {}};
-    exhibit.view.screen = ui::Screen::Technician;
+    exhibit.view.screen = ui::Screen::Staff;
     exhibit.view.service = &shown.view;
     if (shown.page == StaffPage::Consent) exhibit.view.consent = &own_text();
     exhibit.service.show(shown.page, shown.mode);

@@ -299,7 +299,7 @@ void Kiosk::turn() {
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
     (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
   desk_->turn();
-  if (appliance_->state() == State::Idle || appliance_->state() == State::Technician)
+  if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)
     moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},
                        desk_->errands(), desk_->log());
   if (told_ && ui_->visit().step != ui::Step::Trouble)

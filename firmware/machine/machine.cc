@@ -28,8 +28,8 @@ std::optional<std::chrono::milliseconds> limit_of(State state) {
       return budget::kExportLimit;
     case State::Calibrate:
       return budget::kCalibrateLimit;
-    case State::Technician:
-      return budget::kTechnicianLimit;
+    case State::Staff:
+      return budget::kStaffLimit;
     case State::Fault:
       return budget::kFaultRetry;
     case State::Idle:
@@ -49,7 +49,7 @@ std::optional<Change> Machine::handle(Event event, hal::Instant now) {
 }
 
 void Machine::renew(hal::Instant now) {
-  if (state_ == State::Position || state_ == State::Review || state_ == State::Technician) entered_ = now;
+  if (state_ == State::Position || state_ == State::Review || state_ == State::Staff) entered_ = now;
 }
 
 std::optional<Change> Machine::tick(hal::Instant now) {

@@ -32,8 +32,8 @@ std::string_view name_of(State state) {
       return "Store";
     case State::Export:
       return "Export";
-    case State::Technician:
-      return "Technician";
+    case State::Staff:
+      return "Staff";
     case State::Fault:
       return "Fault";
     case State::Count:
@@ -68,10 +68,10 @@ std::string_view name_of(Event event) {
       return "Cancel";
     case Event::Timeout:
       return "Timeout";
-    case Event::TechnicianIn:
-      return "TechnicianIn";
-    case Event::TechnicianOut:
-      return "TechnicianOut";
+    case Event::StaffIn:
+      return "StaffIn";
+    case Event::StaffOut:
+      return "StaffOut";
     case Event::CalibrateAsked:
       return "CalibrateAsked";
     case Event::ExportAsked:

@@ -3,10 +3,11 @@
 //
 // The whole life of the appliance, as one table.
 //
-//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Assemble -> Review
-//                |                                                                 Review -> Store -> Idle
-//                +-> Technician -> Calibrate | Export                              Review -> Capture |
-//                Position (again)
+//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Assemble
+//   Assemble -> Review -> Store -> Idle
+//   Review -> Capture | Position
+//   Idle -> Staff -> Calibrate | Export
+//
 // A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
 // A person at the screen finds their place first, with a live picture, and goes back there for advice.
 //   Fault is entered when the machine cannot; it tests itself again.
@@ -37,7 +38,7 @@ enum class State : std::uint8_t {
   Review,
   Store,
   Export,
-  Technician,
+  Staff,  // operators and technicians
   Fault,
   Count
 };
@@ -62,8 +63,8 @@ enum class Event : std::uint8_t {
   Retake,  // the person's answer to the model
   Cancel,
   Timeout,  // the state lasted longer than budget.h allows
-  TechnicianIn,
-  TechnicianOut,
+  StaffIn,
+  StaffOut,
   CalibrateAsked,
   ExportAsked,
   Count
@@ -82,7 +83,7 @@ inline constexpr std::array kTransitions{
 
     Transition{State::Idle, Event::PoseAsked, State::Position},
     Transition{State::Idle, Event::Begin, State::Capture},
-    Transition{State::Idle, Event::TechnicianIn, State::Technician},
+    Transition{State::Idle, Event::StaffIn, State::Staff},
     Transition{State::Idle, Event::Failed, State::Fault},
 
     Transition{State::Position, Event::Begin, State::Capture},
@@ -145,27 +146,27 @@ inline constexpr std::array kTransitions{
     Transition{State::Store, Event::Timeout, State::Fault},
     Transition{State::Store, Event::Failed, State::Fault},
 
-    Transition{State::Technician, Event::CalibrateAsked, State::Calibrate},
-    Transition{State::Technician, Event::ExportAsked, State::Export},
-    Transition{State::Technician, Event::TechnicianOut, State::Idle},
-    Transition{State::Technician, Event::Cancel, State::Idle},
-    Transition{State::Technician, Event::Timeout, State::Idle},
-    Transition{State::Technician, Event::Failed, State::Fault},
+    Transition{State::Staff, Event::CalibrateAsked, State::Calibrate},
+    Transition{State::Staff, Event::ExportAsked, State::Export},
+    Transition{State::Staff, Event::StaffOut, State::Idle},
+    Transition{State::Staff, Event::Cancel, State::Idle},
+    Transition{State::Staff, Event::Timeout, State::Idle},
+    Transition{State::Staff, Event::Failed, State::Fault},
 
-    Transition{State::Calibrate, Event::StageDone, State::Technician},
-    Transition{State::Calibrate, Event::StageFailed, State::Technician},
-    Transition{State::Calibrate, Event::Cancel, State::Technician},
-    Transition{State::Calibrate, Event::Timeout, State::Technician},
+    Transition{State::Calibrate, Event::StageDone, State::Staff},
+    Transition{State::Calibrate, Event::StageFailed, State::Staff},
+    Transition{State::Calibrate, Event::Cancel, State::Staff},
+    Transition{State::Calibrate, Event::Timeout, State::Staff},
     Transition{State::Calibrate, Event::Failed, State::Fault},
 
-    Transition{State::Export, Event::StageDone, State::Technician},
-    Transition{State::Export, Event::StageFailed, State::Technician},
-    Transition{State::Export, Event::Cancel, State::Technician},
-    Transition{State::Export, Event::Timeout, State::Technician},
+    Transition{State::Export, Event::StageDone, State::Staff},
+    Transition{State::Export, Event::StageFailed, State::Staff},
+    Transition{State::Export, Event::Cancel, State::Staff},
+    Transition{State::Export, Event::Timeout, State::Staff},
     Transition{State::Export, Event::Failed, State::Fault},
 
     Transition{State::Fault, Event::Timeout, State::SelfTest},
-    Transition{State::Fault, Event::TechnicianIn, State::Technician},
+    Transition{State::Fault, Event::StaffIn, State::Staff},
 };
 
 struct Deaf {

@@ -19,7 +19,7 @@ using ui::StaffRole;
 constexpr std::chrono::seconds kWarning{15};  // before somebody is signed out
 
 bool is_service(State state) {
-  return state == State::Technician || state == State::Calibrate || state == State::Export;
+  return state == State::Staff || state == State::Calibrate || state == State::Export;
 }
 
 }  // namespace
@@ -139,8 +139,8 @@ void Desk::close_page() {
 void Desk::let_in() {
   if (const StaffRole entered = door_.take_entered(); entered != StaffRole::None) waiting_ = entered;
   if (waiting_ == StaffRole::None) return;
-  parts_.appliance.ask(ui::Intent::OpenTechnician);
-  if (parts_.appliance.state() != State::Technician) return;
+  parts_.appliance.ask(ui::Intent::OpenStaff);
+  if (parts_.appliance.state() != State::Staff) return;
   role_ = tools_.role = std::exchange(waiting_, StaffRole::None);
   touched();
 }
@@ -149,8 +149,8 @@ void Desk::leave() {
   waiting_ = StaffRole::None;
   door_.forget();
   if (!inside()) return;
-  if (parts_.appliance.state() != State::Technician) parts_.appliance.ask(ui::Intent::Cancel);
-  parts_.appliance.ask(ui::Intent::LeaveTechnician);
+  if (parts_.appliance.state() != State::Staff) parts_.appliance.ask(ui::Intent::Cancel);
+  parts_.appliance.ask(ui::Intent::LeaveStaff);
 }
 
 int Desk::seconds_left() const {
@@ -167,7 +167,7 @@ void Desk::turn() {
   const State state = parts_.appliance.state();
   // A long export or calibration is somebody's, even if nobody touches the screen.
   if (state == State::Calibrate || state == State::Export) touched();
-  if (inside() && state == State::Technician && seconds_left() == 0) leave();
+  if (inside() && state == State::Staff && seconds_left() == 0) leave();
   if (inside() && !is_service(parts_.appliance.state())) {
     close_page();
     errands_.cancel();
@@ -176,7 +176,7 @@ void Desk::turn() {
     log_.say(ui::LogEvent::SignedOut);
   }
   if (bench_ != nullptr) bench_->turn();
-  if (state == State::Idle || state == State::Technician) save_what_changed();
+  if (state == State::Idle || state == State::Staff) save_what_changed();
   if (state == State::Idle) retention_.turn(settings());
 }
 
@@ -198,7 +198,7 @@ void Desk::save_what_changed() {
 const ui::ServiceView& Desk::view() {
   view_ = {};
   view_.role = role_;
-  if (inside() && parts_.appliance.state() == State::Technician && seconds_left() <= kWarning.count())
+  if (inside() && parts_.appliance.state() == State::Staff && seconds_left() <= kWarning.count())
     view_.leaves_in_s = seconds_left();
   door_.show(view_.access);
   consent_.show(consent_view_);

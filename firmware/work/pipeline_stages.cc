@@ -71,7 +71,7 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
     case State::Review:
     case State::Store:
     case State::Export:
-    case State::Technician:
+    case State::Staff:
     case State::Fault:
     case State::Count:
       break;

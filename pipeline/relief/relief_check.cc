@@ -144,4 +144,15 @@ Error error_of(ReliefVerdict verdict, const ReliefFigures& r, const ReliefOption
   return Error(why).at(figures);
 }
 
+std::optional<Error> why_unjudged(const FaceModel& model, const std::optional<ReliefOptions>& asked) {
+  if (!asked) return std::nullopt;
+  const ReliefFigures& relief = model.quality.relief;
+  const ReliefVerdict verdict = judge(relief, *asked);
+  if (verdict == ReliefVerdict::Unjudged) return error_of(verdict, relief, *asked);
+  if (std::any_of(model.landmarks.begin(), model.landmarks.end(), [](const Landmark& l) { return l.found; }))
+    return std::nullopt;
+  return Error{Errc::PoorGeometry,
+               "nothing on the surface stands out like a nose: look straight into the cameras"};
+}
+
 }  // namespace relievo::pipeline

@@ -15,10 +15,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "pipeline/base/options.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
+#include "pipeline/model/face_model.h"
 #include "pipeline/model/rectified_pair.h"
 #include "pipeline/model/relief_figures.h"
 
@@ -51,5 +53,8 @@ ReliefVerdict judge(const ReliefFigures& relief, const ReliefOptions& options);
 // What to tell of it, with the figures for the technician as where(). Picture: NoFace. Unjudged:
 // PoorGeometry.
 Error error_of(ReliefVerdict verdict, const ReliefFigures& relief, const ReliefOptions& options);
+// Why an assembled model is not known to be a face, by its figures and landmarks; none where it is, or where
+// nobody asked. Also of a model that was read from a file.
+std::optional<Error> why_unjudged(const FaceModel& model, const std::optional<ReliefOptions>& asked);
 
 }  // namespace relievo::pipeline

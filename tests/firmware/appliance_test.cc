@@ -90,14 +90,14 @@ TEST_F(ApplianceTest, RetakeMakesANewModel) {
 
 TEST_F(ApplianceTest, ATechnicianComesAndGoes) {
   ASSERT_TRUE(reach(State::Idle));
-  appliance.ask(ui::Intent::OpenTechnician);
+  appliance.ask(ui::Intent::OpenStaff);
   appliance.ask(ui::Intent::Begin);  // not heard here
-  EXPECT_EQ(appliance.state(), State::Technician);
+  EXPECT_EQ(appliance.state(), State::Staff);
   appliance.ask(ui::Intent::Calibrate);
   EXPECT_EQ(appliance.state(), State::Calibrate);
   appliance.end_service_state(true);
-  EXPECT_EQ(appliance.state(), State::Technician);
-  appliance.ask(ui::Intent::LeaveTechnician);
+  EXPECT_EQ(appliance.state(), State::Staff);
+  appliance.ask(ui::Intent::LeaveStaff);
   EXPECT_EQ(appliance.state(), State::Idle);
 }
 

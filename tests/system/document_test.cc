@@ -88,6 +88,20 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
   EXPECT_FALSE(fs::exists(here / "none"));
 }
 
+TEST_F(SavedReconstruction, SaysAgainWhyItIsNotKnownToBeAFace) {
+  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  const auto why = [](const std::string& out) {
+    const std::size_t from = out.find("not judged to be a face");
+    return from == std::string::npos ? "" : out.substr(from, out.find('\n', from) - from);
+  };
+  const std::string said =
+      why(done({"reconstruct", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "--set",
+                "relief.least_sigmas=90", "-o", "first", "--save", "face.relievo"})
+              .out);
+  EXPECT_NE(said, "");
+  EXPECT_EQ(why(done({"reconstruct", "--load", "face.relievo", "-o", "loaded"}).out), said);
+}
+
 TEST_F(SavedReconstruction, MatchesByHandFromAFileAreCalculatedWithAndKept) {
   done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
   const auto rig = pipeline::read_calibration(here / "face/rig.yml");

@@ -18,8 +18,8 @@ enum class Intent : std::uint8_t {
   Retake,
   Cancel,
   StillHere,  // somebody is there: a state that waits for a person waits longer
-  OpenTechnician,
-  LeaveTechnician,
+  OpenStaff,
+  LeaveStaff,
   Calibrate,
   Export
 };

@@ -30,8 +30,8 @@ std::string_view name_of(Screen screen) {
       return "Store";
     case Screen::Export:
       return "Export";
-    case Screen::Technician:
-      return "Technician";
+    case Screen::Staff:
+      return "Staff";
     case Screen::Fault:
       return "Fault";
   }

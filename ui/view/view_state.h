@@ -37,7 +37,7 @@ enum class Screen : std::uint8_t {
   Review,
   Store,
   Export,
-  Technician,
+  Staff,
   Fault
 };
 std::string_view name_of(Screen screen);

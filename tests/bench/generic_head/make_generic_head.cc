@@ -3,27 +3,28 @@
 //
 //   make_generic_head > pipeline/mesh/completion/generic_head.bin
 //
-// Learns the generic head (pipeline/mesh/completion/generic_head.h) from heads of hal/sim: the head frame is
-// found on each one's front, and two sets of radii are read off the head itself: about the frame's axis, and
-// about a point within it, all round, the neck cut off. Written are the mean and the principal components of
-// the first, and what of the second goes with each of these components (linear regression). On standard
-// error: how much of the spread the components hold, and what is left of heads that took no part.
+// Learns the generic head (pipeline/mesh/completion/generic_head.h) from heads of hal/sim: each is measured
+// as the cameras would see it from the front, the head frame is found on that, and two sets of radii are read
+// off the head itself: about the frame's axis, and about a point within it, all round, the neck cut off.
+// Written are the mean and the principal components of the first, and what of the second goes with each of
+// these components (linear regression). On standard error: how much of the spread the components hold, and
+// what is left of heads that took no part.
 #include <Eigen/SVD>
 
-#include <algorithm>
+#include "hal/sim/head/shape/form.h"
+
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory_resource>
-#include <span>
 #include <vector>
 
-#include "hal/sim/head/shape/form.h"
-#include "hal/sim/head/shape/head_field.h"
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/globe.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
-#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
+#include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_bench.h"
 
 namespace relievo::bench {
@@ -36,111 +37,55 @@ constexpr int kKeptApart = 30;
 constexpr int kCells = kHeadColumns * kHeadRows;
 constexpr double kNeckEnd = -125;  // y of the head's frame, rounded over 12 mm
 
-using hal::sim::cut;
-using hal::sim::HeadField;
-using hal::sim::smoothstep;
-
-// Hair hides that the back of a simulated skull is a column with a rim round the crown and another above the
-// neck. A generic head has no hair: behind the ears it ends where the skull's ellipsoid does.
-double bald(const HeadField& field, const Vec3d& p) {
-  const double half_length = field.traits.head_length / 2;
-  const hal::sim::Vec3 from{p.x, p.y - 40, p.z - 106 + half_length};
-  const double ellipsoid =
-      hal::sim::ellipsoid(from, {field.traits.head_breadth / 2 + 1, from.y > 0 ? 81.0 : 130.0, half_length});
-  const double elsewhere = 60 * smoothstep(-70, 10, p.z) + 250 * smoothstep(-58, -85, p.y);
-  return cut(field.distance({p.x, p.y, p.z}), ellipsoid - elsewhere, 30);
-}
-
-// From outside, at `from` along `way`, to where the head begins, by the line through the last two distances.
-template <typename Distance>
-double first_met(Distance&& distance, const Vec3d& centre, const Vec3d& way, double from) {
-  double before = 1e6, at_before = from;
+// Both about the head's frame: from outside, at `from` along `way`, to where the head begins.
+double first_met(const hal::sim::HeadField& field, const RigidTransform& sim_from_head, const Vec3d& centre,
+                 const Vec3d& way, double from, bool neck_ends) {
   for (double radius = from; radius > 10;) {
-    const double d =
-        distance({centre.x + radius * way.x, centre.y + radius * way.y, centre.z + radius * way.z});
-    if (d < 0.05) return radius - d * (at_before - radius) / (before - d);
-    before = d, at_before = radius;
+    const Vec3d at{centre.x + radius * way.x, centre.y + radius * way.y, centre.z + radius * way.z};
+    const Vec3d p = apply(sim_from_head, at);
+    double d = field.distance({p.x, p.y, p.z});
+    if (neck_ends) d = hal::sim::cut(d, kNeckEnd - at.y, 12);
+    if (d < 0.05) return radius;
     radius -= std::clamp(0.5 * d, 0.05, 3.0);
   }
   return 10;
 }
 
-// The head from the front, every 2.5 mm, in its own frame.
-FaceMesh front_of(const HeadField& field, ThreadPool& pool) {
-  constexpr int kAcross = 59, kUp = 75;
-  constexpr float kStep = 2.5F, kMostStep = 10;  // mm; and in depth
-  FaceMesh mesh(std::pmr::get_default_resource());
-  mesh.vertices_mm.resize(kAcross * kUp);
-  mesh.sigma_mm.assign(kAcross * kUp, 0.1F);
-  mesh.measured.assign(kAcross * kUp, 1);
-  pool.for_each_band(kUp, kUp, [&](int begin, int end, int) {
-    for (int r = begin; r < end; ++r)
-      for (int c = 0; c < kAcross; ++c) {
-        const float x = kStep * static_cast<float>(c - kAcross / 2);
-        const float y = kStep * static_cast<float>(r - kUp / 2) - 10;
-        const double z = first_met(
-            [&](const Vec3d& p) {
-              return field.distance({p.x, p.y, p.z});
-            },
-            {static_cast<double>(x), static_cast<double>(y), 0}, {0, 0, 1}, 150);
-        mesh.vertices_mm[static_cast<std::size_t>(r * kAcross + c)] = {x, y, static_cast<float>(z)};
-      }
-  });
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const auto [low, high] =
-        std::minmax({mesh.vertices_mm[a].z, mesh.vertices_mm[b].z, mesh.vertices_mm[c].z});
-    if (low > 20 && high - low < kMostStep) mesh.triangles.push_back({a, b, c});
-  };
-  for (std::uint32_t r = 0; r + 1 < kUp; ++r)
-    for (std::uint32_t c = 0; c + 1 < kAcross; ++c) {
-      const std::uint32_t k = r * kAcross + c;
-      add(k, k + 1, k + kAcross + 1);
-      add(k, k + kAcross + 1, k + kAcross);
-    }
-  compute_normals(mesh, 1, std::pmr::get_default_resource());
-  return mesh;
-}
-
-// An ear is thinner than the globe's nodes lie apart: each takes the mean of what lies around it.
-void take_means(const Globe& fine, std::span<const double> radius, Eigen::Ref<Eigen::RowVectorXd> means) {
-  std::vector<double> sum(radius.size()), count(radius.size(), 2);
-  for (std::size_t v = 0; v < radius.size(); ++v) sum[v] = 2 * radius[v];
-  for (const auto& t : fine.triangles)  // each edge runs once in either direction
-    for (std::size_t k = 0; k < 3; ++k) sum[t[k]] += radius[t[(k + 1) % 3]], count[t[k]] += 1;
-  for (Eigen::Index v = 0; v < means.size(); ++v)
-    means(v) = sum[static_cast<std::size_t>(v)] / count[static_cast<std::size_t>(v)];
-}
-
-// `fine`: the globe, quartered once more.
-bool learn(std::uint32_t seed, relievo::test::StageBench& room, const Globe& fine,
+bool learn(std::uint32_t seed, relievo::test::StageBench& room, const Globe& globe,
            Eigen::Ref<Eigen::RowVectorXd> radii) {
-  const HeadField field(hal::sim::traits_of(seed));
-  const FaceMesh front = front_of(field, room.pool);
-  const auto frame = run_stage(room.context, [&](StageContext& c) { return find_head_frame(front, c); });
+  const pipeline::test::FieldHead head(seed);
+  room.output.reset();
+  const PointCloud cloud = head.cloud({}, room.pool, 0);
+  const auto mesh = run_stage(room.context, [&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  if (!mesh) return false;
+  const auto frame = run_stage(room.context, [&](StageContext& c) { return find_head_frame(*mesh, c); });
   if (!frame) return false;
-  const RigidTransform sim_from_head = inverse(frame->head_from_camera);
+  const RigidTransform camera_from_head = inverse(frame->head_from_camera);
+  const RigidTransform sim_from_camera = inverse(pipeline::test::FieldHead::camera_from_head({}));
+  RigidTransform sim_from_head;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (int m = 0; m < 3; ++m)
+        sum += sim_from_camera.rotation.m[3 * i + m] * camera_from_head.rotation.m[3 * m + k];
+      sim_from_head.rotation.m[3 * i + k] = sum;
+    }
+  sim_from_head.translation_mm = apply(sim_from_camera, camera_from_head.translation_mm);
   room.pool.for_each_band(kHeadRows, kHeadRows, [&](int begin, int end, int) {
     for (int r = begin; r < end; ++r)
       for (int c = 0; c < kHeadColumns; ++c) {
         const double arc = -kHalfArc + 2 * kHalfArc * c / (kHeadColumns - 1);
         const double y = -kBelow + (kBelow + kAbove) * r / (kHeadRows - 1);
-        radii(r * kHeadColumns + c) = first_met(
-            [&](const Vec3d& at) {
-              const Vec3d p = apply(sim_from_head, at);
-              return field.distance({p.x, p.y, p.z});
-            },
-            {0, y, -kAxisBehind}, {std::sin(arc / kArcRadius), 0, std::cos(arc / kArcRadius)}, 170);
+        radii(r * kHeadColumns + c) =
+            first_met(head.field(), sim_from_head, {0, y, -kAxisBehind},
+                      {std::sin(arc / kArcRadius), 0, std::cos(arc / kArcRadius)}, 170, false);
       }
   });
-  std::vector<double> globe(fine.direction.size());
-  const int nodes = static_cast<int>(globe.size());
-  room.pool.for_each_band(nodes, nodes, [&](int begin, int end, int) {
+  room.pool.for_each_band(kGlobeNodes, kGlobeNodes, [&](int begin, int end, int) {
     for (int k = begin; k < end; ++k)
-      globe[static_cast<std::size_t>(k)] = first_met(
-          [&](const Vec3d& at) { return cut(bald(field, apply(sim_from_head, at)), kNeckEnd - at.y, 12); },
-          kGlobeCentre, fine.direction[static_cast<std::size_t>(k)], 200);
+      radii(kCells + k) = first_met(head.field(), sim_from_head, kGlobeCentre,
+                                    globe.direction[static_cast<std::size_t>(k)], 250, true);
   });
-  take_means(fine, globe, radii.tail(kGlobeNodes));
   return true;
 }
 
@@ -167,14 +112,14 @@ void write_part(const Eigen::RowVectorXd& mean, const Eigen::MatrixXd& modes, co
 
 int run() {
   relievo::test::StageBench room;
-  const Globe fine(kGlobeTimes + 1, std::pmr::get_default_resource());
+  const Globe globe(kGlobeTimes, std::pmr::get_default_resource());
   Eigen::MatrixXd people(kHeadPeople + kKeptApart, kCells + kGlobeNodes);
   int count = 0;
   for (std::uint32_t seed = kFirstSeed; count < people.rows(); ++seed) {
     if (seed > kFirstSeed + 2 * kHeadPeople)
       return std::fprintf(stderr, "make_generic_head: too few heads had a frame\n"), 1;
     Eigen::RowVectorXd radii(people.cols());
-    if (learn(seed, room, fine, radii)) people.row(count++) = radii;
+    if (learn(seed, room, globe, radii)) people.row(count++) = radii;
   }
   const Eigen::RowVectorXd mean = people.topRows(kHeadPeople).colwise().mean();
   const Eigen::MatrixXd spread = people.topRows(kHeadPeople).rowwise() - mean;

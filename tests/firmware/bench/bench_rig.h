@@ -57,7 +57,7 @@ class BenchRig {
         Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards,
                      [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
-    appliance->ask(ui::Intent::OpenTechnician);
+    appliance->ask(ui::Intent::OpenStaff);
     turn();
   }
   ~BenchRig() {
@@ -158,7 +158,7 @@ class BenchRig {
     staff.bench = &bench->view();
     view = ui::ViewState();
     view.now = clock.now();
-    view.screen = ui::Screen::Technician;
+    view.screen = ui::Screen::Staff;
     view.service = &staff;
     screen->frame(view);
   }

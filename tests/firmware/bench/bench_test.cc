@@ -214,7 +214,7 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
   const auto& between = rig().stages->calibration()->right_from_left.translation_mm;
   EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
-  EXPECT_EQ(rig().appliance->state(), State::Technician);
+  EXPECT_EQ(rig().appliance->state(), State::Staff);
 
   rig().tap("calibration store");
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; }))
@@ -234,7 +234,7 @@ TEST_F(BenchTest, WhoLeavesLeavesNothing) {
   rig().open(StaffPage::Compare);
   rig().tap("keep");
   rig().tap("run");  // and goes in the middle of it
-  rig().appliance->ask(ui::Intent::LeaveTechnician);
+  rig().appliance->ask(ui::Intent::LeaveStaff);
   rig().turn();
   EXPECT_EQ(rig().appliance->state(), State::Idle);
   EXPECT_FALSE(rig().appliance->session().is_open());

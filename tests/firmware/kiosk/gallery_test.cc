@@ -232,7 +232,7 @@ TEST_P(GalleryTest, AFullLogHasRoom) {
   staff.role = ui::StaffRole::Technician;
   staff.log = &log;
   ui::ViewState view;
-  view.screen = ui::Screen::Technician;
+  view.screen = ui::Screen::Staff;
   view.service = &staff;
   ui::Visit visit;
   visit.language = GetParam();

@@ -35,7 +35,7 @@ class KioskCalibrationTest : public StaffHands {
   // As who switches it off properly, once it has written down what it knows.
   void open_again() {
     ASSERT_TRUE(until([this] {
-      return (kiosk->appliance().state() == State::Idle || kiosk->appliance().state() == State::Technician) &&
+      return (kiosk->appliance().state() == State::Idle || kiosk->appliance().state() == State::Staff) &&
              !kiosk->desk().errands().busy(JobPlace::Keeper);
     }));
     kiosk.reset();

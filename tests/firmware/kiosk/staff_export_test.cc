@@ -28,7 +28,7 @@ class StaffExportTest : public StaffHands {
   // What the page says, and that it can be tried again from there.
   std::string said() {
     kiosk->turn();
-    EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+    EXPECT_EQ(kiosk->appliance().state(), State::Staff);
     EXPECT_NE(find("export all"), nullptr) << "no way on";
     const ui::Node* node = find("outcome");
     return node == nullptr ? std::string() : std::string(node->name.empty() ? node->text : node->name);

@@ -163,7 +163,7 @@ class StaffHands : public KioskHands {
     type_pin(pin);
     ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Menu; }));
     EXPECT_EQ(kiosk->view().service->role, role);
-    EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+    EXPECT_EQ(kiosk->appliance().state(), State::Staff);
   }
   // The operator before the list of those who were enrolled just now.
   void open_records(std::initializer_list<const char*> names) {

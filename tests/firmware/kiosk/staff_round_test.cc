@@ -106,7 +106,7 @@ TEST_F(StaffRoundTest, AnExportThatCannotEndWellSaysSoAndTheNextOneDoes) {
   media->plug(stick());
   std::ofstream(stick() / "relievo") << "a file where the folder should be";
   EXPECT_EQ(outcome(), ui::Outcome::Failed);
-  EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  EXPECT_EQ(kiosk->appliance().state(), State::Staff);
   std::filesystem::remove(stick() / "relievo");
   EXPECT_EQ(outcome(), ui::Outcome::Done);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(stick()), {}), 1);
@@ -127,7 +127,7 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   tap("export");
   ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; }));
   EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::Done);
-  EXPECT_EQ(kiosk->appliance().state(), State::Technician);
+  EXPECT_EQ(kiosk->appliance().state(), State::Staff);
   const Path taken = stick() / "relievo" / code_of(1);
   EXPECT_TRUE(std::filesystem::exists(taken / "model.ply"));
   EXPECT_NE(text_of_file(taken / "record.txt").find("name: Ada Lovelace"), std::string::npos);

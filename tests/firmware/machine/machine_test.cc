@@ -141,12 +141,12 @@ TEST(Machine, AFaultTestsItselfAgain) {
   play({{ms(0), E::Failed, S::Fault},
         {budget::kFaultRetry, E::Count, S::SelfTest},
         {budget::kFaultRetry, E::Passed, S::Idle},
-        {budget::kFaultRetry, E::TechnicianIn, S::Technician},
+        {budget::kFaultRetry, E::StaffIn, S::Staff},
         {budget::kFaultRetry, E::CalibrateAsked, S::Calibrate},
-        {budget::kFaultRetry, E::StageFailed, S::Technician},
+        {budget::kFaultRetry, E::StageFailed, S::Staff},
         {budget::kFaultRetry, E::ExportAsked, S::Export},
-        {budget::kFaultRetry, E::Cancel, S::Technician},
-        {budget::kFaultRetry, E::TechnicianOut, S::Idle}});
+        {budget::kFaultRetry, E::Cancel, S::Staff},
+        {budget::kFaultRetry, E::StaffOut, S::Idle}});
 }
 
 // The answer of every state to the three events nobody may forget.
@@ -156,21 +156,15 @@ struct Answer {
 };
 
 TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
-  const std::vector<Answer> answers{{S::SelfTest, S::SelfTest, S::Fault, S::Fault},
-                                    {S::Idle, S::Idle, S::Idle, S::Fault},
-                                    {S::Position, S::Idle, S::Idle, S::Fault},
-                                    {S::Capture, S::Idle, S::Idle, S::Fault},
-                                    {S::Match, S::Idle, S::Idle, S::Fault},
-                                    {S::Reconstruct, S::Idle, S::Idle, S::Fault},
-                                    {S::Mesh, S::Idle, S::Idle, S::Fault},
-                                    {S::Texture, S::Idle, S::Idle, S::Fault},
-                                    {S::Assemble, S::Idle, S::Idle, S::Fault},
-                                    {S::Review, S::Idle, S::Idle, S::Fault},
-                                    {S::Store, S::Store, S::Fault, S::Fault},
-                                    {S::Technician, S::Idle, S::Idle, S::Fault},
-                                    {S::Calibrate, S::Technician, S::Technician, S::Fault},
-                                    {S::Export, S::Technician, S::Technician, S::Fault},
-                                    {S::Fault, S::Fault, S::SelfTest, S::Fault}};
+  const std::vector<Answer> answers{
+      {S::SelfTest, S::SelfTest, S::Fault, S::Fault}, {S::Idle, S::Idle, S::Idle, S::Fault},
+      {S::Position, S::Idle, S::Idle, S::Fault},      {S::Capture, S::Idle, S::Idle, S::Fault},
+      {S::Match, S::Idle, S::Idle, S::Fault},         {S::Reconstruct, S::Idle, S::Idle, S::Fault},
+      {S::Mesh, S::Idle, S::Idle, S::Fault},          {S::Texture, S::Idle, S::Idle, S::Fault},
+      {S::Assemble, S::Idle, S::Idle, S::Fault},      {S::Review, S::Idle, S::Idle, S::Fault},
+      {S::Store, S::Store, S::Fault, S::Fault},       {S::Staff, S::Idle, S::Idle, S::Fault},
+      {S::Calibrate, S::Staff, S::Staff, S::Fault},   {S::Export, S::Staff, S::Staff, S::Fault},
+      {S::Fault, S::Fault, S::SelfTest, S::Fault}};
   ASSERT_EQ(answers.size(), static_cast<std::size_t>(S::Count));
   for (const Answer& a : answers) {
     EXPECT_EQ(next(a.state, E::Cancel).value_or(a.state), a.cancel) << name_of(a.state);

@@ -31,7 +31,7 @@ struct Sample {
                     true,
                     test::sample_calibration(),
                     -1234,
-                    {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}},
+                    {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}, {}},
                     {{{3.25F, 1e-42F}, -0.1F, 0, 0.5F, 0}, {{7, 8}, 1.0F / 3, 0, 1e9F, 0}}};
   pipeline::RectifiedPair pair{std::pmr::get_default_resource()};
   pipeline::MatchSet matches{std::pmr::get_default_resource()};
@@ -90,7 +90,7 @@ TEST(Document, GivesBackEveryBit) {
   EXPECT_EQ(document->head().algorithms, "matcher = zmncc\n");
   EXPECT_TRUE(document->head().whole_view);
   EXPECT_EQ(document->head().skew_ns, -1234);
-  ASSERT_EQ(document->head().stages.size(), 4U);
+  ASSERT_EQ(document->head().stages.size(), kDocumentStages);
   EXPECT_EQ(document->head().stages[0].took.count(), 5);
   EXPECT_EQ(document->head().stages[1].arena_peak_bytes, 6U);
   EXPECT_TRUE(std::ranges::equal(
@@ -166,7 +166,7 @@ TEST(Document, WhatIsNoneOrNewerIsToldApart) {
   foreign[71] ^= std::byte{1};  // the application id
   EXPECT_EQ(Document::open(foreign).error().code, Errc::InvalidInput);
   auto newer = *bytes;
-  newer[63] = std::byte{3};  // the user version
+  newer[63] = std::byte{4};  // the user version
   EXPECT_EQ(Document::open(newer).error().code, Errc::StoreNewer);
 }
 

@@ -26,7 +26,7 @@ int stage_under_way(Screen screen) {
     case Screen::Position:
     case Screen::Capture:
     case Screen::Export:
-    case Screen::Technician:
+    case Screen::Staff:
     case Screen::Fault:
       break;
   }
