@@ -76,10 +76,11 @@ struct AlgorithmArgs {
 struct ReconstructArgs {
   Path left, right;
   Path calibration;
-  Path load;         // a saved reconstruction, instead of the three
-  std::string from;  // of a saved one: match, reconstruct, mesh, texture, assemble; empty: as the settings ask
-  Path save;         // empty: not saved
-  Path by_hand;      // matches beside the matcher's; empty: those of a saved one, else none
+  Path load;  // a saved reconstruction, instead of the three
+  std::string
+      from;      // of a saved one: match, reconstruct, mesh, texture, assemble; empty: as the settings ask
+  Path save;     // empty: not saved
+  Path by_hand;  // matches beside the matcher's; empty: those of a saved one, else none
   Path output;
   bool camera_frame = false;   // --frame camera
   bool despite_drift = false;  // go on though the cameras have moved
