@@ -4,7 +4,7 @@
 // The choice of algorithms, by name, and the one place that makes them. A choice is text, as on the
 // command line (`--set matcher=refined --set refined.bending=0.3`), in a TOML file and in the store.
 // Keys: preprocessor, selector, matcher, constraints (names joined by '+', or none), triangulator, outliers,
-// mesher, completion, relief, texturer; and NAME.OPTION for every option of every algorithm.
+// mesher, completion, relief, texturer, fuser; and NAME.OPTION for every option of every algorithm.
 #pragma once
 
 #include <map>
@@ -29,6 +29,8 @@
 #include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
+
+struct HeadFuserOptions;
 
 class AlgorithmSet {
  public:
@@ -83,5 +85,6 @@ Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set);
 Result<std::optional<ReliefOptions>> make_relief_check(
     const AlgorithmSet& set);  // none: pictures of faces pass
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
+Result<HeadFuserOptions> make_head_fuser(const AlgorithmSet& set);  // pipeline/fuse/head_fuser.h
 
 }  // namespace relievo::pipeline

@@ -47,7 +47,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY(volume.check());
   pipeline.volume_ = volume;
   pipeline.region_ = region;
-  if (region == Region::Face) {
+  if (region != Region::All) {
     RELIEVO_TRY_ASSIGN(FaceFinder finder, FaceFinder::open({}));
     pipeline.finder_ = std::make_shared<FaceFinder>(std::move(finder));
   }
@@ -70,11 +70,16 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
 Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<RectifiedPair> {
     RELIEVO_TRY_ASSIGN(RectifiedPair pair, Rectifier(volume_).rectify(frame, calibration_, c));
-    if (finder_ != nullptr) {
-      RELIEVO_TRY_ASSIGN(const FaceBox box, find_face(*finder_, pair, c));
-      RELIEVO_TRY(mark_face_region(pair, box, c));
-      pair.face_reach_mm = kReachBeyondCrop * crop_.radius_mm;
+    if (finder_ == nullptr) return pair;
+    const Result<FaceBox> box = find_face(*finder_, pair, c);
+    if (region_ == Region::TurnedHead) {
+      if (box) RELIEVO_TRY(mark_head_region(pair, *box, c));
+      if (!box && box.error().code != Errc::NoFace) return box.error();
+      return pair;
     }
+    if (!box) return box.error();
+    RELIEVO_TRY(mark_face_region(pair, *box, c));
+    pair.face_reach_mm = kReachBeyondCrop * crop_.radius_mm;
     return pair;
   });
 }
@@ -150,7 +155,7 @@ Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pa
 // Before anything that takes a face for granted looks at the surface.
 Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, const RectifiedPair& pair,
                                     StageContext& context) const {
-  if (region_ == Region::All) return {};
+  if (region_ != Region::Face) return {};
   RELIEVO_TRY_ASSIGN(const ReliefFigures relief, measure_relief(mesh, pair, context));
   model.quality.relief = relief;
   if (!relief_) return {};
@@ -180,7 +185,7 @@ Result<FaceModel> Pipeline::assemble(FaceMesh mesh, TextureAtlas texture, const 
       RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, eyes, c));
       model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
     }
-    if (region_ != Region::All) model.unjudged = why_unjudged(model, relief_);
+    if (region_ == Region::Face) model.unjudged = why_unjudged(model, relief_);
     const ReliefFigures relief = model.quality.relief;
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;

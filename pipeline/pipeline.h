@@ -28,7 +28,9 @@
 
 namespace relievo::pipeline {
 
-enum class Region : std::uint8_t { Face, All };
+// Face: what lies around the face that was found. TurnedHead: the whole head around it, or all of the view
+// where none was found; nothing is cropped. All: the whole view.
+enum class Region : std::uint8_t { Face, TurnedHead, All };
 
 class Pipeline {
  public:

@@ -160,10 +160,16 @@ void add_lod(CLI::App& command, int& triangles) {
 }
 
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
-  CLI::App* command = app.add_subcommand("reconstruct", "a pair of pictures to a textured model");
-  command->add_option("left", args.left)->type_name("LEFT");
-  command->add_option("right", args.right)->type_name("RIGHT");
-  command->add_option("--calibration", args.calibration)->type_name("rig.yml");
+  CLI::App* command = app.add_subcommand(
+      "reconstruct", "a pair of pictures to a textured model, or several of a head that turned");
+  command
+      ->add_option(
+          "pictures", args.pictures,
+          "LEFT RIGHT, and further pairs of the same head turned to other sides, up to seven; the first is the "
+          "one from in front")
+      ->type_name("LEFT RIGHT");
+  command->add_option("--calibration", args.calibrations, "one for all pairs, or one each")
+      ->type_name("rig.yml");
   CLI::Option* load =
       command
           ->add_option("--load", args.load,
@@ -197,12 +203,22 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
                     "go on though the cameras have moved since they were calibrated");
   add_lod(*command, args.lod);
   add_algorithms(*command, args.algorithms);
-  const char* const instead[] = {"left", "right", "--calibration"};
+  const char* const instead[] = {"pictures", "--calibration"};
   for (const char* other : instead) load->excludes(command->get_option(other));
   load->excludes(command->get_option("--region"));
   command->callback([&chosen, &args, command, load, instead] {
     for (const char* other : instead)
       if (load->count() == 0 && command->get_option(other)->count() == 0) throw CLI::RequiredError(other);
+    const std::size_t pairs = args.pictures.size() / 2;
+    if (args.pictures.size() % 2 != 0)
+      throw CLI::ValidationError("pictures", "a left one and a right one each");
+    if (pairs > kMostPairs) throw CLI::ValidationError("pictures", "seven pairs make a head; these are more");
+    if (load->count() == 0 && args.calibrations.size() != 1 && args.calibrations.size() != pairs)
+      throw CLI::ValidationError("--calibration", "one for all pairs, or one each");
+    if (pairs > 1)
+      for (const char* other : {"--save", "--by-hand", "--region"})
+        if (command->get_option(other)->count() > 0)
+          throw CLI::ValidationError(other, "of one pair alone, not of a head from several");
     chosen = args;
   });
 }

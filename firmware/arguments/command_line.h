@@ -73,10 +73,12 @@ struct AlgorithmArgs {
   bool whole_view = false;            // --region all
 };
 
+inline constexpr std::size_t kMostPairs = 7;  // of a head that turned
+
 struct ReconstructArgs {
-  Path left, right;
-  Path calibration;
-  Path load;  // a saved reconstruction, instead of the three
+  std::vector<Path> pictures;      // left, right; of a head that turned further pairs, the frontal one first
+  std::vector<Path> calibrations;  // one for all pairs, or one each
+  Path load;                       // a saved reconstruction, instead of those
   std::string
       from;      // of a saved one: match, reconstruct, mesh, texture, assemble; empty: as the settings ask
   Path save;     // empty: not saved

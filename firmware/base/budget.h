@@ -29,6 +29,8 @@ inline constexpr std::size_t kStereoSlots =
 inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
 inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;   // what the stages hand on
 inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;  // what one stage needs for itself
+// A head from several pairs (relievo reconstruct): of each, its surface and both rectified photographs.
+inline constexpr std::size_t kPoseBytes = 24 * kMiB;
 inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
 
 // The technician's pages: both pictures of three stages and one of five; beside them, of every result that

@@ -7,37 +7,73 @@
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/light_model.h"
+#include "firmware/reconstruct/head_reconstruction.h"
 #include "firmware/reconstruct/reconstruction.h"
 #include "hal/base/words.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
 
-Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
-  Reconstruction reconstruction;
-  const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
-  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args.left, args.right, args.calibration, args.algorithms,
-                                                     args.by_hand, services.console, when_moved)
-                                : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand,
-                                                      services.console, when_moved));
+namespace {
 
+// Model, pictures and report, all or nothing. `save` writes what else belongs to it.
+template <typename Made, typename Save>
+Result<std::string> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  RELIEVO_TRY_ASSIGN(const auto images, reconstruction.draw_images());
+  RELIEVO_TRY_ASSIGN(const auto images, made.draw_images());
   storage::ExportOptions options(args.camera_frame ? storage::ExportFrame::Camera
                                                    : storage::ExportFrame::Head);
   options.version = kVersion;
   options.images = &images;
-  if (const auto files = storage::write_model_files(reconstruction.model(), folder.path(), options); !files) {
+  if (const auto files = storage::write_model_files(made.model(), folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
   std::string light;
   if (args.lod > 0) {
-    RELIEVO_TRY_ASSIGN(light, write_light_model(reconstruction.model(), args.lod, folder.path(),
-                                                options.frame, args.output));
+    RELIEVO_TRY_ASSIGN(light,
+                       write_light_model(made.model(), args.lod, folder.path(), options.frame, args.output));
   }
-  RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(reconstruction.report()), args.output));
-  if (!args.save.empty()) RELIEVO_TRY(reconstruction.save(args.save));
+  RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(made.report()), args.output));
+  RELIEVO_TRY(save());
   RELIEVO_TRY(folder.commit());
+  return light;
+}
+
+void say_of_model(const pipeline::FaceModel& model, const std::string& light, const Path& output,
+                  Console& console) {
+  const pipeline::ModelQuality& q = model.quality;
+  char line[160];
+  std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm",
+                q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
+  console.say(line);
+  if (model.unjudged) console.say("not judged to be a face: " + detail_of(*model.unjudged));
+  if (!light.empty()) console.say(light);
+  console.say("model and report: " + output.string());
+}
+
+Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
+  HeadReconstruction head;
+  RELIEVO_TRY(head.run(args.pictures, args.calibrations, args.algorithms, console));
+  RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, head, [] { return Result<void>(); }));
+  for (std::size_t k = 1; k < head.report().poses.size(); ++k)
+    console.say(line_of(k + 1, head.report().poses[k]));
+  say_of_model(head.model(), light, args.output, console);
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
+  if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
+  Reconstruction reconstruction;
+  const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
+  RELIEVO_TRY(args.load.empty()
+                  ? reconstruction.run(args.pictures[0], args.pictures[1], args.calibrations[0],
+                                       args.algorithms, args.by_hand, services.console, when_moved)
+                  : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand, services.console,
+                                        when_moved));
+  const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
+  RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, reconstruction, save));
 
   int number = static_cast<int>(State::Match);
   for (const StageRecord& stage : reconstruction.report().stages)
@@ -49,15 +85,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   for (const std::string& advice :
        {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
     if (!advice.empty()) services.console.say(advice);
-  const pipeline::ModelQuality& q = reconstruction.report().quality;
-  char line[160];
-  std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm",
-                q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
-  services.console.say(line);
-  if (reconstruction.model().unjudged)
-    services.console.say("not judged to be a face: " + detail_of(*reconstruction.model().unjudged));
-  if (!light.empty()) services.console.say(light);
-  services.console.say("model and report: " + args.output.string());
+  say_of_model(reconstruction.model(), light, args.output, services.console);
   if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());
   return {};
 }

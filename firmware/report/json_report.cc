@@ -43,6 +43,20 @@ nlohmann::ordered_json landmarks_json(const Report& report) {
   return all;
 }
 
+nlohmann::ordered_json poses_json(const std::vector<PoseReport>& poses) {
+  auto all = nlohmann::ordered_json::array();
+  for (const PoseReport& pose : poses) {
+    const auto& [rotation, moved] = pose.first_from_pose;
+    all.push_back({{"turned_deg", pose.turned_deg},
+                   {"rotation", rotation.m},
+                   {"translation_mm", {moved.x, moved.y, moved.z}},
+                   {"rms_mm", pose.rms_mm},
+                   {"sigma_deg", pose.sigma_deg},
+                   {"sigma_mm", pose.sigma_mm}});
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -82,6 +96,7 @@ std::string report_json(const Report& report) {
         {"symmetry_residual_mm", q.symmetry_residual_mm},
         {"relief", relief_json(q.relief)}}},
       {"landmarks", landmarks_json(report)},
+      {"poses", poses_json(report.poses)},
       {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
       {"overexposed",
        report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},

@@ -24,6 +24,15 @@ std::string line_of(const StageRecord& stage) {
   return line;
 }
 
+std::string line_of(std::size_t pair, const PoseReport& pose) {
+  char line[160];
+  std::snprintf(
+      line, sizeof line,
+      "Pair %-7zu turned by %.1f degrees, %.3f mm rms from the others; placed to %.3f degrees, %.3f mm", pair,
+      pose.turned_deg, pose.rms_mm, pose.sigma_deg, pose.sigma_mm);
+  return line;
+}
+
 std::string line_of(const pipeline::DriftJudgement& drift) {
   return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
 }

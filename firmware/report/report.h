@@ -18,6 +18,14 @@
 
 namespace relievo::firmware {
 
+// Of a head from several pairs: how each lies in the first one's frame.
+struct PoseReport {
+  double turned_deg = 0;  // against the first pair
+  pipeline::RigidTransform first_from_pose;
+  double rms_mm = 0;                   // from the other poses' surfaces
+  double sigma_deg = 0, sigma_mm = 0;  // of the registration: the worst axis, about the middle of the head
+};
+
 struct Report {
   std::string calibration;  // the file, or the store's revision
   std::string algorithms;   // "matcher = refined", one a line
@@ -31,9 +39,11 @@ struct Report {
   pipeline::RigidTransform head_from_camera{};
   std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
   std::size_t by_hand = 0;                        // matches, of those that Reconstruct took
+  std::vector<PoseReport> poses{};                 // empty: there was one pair
 };
 
 std::string line_of(const StageRecord& stage);  // for a terminal
+std::string line_of(std::size_t pair, const PoseReport& pose);
 std::string line_of(const pipeline::DriftJudgement& drift);
 std::string line_of_motion(double motion_px);                    // empty where it is not worth saying
 std::string line_of_light(const pipeline::Overexposure& white);  // the same

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/fuse/head_fuser.h"
 #include "pipeline/mesh/completion/generic_head_completion.h"
 #include "pipeline/mesh/completion/measured_only.h"
 #include "pipeline/mesh/completion/symmetric_completion.h"
@@ -94,6 +95,10 @@ std::vector<Kind> surface_kinds() {
        {{"check", "a sheet, however it is bent, is no face", "Gauss 1827; own"},
         {"off", "pictures of faces pass", "own"}}},
       kind_of("texturer", "two-view", "how the pictures are laid over it", kTexturers),
+      {"fuser",
+       "averaged",
+       "how several pairs of a head that turned become one surface",
+       {{"averaged", "the mean where they agree, the first pair's where they do not", "Kolluri 2008; own"}}},
   };
   kinds[1].algorithms.push_back({"none", "every point is taken", "own"});
   return kinds;
@@ -108,6 +113,7 @@ std::vector<OptionDescription> surface_options() {
   describe_table("completion", kCompletions, all);
   describe_options<ReliefOptions>("relief", "relief", all);
   describe_table("texturer", kTexturers, all);
+  describe_options<HeadFuserOptions>("fuser", "averaged", all);
   return all;
 }
 
@@ -137,6 +143,10 @@ Result<std::optional<ReliefOptions>> make_relief_check(const AlgorithmSet& set) 
   if (set.get("relief") == "off") return std::optional<ReliefOptions>();
   RELIEVO_TRY_ASSIGN(const ReliefOptions options, OptionReader::read<ReliefOptions>(set, "relief"));
   return std::optional(options);
+}
+
+Result<HeadFuserOptions> make_head_fuser(const AlgorithmSet& set) {
+  return OptionReader::read<HeadFuserOptions>(set, "averaged");
 }
 
 Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set) {

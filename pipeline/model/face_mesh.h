@@ -16,11 +16,18 @@ namespace relievo::pipeline {
 
 struct FaceMesh {
   explicit FaceMesh(std::pmr::memory_resource* memory)
-      : vertices_mm(memory), normals(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
+      : vertices_mm(memory),
+        normals(memory),
+        sigma_mm(memory),
+        measured(memory),
+        pose(memory),
+        triangles(memory) {}
   std::pmr::vector<Vec3f> vertices_mm;
   std::pmr::vector<Vec3f> normals;          // one a vertex
   std::pmr::vector<float> sigma_mm;         // one a vertex: standard deviation perpendicular to the surface
   std::pmr::vector<std::uint8_t> measured;  // one a vertex: 1 seen by both cameras, 0 completed
+  std::pmr::vector<std::uint8_t>
+      pose;  // one a vertex: which pair of pictures measured it; empty: there was one
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -33,6 +33,7 @@ std::string header(const ExportMesh& mesh) {
     text += std::string("property float ") + name + "\n";
   for (const char* name : {"red", "green", "blue", "measured"})
     text += std::string("property uchar ") + name + "\n";
+  if (!mesh.model.mesh.pose.empty()) text += "property uchar pose\n";
   text += "element face " + std::to_string(mesh.model.mesh.triangles.size()) + "\n";
   return text + "property list uchar int vertex_indices\nend_header\n";
 }
@@ -53,6 +54,7 @@ std::vector<std::byte> ply_bytes(const ExportMesh& mesh) {
     for (const float value : {at.x, at.y, at.z, normal.x, normal.y, normal.z, sigma_mm}) to.put(value);
     for (const std::uint8_t value : mesh.colours[i]) to.put(value);
     to.put(source.measured.empty() ? std::uint8_t{0} : source.measured[i]);
+    if (!source.pose.empty()) to.put(source.pose[i]);
   }
   for (const auto& triangle : source.triangles) {
     to.put(std::uint8_t{3});

@@ -17,12 +17,28 @@ TEST(CommandLine, Reconstruct) {
       parse({"reconstruct", "l.png", "--set", "matcher=zmncc", "r.png", "--set", "zmncc.window_px=15",
              "--calibration", "rig.yml", "-o", "out", "--frame", "camera", "--region", "all"});
   const auto& args = std::get<ReconstructArgs>(line.command);
-  EXPECT_EQ(args.left, "l.png");
-  EXPECT_EQ(args.right, "r.png");
+  EXPECT_EQ(args.pictures, (std::vector<Path>{"l.png", "r.png"}));
+  EXPECT_EQ(args.calibrations, std::vector<Path>{"rig.yml"});
   EXPECT_EQ(args.output, "out");
   EXPECT_TRUE(args.camera_frame);
   EXPECT_TRUE(args.algorithms.whole_view);
   EXPECT_EQ(args.algorithms.settings, (std::vector<std::string>{"matcher=zmncc", "zmncc.window_px=15"}));
+}
+
+TEST(CommandLine, AHeadThatTurned) {
+  const auto good =
+      parse({"reconstruct", "l0", "r0", "l1", "r1", "--calibration", "a.yml", "b.yml", "-o", "out"});
+  const auto& args = std::get<ReconstructArgs>(good.command);
+  EXPECT_EQ(args.pictures, (std::vector<Path>{"l0", "r0", "l1", "r1"}));
+  EXPECT_EQ(args.calibrations, (std::vector<Path>{"a.yml", "b.yml"}));
+  const std::vector<std::vector<const char*>> wrong{
+      {"reconstruct", "l0", "r0", "l1", "--calibration", "a.yml", "-o", "out"},
+      {"reconstruct", "l0", "r0", "l1", "r1", "l2", "r2", "--calibration", "a.yml", "b.yml", "-o", "out"},
+      {"reconstruct", "l0", "r0", "l1", "r1", "--calibration", "a.yml", "-o", "out", "--by-hand", "f"},
+      {"reconstruct", "1",  "2",  "3",  "4",  "5",  "6",  "7",  "8",
+       "9",           "10", "11", "12", "13", "14", "15", "16", "--calibration",
+       "a.yml",       "-o", "out"}};
+  for (const auto& words : wrong) EXPECT_EQ(parse(words).exit_code, 2) << words.size();
 }
 
 TEST(CommandLine, ALighterModelBesideIt) {

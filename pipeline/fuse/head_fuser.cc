@@ -1,0 +1,409 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/head_fuser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "pipeline/fuse/rim.h"
+#include "pipeline/fuse/skin_bender.h"
+#include "pipeline/mesh/mesher.h"
+#include "pipeline/mesh/meshers/band_volume.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kBandVoxels = 2.5F;       // how far from a point the field reaches
+constexpr float kCompletedShare = 0.02F;  // of a measured point's weight
+constexpr float kDisagreeSigmas = 4;
+constexpr float kDisagreeMm = 0.4F;  // what lies closer is the same skin
+constexpr float kSameWay = 0.3F;     // cosine: a surface that faces elsewhere is another one
+constexpr float kReachMm = 1.2F;     // of a pose's surface from a vertex that is placed on it
+constexpr float kLeastSigmaMm = 0.005F;
+constexpr float kFullTrust = 0.95F;
+constexpr float kLeastTrust = 0.005F;          // of a point that counts at all
+constexpr int kRimEdges = 3, kRimRounds = 20;  // what is opened, how often rims are straightened ...
+constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
+constexpr float kHoleRimMm = 180;              // holes with a shorter rim are closed
+constexpr int kBands = 32;
+// What belongs to a head, in its frame: shoulders and background do not.
+constexpr double kHighestMm = 190, kFurthestMm = -215, kWidestMm = 120;
+constexpr double kChinMm = -85, kNeckAxisMm = -95, kNeckRadiusMm = 75;
+
+// A measured or completed point in the master's frame.
+struct Splat {
+  Vec3f at_mm, normal;
+  float weight;
+};
+
+// Eyes move and close, and what lies between the lids is measured badly: there the master's own face stands.
+class EyeZone {
+ public:
+  EyeZone(const Landmarks& landmarks, const RigidTransform& head_from_camera)
+      : head_from_camera_(head_from_camera) {
+    using enum LandmarkName;
+    add(of(landmarks, EndocanthionLeft), of(landmarks, ExocanthionLeft));
+    add(of(landmarks, EndocanthionRight), of(landmarks, ExocanthionRight));
+  }
+  bool holds(const Vec3f& place) const {
+    const Vec3d p = apply(head_from_camera_, wide(place));
+    constexpr double kBehindMm = -90;
+    return p.z > kBehindMm && std::any_of(eyes_.begin(), eyes_.begin() + count_, [&](const Eye& e) {
+             return std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height) < 1;
+           });
+  }
+
+ private:
+  struct Eye {
+    Vec3d middle;
+    double half_width, half_height;
+  };
+  void add(const Landmark& inner, const Landmark& outer) {
+    if (!inner.found || !outer.found) return;
+    const Vec3d a = apply(head_from_camera_, wide(inner.at_mm)),
+                b = apply(head_from_camera_, wide(outer.at_mm));
+    constexpr double kWider = 1.2, kHigher = 0.75;  // than half the distance of the corners
+    const double half = distance(a, b) / 2;
+    eyes_[static_cast<std::size_t>(count_++)] = {times(plus(a, b), 0.5), kWider * half, kHigher * half};
+  }
+  RigidTransform head_from_camera_;
+  std::array<Eye, 2> eyes_{};
+  int count_ = 0;
+};
+
+class Fusion {
+ public:
+  Fusion(std::span<const PoseSurface> poses, const Registration& registration,
+         const HeadFuserOptions& options, const EyeZone& eyes, StageContext& context)
+      : poses_(poses),
+        registration_(registration),
+        options_(options),
+        eyes_(eyes),
+        context_(context),
+        back_(&context.scratch) {
+    for (const RegisteredPose& p : registration.poses) back_.push_back(inverse(p.first_from_pose));
+  }
+
+  // What pose k shows at a place of the master's frame, in that frame.
+  std::optional<SurfaceHit> look(std::size_t k, const Vec3f& place) const {
+    auto hit = poses_[k].look(narrow(apply(back_[k], wide(place))));
+    if (!hit || hit->trust <= kLeastTrust) return std::nullopt;
+    hit->trust = (hit->trust - kLeastTrust) / (1 - kLeastTrust);
+    const RigidTransform& placed = registration_.poses[k].first_from_pose;
+    hit->at_mm = narrow(apply(placed, wide(hit->at_mm)));
+    hit->normal = narrow(apply(placed.rotation, wide(hit->normal)));
+    return hit;
+  }
+
+  bool on_head(const Vec3f& place) const {
+    const Vec3d p = apply(poses_[0].head_from_camera, wide(place));
+    if (p.y < -options_.neck_mm || p.y > kHighestMm || p.z < kFurthestMm || std::abs(p.x) > kWidestMm)
+      return false;
+    return p.y > kChinMm || std::hypot(p.x, p.z - kNeckAxisMm) < kNeckRadiusMm;
+  }
+
+  // The points that count, of all poses.
+  std::pmr::vector<Splat> choose() const {
+    std::pmr::vector<Splat> all(&context_.scratch);
+    std::size_t room = 0;
+    for (const PoseSurface& p : poses_) room += p.at_mm.size();
+    all.reserve(room);
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      const PoseSurface& pose = poses_[k];
+      const RigidTransform& placed = registration_.poses[k].first_from_pose;
+      for (std::size_t i = 0; i < pose.at_mm.size(); ++i) {
+        if (pose.trust[i] < kLeastTrust) continue;
+        const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
+        if (!on_head(at) || eyes_.holds(at)) continue;
+        const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
+        if (!overruled(k, at, normal, pose.sigma_mm[i], pose.trust[i]))
+          all.push_back({at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))});
+      }
+    }
+    return all;
+  }
+
+  // Whether any pose measured something near, whichever way it faces.
+  bool shown_near(const Vec3f& at) const {
+    constexpr float kNearMm = 2;
+    for (std::size_t k = 0; k < poses_.size(); ++k)
+      if (const auto hit = look(k, at); hit && squared_distance(at, hit->at_mm) < kNearMm * kNearMm)
+        return true;
+    return false;
+  }
+
+  // Moves a vertex onto the mean of what the poses show; none where no pose shows anything there.
+  struct Placed {
+    Vec3f at_mm;
+    float sigma_mm;
+    std::uint8_t pose;
+  };
+  std::optional<Placed> settle(Vec3f at, const Vec3f& normal) const {
+    if (eyes_.holds(at)) return std::nullopt;
+    std::optional<Placed> placed;
+    for (int round = 0; round < 2; ++round) {
+      struct Seen {
+        float distance, weight, certainty, trust;
+        Vec3f normal;
+      };
+      std::array<Seen, kMostPoses> seen{};
+      std::size_t best = poses_.size();
+      for (std::size_t k = 0; k < poses_.size(); ++k) {
+        const auto hit = look(k, at);
+        if (!hit || dot(hit->normal, normal) < kSameWay) continue;
+        const float d = dot(hit->normal, minus(at, hit->at_mm));
+        if (std::abs(d) > kReachMm) continue;
+        const float certainty = 1 / squared(std::max(hit->sigma_mm, kLeastSigmaMm));
+        seen[k] = {d, hit->trust * certainty, certainty, hit->trust, hit->normal};
+        if (best == poses_.size() ||
+            rank(k, seen[k].trust, seen[k].weight) > rank(best, seen[best].trust, seen[best].weight))
+          best = k;
+      }
+      if (best == poses_.size()) return placed;
+      // What disagrees with the one that counts most is other skin, or skin that moved.
+      Vec3f pull{}, way{};
+      float weight = 0, variance = 0;
+      std::size_t most = best;
+      for (std::size_t k = 0; k < poses_.size(); ++k) {
+        Seen& s = seen[k];
+        if (s.weight <= 0) continue;
+        const float allowed =
+            std::max(kDisagreeMm, kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty));
+        // Fades, so that no step is left where one begins to disagree.
+        const float off = std::abs(s.distance - seen[best].distance) / allowed;
+        s.weight *= k == best ? 1 : std::clamp(2 - 2 * off, 0.0F, 1.0F);
+        pull = along(pull, s.weight * s.distance, s.normal);
+        weight += s.weight;
+        variance += s.weight * s.weight * (1 / s.certainty);
+        if (s.weight > seen[most].weight) most = k;
+      }
+      way = times(pull, -1 / weight);
+      at = plus(at, way);
+      const float registered = static_cast<float>(registration_sigma(most, at, normal));
+      placed = Placed{at, std::sqrt(variance / squared(weight) + squared(registered)),
+                      static_cast<std::uint8_t>(most)};
+    }
+    return placed;
+  }
+
+ private:
+  static float squared(float x) { return x * x; }
+  static Vec3f narrow(const Vec3d& p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+
+  // The master where it sees well; else whoever is surest.
+  static float rank(std::size_t k, float trust, float weight) {
+    return k == 0 && trust >= kFullTrust ? std::numeric_limits<float>::max() : weight;
+  }
+
+  // Another pose that counts for more shows the skin elsewhere.
+  bool overruled(std::size_t k, const Vec3f& at, const Vec3f& normal, float sigma, float trust) const {
+    const float mine = rank(k, trust, trust / squared(std::max(sigma, kLeastSigmaMm)));
+    for (std::size_t j = 0; j < poses_.size(); ++j) {
+      if (j == k) continue;
+      const auto hit = look(j, at);
+      if (!hit || dot(hit->normal, normal) < kSameWay) continue;
+      if (rank(j, hit->trust, hit->trust / squared(std::max(hit->sigma_mm, kLeastSigmaMm))) <= mine) continue;
+      const float d = std::abs(dot(hit->normal, minus(at, hit->at_mm)));
+      constexpr float kOtherMm = 6;  // further behind or before it lies something else
+      if (d < kOtherMm && d > std::max(kDisagreeMm, kDisagreeSigmas * std::hypot(sigma, hit->sigma_mm)))
+        return true;
+    }
+    return false;
+  }
+
+  // Of a place, perpendicular to the surface.
+  double registration_sigma(std::size_t k, const Vec3f& at, const Vec3f& normal) const {
+    if (k == 0) return 0;
+    const Vec3d n = wide(normal), turn = cross(minus(wide(at), registration_.pivot_mm), n);
+    const std::array<double, 6> j{turn.x, turn.y, turn.z, n.x, n.y, n.z};
+    double variance = 0;
+    for (std::size_t a = 0; a < 6; ++a)
+      for (std::size_t b = 0; b < 6; ++b)
+        variance += j[a] * j[b] * registration_.poses[k].covariance[6 * a + b];
+    return std::sqrt(std::max(variance, 0.0));
+  }
+
+  std::span<const PoseSurface> poses_;
+  const Registration& registration_;
+  const HeadFuserOptions& options_;
+  const EyeZone& eyes_;
+  StageContext& context_;
+  std::pmr::vector<RigidTransform> back_;
+};
+
+// Mean distance to the points' planes, weighted by certainty and a Gaussian of a voxel. A band of slices
+// each.
+void fill_field(std::span<const Splat> points, BandVolume& volume, StageContext& context) {
+  std::pmr::vector<float> weight(volume.value.size(), 0.0F, &context.scratch);
+  std::fill(volume.value.begin(), volume.value.end(), 0.0F);
+  const float radius = kBandVoxels * volume.voxel_mm;
+  const float narrow = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
+  context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
+    const float low = volume.at(0, 0, begin).z - radius, high = volume.at(0, 0, end - 1).z + radius;
+    for (const Splat& s : points) {
+      if (s.at_mm.z < low || s.at_mm.z > high) continue;
+      for_each_voxel_near(volume, s.at_mm, radius, [&](int x, int y, int z) {
+        if (z < begin || z >= end) return;
+        const Vec3f from = minus(volume.at(x, y, z), s.at_mm);
+        const float w = s.weight * std::exp(-narrow * dot(from, from));
+        const std::size_t k = volume.index(x, y, z);
+        volume.value[k] += w * dot(from, s.normal);
+        weight[k] += w;
+      });
+    }
+  });
+  for (std::size_t k = 0; k < weight.size(); ++k)
+    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius, radius)
+                                    : std::numeric_limits<float>::quiet_NaN();
+}
+
+// Where the master's own face stands for what the poses do not show.
+class OwnFace {
+ public:
+  OwnFace(const BandVolume& volume, std::pmr::memory_resource* memory)
+      : volume_(volume), sigma_(volume.value.size(), 0.0F, memory) {}
+  void mark(const Vec3f& at, float sigma_mm, bool measured) {
+    const float said = measured ? sigma_mm : -1 - sigma_mm;
+    for_each_voxel_near(volume_, at, kReachVoxels * volume_.voxel_mm,
+                        [&](int x, int y, int z) { sigma_[volume_.index(x, y, z)] = said; });
+  }
+  // None beyond it.
+  struct Said {
+    float sigma_mm;
+    bool measured;
+  };
+  std::optional<Said> at(const Vec3f& place) const {
+    const auto cell = [&](float x, float from) {
+      return static_cast<int>(std::lround((x - from) / volume_.voxel_mm));
+    };
+    const float said =
+        sigma_[volume_.index(cell(place.x, volume_.corner_mm.x), cell(place.y, volume_.corner_mm.y),
+                             cell(place.z, volume_.corner_mm.z))];
+    if (said == 0) return std::nullopt;
+    return Said{said > 0 ? said : -1 - said, said > 0};
+  }
+
+ private:
+  static constexpr float kReachVoxels = 2;
+  const BandVolume& volume_;
+  std::pmr::vector<float> sigma_;  // 0: nothing; below: completed
+};
+
+std::pmr::vector<Vec3f> area_normals(const Polygonised& surface, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Vec3f> normals(surface.vertices_mm.size(), Vec3f{}, memory);
+  for (const Triangle& t : surface.triangles) {
+    const Vec3f& a = surface.vertices_mm[t[0]];
+    const Vec3f area = cross(minus(surface.vertices_mm[t[1]], a), minus(surface.vertices_mm[t[2]], a));
+    for (const std::uint32_t v : t) normals[v] = plus(normals[v], area);
+  }
+  return normals;
+}
+
+// Two vertices that came to lie on one place would join sheets there: the second goes back to where it began.
+void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
+                 std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> order(vertices.size(), 0, memory);
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::uint32_t v) { return std::array{vertices[v].x, vertices[v].y, vertices[v].z}; };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::pmr::vector<std::uint32_t> second(memory);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]) == key(order[i - 1])) second.push_back(order[i]);
+  for (const std::uint32_t v : second) vertices[v] = started[v];
+}
+
+}  // namespace
+
+Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
+                                 const FaceMesh& face, const Landmarks& landmarks,
+                                 StageContext& context) const {
+  const Error stopped{Errc::Cancelled, "stopped while the poses were fused"};
+  RELIEVO_TRY(check_options(options_, "averaged"));
+  bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
+                 context);
+  if (context.stop()) return stopped;
+  const EyeZone eyes(landmarks, poses[0].head_from_camera);
+  const Fusion fusion(poses, registration, options_, eyes, context);
+  std::pmr::vector<Splat> points = fusion.choose();
+  if (points.empty()) return no_surface();
+  // What the master's mesher completed and nobody measured, and its eyes.
+  std::pmr::vector<std::uint32_t> own(&context.scratch);
+  for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
+    const Vec3f& at = face.vertices_mm[v];
+    if (!eyes.holds(at) && (face.measured[v] != 0 || fusion.shown_near(at))) continue;
+    points.push_back({at, face.normals[v], kCompletedShare});
+    own.push_back(v);
+  }
+  if (context.stop()) return stopped;
+
+  std::pmr::vector<Vec3f> places(&context.scratch);
+  places.reserve(points.size());
+  for (const Splat& s : points) places.push_back(s.at_mm);
+  BandVolume volume = volume_around(places, static_cast<float>(options_.voxel_mm), 4, &context.scratch);
+  {
+    const Arena::Mark mark(context.scratch);
+    fill_field(points, volume, context);
+  }
+  if (context.stop()) return stopped;
+  Polygonised surface = polygonise(volume, &context.scratch);
+  if (context.stop()) return stopped;
+
+  // Vertices on the poses' surfaces; what lies on none is the master's own, or goes.
+  OwnFace own_face(volume, &context.scratch);
+  for (const std::uint32_t v : own)
+    own_face.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
+  struct Vertex {
+    float sigma_mm = 0;
+    std::uint8_t pose = 0, measured = 0, kept = 0;
+  };
+  std::pmr::vector<Vertex> vertices(surface.vertices_mm.size(), Vertex{}, &context.scratch);
+  const auto settle = [&](std::size_t v, const Vec3f& normal) {
+    Vec3f& at = surface.vertices_mm[v];
+    if (const auto placed = fusion.settle(at, normal)) {
+      at = placed->at_mm;
+      const bool sure = placed->sigma_mm <= static_cast<float>(kMeasuredSigmaMm);
+      vertices[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1};
+    } else if (const auto said = own_face.at(at)) {
+      vertices[v] = {said->sigma_mm, 0, said->measured ? std::uint8_t{1} : std::uint8_t{0}, 1};
+    }
+  };
+  const std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
+  const std::pmr::vector<Vec3f> normals = area_normals(surface, &context.scratch);
+  context.pool.for_each_band(static_cast<int>(vertices.size()), kBands, [&](int begin, int end, int) {
+    for (int v = begin; v < end; ++v)
+      settle(static_cast<std::size_t>(v), unit(normals[static_cast<std::size_t>(v)]));
+  });
+  std::erase_if(surface.triangles, [&](const Triangle& t) {
+    return vertices[t[0]].kept == 0 || vertices[t[1]].kept == 0 || vertices[t[2]].kept == 0;
+  });
+  open_rims(vertices.size(), surface.triangles, kRimEdges, &context.scratch);
+  keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
+  if (surface.triangles.empty()) return no_surface();
+
+  auto border = border_edges(surface.triangles, &context.scratch);
+  smooth_rims(surface.vertices_mm, border, kRimRounds, kRimMoveMm, &context.scratch);
+  for (const BorderEdge& e : border) settle(e[0], unit(normals[e[0]]));
+  part_equals(surface.vertices_mm, started, &context.scratch);
+  // What closes a hole was not measured: nor is its rim, or its triangles would seem to be.
+  for (const std::uint32_t v : close_holes(surface.vertices_mm, border, kHoleRimMm, surface.triangles))
+    vertices[v].measured = 0;
+
+  std::pmr::vector<std::uint8_t> pose(&context.output);
+  pose.reserve(vertices.size());
+  FaceMesh mesh = pack_mesh(vertices.size(), surface.triangles, context, [&](std::size_t v) {
+    pose.push_back(vertices[v].pose);
+    return PackedVertex{surface.vertices_mm[v], vertices[v].sigma_mm, vertices[v].measured};
+  });
+  mesh.pose = std::move(pose);
+  compute_normals(mesh, 1, &context.scratch);
+  return mesh;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HeadFuser: makes one surface of what several poses measured of a head. The first pose is the master: its
+// frame, its instant, its expression.
+//   bend      what another pose shows otherwise than the surfaces before it, because skin moved, is bent to
+//             them: a smooth displacement along the normals, found where they overlap, at most so many
+//             millimetres, none where they agree within the noise, so that there both are averaged;
+//   choose    where two surfaces still disagree the master counts, or the one that looks straighter at it;
+//   shape     the zero of the mean distance to what is left (implicit moving least squares; Kolluri 2008), by
+//             marching cubes: one sheet, whoever measured it;
+//   place     every vertex on the mean of the poses' own surfaces at it, weighted by certainty and fading to
+//   the
+//             edge of each: no step where one ends.
+// `sigma_mm` holds what was measured, how sure the registration is, and how far the skin was bent.
+// Memory: the mesh in `output`; scratch 9 bytes a voxel of the head's box. Errors: PoorGeometry, Cancelled;
+// throws std::bad_alloc. Thread: any; works on the pool, the result does not depend on its size.
+#pragma once
+
+#include <span>
+
+#include "pipeline/base/options.h"
+#include "pipeline/fuse/pose_registration.h"
+#include "pipeline/model/landmarks.h"
+
+namespace relievo::pipeline {
+
+struct HeadFuserOptions {
+  double voxel_mm = 0.8;
+  double most_bend_mm = 1.5;
+  double bend_width_mm = 8;
+  double still_mm = 0.05;
+  double neck_mm = 112;
+};
+
+template <typename Field>
+void describe(HeadFuserOptions& o, Field&& field) {
+  field("voxel_mm", o.voxel_mm, OptionRange{0.5, 3}, "side of a voxel, mm");
+  field("most_bend_mm", o.most_bend_mm, OptionRange{0, 5},
+        "a pose's skin is bent by this much at most to meet the poses before it, mm");
+  field("bend_width_mm", o.bend_width_mm, OptionRange{2, 40}, "how smoothly, sigma in mm");
+  field("still_mm", o.still_mm, OptionRange{0, 1},
+        "what lies off by less than this is not bent but averaged, mm");
+  field("neck_mm", o.neck_mm, OptionRange{60, 300}, "how far below the tip of the nose the head is cut, mm");
+}
+
+class HeadFuser {
+ public:
+  explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
+  // `face`: the master's own mesh, whose completed parts fill what no pose measured; `landmarks` of it: what
+  // lies between the lids is the master's. Bends `poses` in place.
+  Result<FaceMesh> fuse(std::span<PoseSurface> poses, const Registration& registration, const FaceMesh& face,
+                        const Landmarks& landmarks, StageContext& context) const;
+
+ private:
+  HeadFuserOptions options_;
+};
+
+}  // namespace relievo::pipeline

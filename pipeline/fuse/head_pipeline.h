@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// HeadPipeline: a head from several pairs of pictures, between which it turned. The first pair is the master:
+// it gives the frame, the landmarks, the verdict whether it is a face, and the expression.
+//
+//   master pair -> front()  \                                                     / texture_head()
+//   other pairs -> turned()  > register_poses() -> HeadFuser -> one FaceMesh -> <
+//                           /                                                     \ quality of the whole
+//
+// Each pair may have a calibration of its own. What is kept of a pose lies in `kept`: 32 bytes a node of its
+// lattice and both rectified photographs, at 1920 x 1200 at most 24 MiB. Thread: worker; holds no state
+// between calls.
+#pragma once
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "pipeline/fuse/head_fuser.h"
+#include "pipeline/fuse/pose_registration.h"
+#include "pipeline/pipeline.h"
+
+namespace relievo::pipeline {
+
+struct HeadPose {
+  explicit HeadPose(std::pmr::memory_resource* memory)
+      : surface(memory), left_rgb(memory), right_rgb(memory) {}
+  PoseSurface surface;
+  int width_px = 0, height_px = 0;
+  Vec2d right_centre_px;
+  double baseline_mm = 0;
+  std::pmr::vector<std::uint8_t> left_rgb, right_rgb;
+};
+
+struct FrontPose {
+  HeadPose pose;
+  FaceModel face;  // of this pair alone, without texture
+};
+
+struct FusedHead {
+  FaceModel model;  // in the first pair's left camera's frame
+  Registration registration;
+};
+
+class HeadPipeline {
+ public:
+  // Errors: those of Pipeline::make.
+  static Result<HeadPipeline> make(const AlgorithmSet& set);
+
+  // The stages' errors. `context.output` may be reset once they have returned, but for the face of front().
+  Result<FrontPose> front(const StereoFrame& frame, const StereoCalibration& calibration,
+                          StageContext& context, Arena& kept) const;
+  Result<HeadPose> turned(const StereoFrame& frame, const StereoCalibration& calibration,
+                          StageContext& context, Arena& kept) const;
+  // `poses`: the master's first; they are bent. Errors: PoorGeometry (a pair that meets none of the others,
+  // named by its number), Cancelled, OutOfMemory.
+  Result<FusedHead> fuse(FaceModel face, std::span<HeadPose> poses, StageContext& context) const;
+
+ private:
+  explicit HeadPipeline(const AlgorithmSet& set) : set_(set) {}
+  AlgorithmSet set_;
+  HeadFuserOptions fuser_;
+};
+
+}  // namespace relievo::pipeline

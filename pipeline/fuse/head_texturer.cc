@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/head_texturer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "pipeline/mesh/triangle_raster.h"
+#include "pipeline/model/photo_sampler.h"
+#include "pipeline/model/vector3.h"
+#include "pipeline/texture/chart/side_charts.h"
+#include "pipeline/texture/colour_fill.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr int kDepthShare = 2;               // pixels of a photograph a place of its depth map, each way
+constexpr float kHiddenMm = 2.5F;            // behind what the map says: hidden
+constexpr float kLeastCosine = 0.17F;        // 80 degrees: not looked at
+constexpr float kFadeEdge = 0.12F;           // of a view's say, lost an edge nearer to where it ends ...
+constexpr int kFadeEdges = 8;                // ... over so many edges
+constexpr float kOthersOnCompleted = 0.05F;  // say of other poses where the master completed what it saw
+constexpr float kMasterLevel = 20;           // the others are brought to the master's level
+constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
+constexpr float kWinner = 12;                // power of what a view's say is to the best one's
+constexpr float kBorderPx = 3;
+constexpr double kLevelCellMm = 8;  // of the grid of slowly varying differences
+constexpr int kLevelBlurs = 3;
+
+struct Cell {
+  std::array<float, 3> sum{};
+  float weight = 0;
+};
+
+// A coarse grid of colour differences over the head's box.
+class LevelGrid {
+ public:
+  LevelGrid(const FaceMesh& mesh, std::pmr::memory_resource* memory) : cells_(memory), spare_(memory) {
+    Vec3f high{-1e9F, -1e9F, -1e9F};
+    low_ = {1e9F, 1e9F, 1e9F};
+    for (const Vec3f& v : mesh.vertices_mm) {
+      low_ = {std::min(low_.x, v.x), std::min(low_.y, v.y), std::min(low_.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    const auto count = [](float from, float to) {
+      return static_cast<int>(static_cast<double>(to - from) / kLevelCellMm) + 3;
+    };
+    size_ = {count(low_.x, high.x), count(low_.y, high.y), count(low_.z, high.z)};
+    cells_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+                  static_cast<std::size_t>(size_[2]));
+    spare_.resize(cells_.size());
+  }
+  void clear() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
+  void add(const Vec3f& at, const VertexColour& difference, float weight) {
+    for_corners(at, [&](std::size_t k, float share) {
+      for (std::size_t c = 0; c < 3; ++c) cells_[k].sum[c] += share * weight * difference[c];
+      cells_[k].weight += share * weight;
+    });
+  }
+  // A binomial along each axis, so many times; then cells that nobody filled take their neighbours' mean.
+  void smooth() {
+    for (int round = 0; round < kLevelBlurs; ++round)
+      for (std::size_t axis = 0; axis < 3; ++axis) blur(axis);
+  }
+  VertexColour at(const Vec3f& place) const {
+    VertexColour sum{0, 0, 0};
+    float weight = 1e-6F;
+    for_corners(place, [&](std::size_t k, float share) {
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += share * cells_[k].sum[c];
+      weight += share * cells_[k].weight;
+    });
+    for (float& c : sum) c /= weight;
+    return sum;
+  }
+
+ private:
+  template <typename Visit>
+  void for_corners(const Vec3f& place, Visit&& visit) const {
+    const std::array<float, 3> p{(place.x - low_.x), (place.y - low_.y), (place.z - low_.z)};
+    std::array<std::size_t, 3> first{};
+    std::array<float, 3> f{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const float x = std::max(p[a] / static_cast<float>(kLevelCellMm), 0.0F);
+      first[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(size_[a] - 2));
+      f[a] = std::min(x - static_cast<float>(first[a]), 1.0F);
+    }
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::size_t dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
+      const float share =
+          (dx != 0 ? f[0] : 1 - f[0]) * (dy != 0 ? f[1] : 1 - f[1]) * (dz != 0 ? f[2] : 1 - f[2]);
+      visit(((first[2] + dz) * static_cast<std::size_t>(size_[1]) + first[1] + dy) *
+                    static_cast<std::size_t>(size_[0]) +
+                first[0] + dx,
+            share);
+    }
+  }
+  void blur(std::size_t axis) {
+    const std::array<std::size_t, 3> stride{
+        1, static_cast<std::size_t>(size_[0]),
+        static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1])};
+    const std::size_t n = static_cast<std::size_t>(size_[axis]), step = stride[axis];
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const std::size_t at = k / step % n;
+      Cell sum;
+      const auto take = [&](const Cell& cell, float share) {
+        for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += share * cell.sum[c];
+        sum.weight += share * cell.weight;
+      };
+      take(cells_[k], 0.5F);
+      take(cells_[at > 0 ? k - step : k], 0.25F);
+      take(cells_[at + 1 < n ? k + step : k], 0.25F);
+      spare_[k] = sum;
+    }
+    std::swap(cells_, spare_);
+  }
+  Vec3f low_;
+  std::array<int, 3> size_{};
+  std::pmr::vector<Cell> cells_, spare_;
+};
+
+class Texturing {
+ public:
+  Texturing(const FaceMesh& mesh, std::span<const HeadView> views, StageContext& context)
+      : mesh_(mesh),
+        views_(views),
+        context_(context),
+        vertices_(mesh.vertices_mm.size()),
+        say_(vertices_ * views.size(), 0.0F, &context.scratch),
+        level_(vertices_ * views.size(), VertexColour{}, &context.scratch),
+        known_(vertices_, 0, &context.scratch),
+        colours_(vertices_, VertexColour{}, &context.scratch),
+        sides_(&context.scratch),
+        atlas_(&context.output) {}
+
+  Result<TextureAtlas> run(int max_atlas_px) {
+    const Error stopped{Errc::Cancelled, "texturing was stopped"};
+    context_.pool.for_each_band(static_cast<int>(views_.size()), static_cast<int>(views_.size()),
+                                [&](int begin, int end, int) {
+                                  for (int i = begin; i < end; ++i)
+                                    if (!context_.stop()) look(static_cast<std::size_t>(i));
+                                });
+    if (context_.stop()) return stopped;
+    for (std::size_t v = 0; v < vertices_; ++v)
+      for (std::size_t i = 0; i < views_.size(); ++i) known_[v] = known_[v] != 0 || say(v, i) > 0 ? 1 : 0;
+    even_out();
+    if (context_.stop()) return stopped;
+    lay_out(max_atlas_px);
+    shade();
+    if (context_.stop()) return stopped;
+    for (std::size_t v = 0; v < vertices_; ++v)
+      if (known_[v] != 0) colours_[v] = blend_at(v);
+    fill_colours(mesh_, known_, colours_, context_);
+    paint_filled();
+    constexpr int kMarginPx = 8;
+    continue_outwards(atlas_, kMarginPx, &context_.scratch);
+    atlas_.vertex_rgb.reserve(3 * colours_.size());
+    for (const VertexColour& colour : colours_)
+      for (const float c : colour) atlas_.vertex_rgb.push_back(to_byte(c));
+    return std::move(atlas_);
+  }
+
+ private:
+  float& say(std::size_t vertex, std::size_t view) { return say_[view * vertices_ + vertex]; }
+  float say(std::size_t vertex, std::size_t view) const { return say_[view * vertices_ + vertex]; }
+  const VertexColour& level(std::size_t vertex, std::size_t view) const {
+    return level_[view * vertices_ + vertex];
+  }
+
+  struct Pixel {
+    float x, y, z;
+  };
+  static Pixel project(const HeadView& view, const Vec3f& place) {
+    const Vec3d p = apply(view.view_from_head, wide(place));
+    return {static_cast<float>(view.focal_px * p.x / p.z + view.centre_px.x),
+            static_cast<float>(view.focal_px * p.y / p.z + view.centre_px.y), static_cast<float>(p.z)};
+  }
+
+  // How well a photograph looks at every vertex.
+  void look(std::size_t i) {
+    const HeadView& view = views_[i];
+    const int w = view.width_px / kDepthShare, h = view.height_px / kDepthShare;
+    std::vector<float> depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 1e9F);
+    std::vector<Pixel> pixel(vertices_);
+    for (std::size_t v = 0; v < vertices_; ++v) pixel[v] = project(view, mesh_.vertices_mm[v]);
+    for (const auto& t : mesh_.triangles) {
+      const auto corner = [&](std::size_t k) {
+        return Vec2f{pixel[t[k]].x / kDepthShare, pixel[t[k]].y / kDepthShare};
+      };
+      for_each_texel(corner(0), corner(1), corner(2), w, {0, h},
+                     [&](int x, int y, float a, float b, float c) {
+                       float& d = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                                        static_cast<std::size_t>(x)];
+                       d = std::min(d, a * pixel[t[0]].z + b * pixel[t[1]].z + c * pixel[t[2]].z);
+                     });
+    }
+    const Vec3d eye = apply(inverse(view.view_from_head), Vec3d{0, 0, 0});
+    for (std::size_t v = 0; v < vertices_; ++v) {
+      const Pixel& p = pixel[v];
+      if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx ||
+          p.x > static_cast<float>(view.width_px) - kBorderPx - 1 ||
+          p.y > static_cast<float>(view.height_px) - kBorderPx - 1)
+        continue;
+      const Vec3d to_eye = unit(minus(eye, wide(mesh_.vertices_mm[v])));
+      const float cosine = static_cast<float>(dot(to_eye, wide(mesh_.normals[v])));
+      if (cosine <= kLeastCosine) continue;
+      const std::size_t x = static_cast<std::size_t>(std::min(static_cast<int>(p.x) / kDepthShare, w - 1)),
+                        y = static_cast<std::size_t>(std::min(static_cast<int>(p.y) / kDepthShare, h - 1));
+      if (p.z > depth[y * static_cast<std::size_t>(w) + x] + kHiddenMm / cosine) continue;
+      float here = cosine - kLeastCosine;
+      if (view.master) here *= kMasterFirst;
+      if (!view.master && mesh_.measured[v] == 0) here *= kOthersOnCompleted;
+      say(v, i) = here;
+    }
+    fade(i);
+  }
+
+  // Towards where a view ends, or something hides the head from it.
+  void fade(std::size_t i) {
+    std::vector<float> share(vertices_);
+    for (std::size_t v = 0; v < vertices_; ++v) share[v] = say(v, i) > 0 ? 1 : 0;
+    for (int round = 0; round < kFadeEdges; ++round)
+      for (const auto& t : mesh_.triangles) {
+        const float least = std::min({share[t[0]], share[t[1]], share[t[2]]}) + kFadeEdge;
+        for (const std::uint32_t v : t) share[v] = std::min(share[v], least);
+      }
+    for (std::size_t v = 0; v < vertices_; ++v) say(v, i) *= share[v];
+  }
+
+  VertexColour read(std::size_t view, const Vec3f& place) const {
+    const HeadView& v = views_[view];
+    const Pixel p = project(v, place);
+    VertexColour rgb{};
+    const float x = std::clamp(p.x, 0.0F, static_cast<float>(v.width_px - 1) - 1e-3F),
+                y = std::clamp(p.y, 0.0F, static_cast<float>(v.height_px - 1) - 1e-3F);
+    const std::size_t w = static_cast<std::size_t>(v.width_px);
+    const std::size_t k = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
+    float wx[4], wy[4];
+    cubic_weights(x - std::floor(x), wx);
+    cubic_weights(y - std::floor(y), wy);
+    if (x < 1 || y < 1 || x >= static_cast<float>(v.width_px - 3) ||
+        y >= static_cast<float>(v.height_px - 3)) {
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(v.rgb[3 * k + c]);
+      return rgb;
+    }
+    for (std::size_t r = 0; r < 4; ++r) {
+      const std::uint8_t* row = &v.rgb[3 * (k + r * w - w - 1)];
+      for (std::size_t q = 0; q < 4; ++q)
+        for (std::size_t c = 0; c < 3; ++c) rgb[c] += wy[r] * wx[q] * static_cast<float>(row[3 * q + c]);
+    }
+    return rgb;
+  }
+
+  // Every photograph's slowly varying difference from the mean of all that see the same skin.
+  void even_out() {
+    std::pmr::vector<VertexColour> mean(vertices_, VertexColour{}, &context_.scratch);
+    std::pmr::vector<float> weight(vertices_, 0.0F, &context_.scratch);
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      for (std::size_t v = 0; v < vertices_; ++v) {
+        if (say(v, i) <= 0) continue;
+        const float w = say(v, i) * (views_[i].master ? kMasterLevel : 1);
+        level_[i * vertices_ + v] = read(i, mesh_.vertices_mm[v]);
+        for (std::size_t c = 0; c < 3; ++c) mean[v][c] += w * level_[i * vertices_ + v][c];
+        weight[v] += w;
+      }
+    LevelGrid grid(mesh_, &context_.scratch);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      grid.clear();
+      for (std::size_t v = 0; v < vertices_; ++v) {
+        if (say(v, i) <= 0) continue;
+        VertexColour difference;
+        for (std::size_t c = 0; c < 3; ++c)
+          difference[c] = mean[v][c] / weight[v] - level_[i * vertices_ + v][c];
+        grid.add(mesh_.vertices_mm[v], difference, say(v, i));
+      }
+      grid.smooth();
+      for (std::size_t v = 0; v < vertices_; ++v) level_[i * vertices_ + v] = grid.at(mesh_.vertices_mm[v]);
+    }
+  }
+
+  void lay_out(int max_px) {
+    const std::pmr::vector<std::uint8_t> none(mesh_.triangles.size(), 0, &context_.scratch);
+    Chart empty(&context_.scratch);
+    empty.height_px = max_px / 2;
+    const HeadView& master = views_.front();
+    double depth = 0;
+    for (const Vec3f& v : mesh_.vertices_mm) depth += apply(master.view_from_head, wide(v)).z;
+    const double px_per_mm = master.focal_px * static_cast<double>(vertices_) / depth;
+    sides_ = lay_out_sides(mesh_, empty, none, known_, px_per_mm, max_px, &context_.scratch);
+    atlas_.width_px = std::max(sides_.width_px, 1);
+    atlas_.height_px = empty.height_px;
+    const std::size_t texels =
+        static_cast<std::size_t>(atlas_.width_px) * static_cast<std::size_t>(atlas_.height_px);
+    atlas_.rgb.assign(3 * texels, 0);
+    atlas_.origin.assign(texels, kNoSurfaceTexel);
+    atlas_.uv.resize(3 * mesh_.triangles.size());
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2f& at = sides_.corner[3 * s + k];
+        atlas_.uv[3 * std::size_t{sides_.triangles[s]} + k] = {
+            (at.x + 0.5F) / static_cast<float>(atlas_.width_px),
+            (at.y + 0.5F) / static_cast<float>(atlas_.height_px)};
+      }
+  }
+
+  bool seen_whole(const std::array<std::uint32_t, 3>& t) const {
+    return known_[t[0]] != 0 && known_[t[1]] != 0 && known_[t[2]] != 0;
+  }
+
+  // Bands of rows: a texel on two triangles' edge is painted in their order, whoever paints it.
+  void shade() {
+    constexpr int kBands = 32;
+    context_.pool.for_each_band(atlas_.height_px, kBands, [&](int begin, int end, int) {
+      for (std::size_t s = 0; s < sides_.triangles.size() && !context_.stop(); ++s)
+        shade_triangle(s, {begin, end});
+    });
+  }
+
+  void shade_triangle(std::size_t s, RowRange rows) {
+    const auto [low, high] =
+        std::minmax({sides_.corner[3 * s].y, sides_.corner[3 * s + 1].y, sides_.corner[3 * s + 2].y});
+    if (high < static_cast<float>(rows.begin) - 1 || low > static_cast<float>(rows.end)) return;
+    const auto& t = mesh_.triangles[sides_.triangles[s]];
+    if (!seen_whole(t)) return;
+    // Views that see all of it; where none does, those that see a corner.
+    std::array<std::size_t, 16> list{};
+    std::size_t count = 0;
+    for (const bool all : {true, false}) {
+      for (std::size_t i = 0; i < views_.size() && count < list.size(); ++i) {
+        const float a = say(t[0], i), b = say(t[1], i), c = say(t[2], i);
+        if (all ? a > 0 && b > 0 && c > 0 : a > 0 || b > 0 || c > 0) list[count++] = i;
+      }
+      if (count > 0) break;
+    }
+    for_each_texel(
+        sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], atlas_.width_px, rows,
+        [&](int x, int y, float a, float b, float c) {
+          const Vec3f place = plus(plus(times(mesh_.vertices_mm[t[0]], a), times(mesh_.vertices_mm[t[1]], b)),
+                                   times(mesh_.vertices_mm[t[2]], c));
+          const auto mean = [&](std::size_t i) {
+            return a * say(t[0], i) + b * say(t[1], i) + c * say(t[2], i);
+          };
+          const Blend blend =
+              mix(std::span(list.data(), count), mean, place, [&](std::size_t i, std::size_t k) {
+                return a * level(t[0], i)[k] + b * level(t[1], i)[k] + c * level(t[2], i)[k];
+              });
+          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
+                                 static_cast<std::size_t>(x);
+          for (std::size_t k = 0; k < 3; ++k) atlas_.rgb[3 * at + k] = to_byte(blend.rgb[k]);
+          atlas_.origin[at] =
+              static_cast<std::uint8_t>(kLeftPhotographTexel + std::lround(253 * blend.right));
+        });
+  }
+
+  struct Blend {
+    VertexColour rgb{};
+    float right = 0;
+  };
+  template <typename Say, typename Level>
+  Blend mix(std::span<const std::size_t> list, Say&& say_of, const Vec3f& place, Level&& level_of) const {
+    float best = 1e-9F;
+    for (const std::size_t i : list) best = std::max(best, say_of(i));
+    Blend blend;
+    float weight = 0;
+    for (const std::size_t i : list) {
+      const float w = std::pow(std::max(say_of(i), 0.0F) / best, kWinner);
+      constexpr float kNothing = 0.01F;
+      if (w < kNothing) continue;
+      const VertexColour rgb = read(i, place);
+      for (std::size_t k = 0; k < 3; ++k) blend.rgb[k] += w * (rgb[k] + level_of(i, k));
+      blend.right += views_[i].right ? w : 0;
+      weight += w;
+    }
+    for (float& c : blend.rgb) c /= weight;
+    blend.right = std::clamp(blend.right / weight, 0.0F, 1.0F);
+    return blend;
+  }
+
+  VertexColour blend_at(std::size_t v) const {
+    std::array<std::size_t, 16> list{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < views_.size() && count < list.size(); ++i)
+      if (say(v, i) > 0) list[count++] = i;
+    return mix(
+               std::span(list.data(), count), [&](std::size_t i) { return say(v, i); }, mesh_.vertices_mm[v],
+               [&](std::size_t i, std::size_t k) { return level(v, i)[k]; })
+        .rgb;
+  }
+
+  void paint_filled() {
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
+      const auto& t = mesh_.triangles[sides_.triangles[s]];
+      if (seen_whole(t)) continue;
+      for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2],
+                     atlas_.width_px, {0, atlas_.height_px}, [&](int x, int y, float a, float b, float c) {
+                       const std::size_t at =
+                           static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
+                           static_cast<std::size_t>(x);
+                       if (atlas_.origin[at] >= kLeftPhotographTexel) return;
+                       for (std::size_t k = 0; k < 3; ++k)
+                         atlas_.rgb[3 * at + k] =
+                             to_byte(a * colours_[t[0]][k] + b * colours_[t[1]][k] + c * colours_[t[2]][k]);
+                       atlas_.origin[at] = kFilledTexel;
+                     });
+    }
+  }
+
+  const FaceMesh& mesh_;
+  std::span<const HeadView> views_;
+  StageContext& context_;
+  std::size_t vertices_;
+  std::pmr::vector<float> say_;           // a view and vertex: 0 where it is not seen
+  std::pmr::vector<VertexColour> level_;  // a view and vertex: what is added to the photograph
+  std::pmr::vector<std::uint8_t> known_;  // a vertex: 1 where any view sees it
+  std::pmr::vector<VertexColour> colours_;
+  SideCharts sides_;
+  TextureAtlas atlas_;
+};
+
+}  // namespace
+
+Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::span<const HeadView> views, int max_atlas_px,
+                                  StageContext& context) {
+  if (views.empty() || mesh.triangles.empty())
+    return Error{Errc::InvalidInput, "no photograph, or no surface"};
+  return Texturing(mesh, views, context).run(max_atlas_px);
+}
+
+}  // namespace relievo::pipeline

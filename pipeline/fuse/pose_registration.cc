@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/pose_registration.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "hal/base/statistics.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+using Square =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 * (kMostPoses - 1), 6 * (kMostPoses - 1)>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 * (kMostPoses - 1), 1>;
+
+constexpr double kSamples = 18'000;  // nodes of a lattice that are laid onto the other poses, at most
+constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
+constexpr double kSameWay = 0.7;     // cosine between the normals of what is taken for the same skin
+constexpr double kLeastSigmaMm = 0.03;
+constexpr double kHeadCentreMm = 95;  // behind the tip of the nose
+constexpr double kNeckMm = -60;       // above the tip of the nose
+constexpr double kFewestSamples = 300, kFewestCoarse = 80;
+constexpr double kRadians = 3.14159265358979 / 180;
+constexpr double kRidge = 1e-9;
+constexpr double kStillMm = 1e-5;
+// How far apart two surfaces may lie to be taken for the same skin, and the scale beyond which a distance
+// loses its say, round by round.
+struct Round {
+  double reach_mm, scale_mm;
+  int times;
+};
+constexpr std::array<Round, 5> kRounds{{{12, 6, 8}, {6, 2, 6}, {3, 0.7, 6}, {2, 0.25, 8}, {1.5, 0.12, 8}}};
+constexpr Round kLast{1.5, 0.08, 12};
+// Skin moves in patches: one whose mean lies further off than this has moved.
+// Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
+constexpr double kScaleOfUsual = 1.5;
+constexpr double kPatchScaleMm = 0.05;
+constexpr double kPatchMm = 20;
+constexpr int kAcross = 24;  // patches
+constexpr std::size_t kPatches = std::size_t{kAcross} * kAcross * kAcross, kRegions = kPatches / 8;
+
+// How one pose is laid onto those before it, and from where it is tried, where its own head frame is no good
+// start.
+constexpr std::array<Round, 4> kCoarse{{{25, 12, 8}, {12, 6, 6}, {6, 2, 6}, {3, 0.7, 4}}};
+constexpr double kCoarseSamples = 4'500;
+constexpr double kMetMm = 1;  // of what lies near another pose's surface, this near:
+constexpr double kWellMetShare = 0.8, kMetShare = 0.5;  // at once believed; the best of all starts is
+constexpr std::array<Vec2d, 9> kTurnsDeg{
+    {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {-65, 0}, {65, 0}, {0, -20}, {0, 20}}};  // yaw, pitch
+
+// How much the skin at a place in the head's frame has to say of how the skull stands.
+double say_of(const Vec3d& p) {
+  const double side = std::abs(p.x);
+  if (p.y < kNeckMm) return 0;                // neck
+  if (p.y > 105) return 0.1;                  // hair
+  if (p.z < -62) return p.y < -30 ? 0.1 : 1;  // temples, ears; the jaw's corner
+  if (p.y > 52) return 1;                     // forehead
+  if (side < 9 && p.y > 12) return 1;         // bridge of the nose
+  if (p.y > 20 && side < 60) return 0.05;     // lids and brows
+  if (p.y > 0) return side > 30 ? 0.3 : 0.1;  // cheek bones
+  return 0.02;                                // lips, chin, jaw
+}
+
+RigidTransform product(const RigidTransform& a, const RigidTransform& b) {
+  RigidTransform out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      out.rotation.m[3 * i + j] = 0;
+      for (int k = 0; k < 3; ++k)
+        out.rotation.m[3 * i + j] += a.rotation.m[3 * i + k] * b.rotation.m[3 * k + j];
+    }
+  out.translation_mm = apply(a, b.translation_mm);
+  return out;
+}
+
+// The motion by a rotation vector and a translation about a pivot.
+RigidTransform small_motion(const Vector6& d, const Vec3d& pivot) {
+  const Eigen::Vector3d turn = d.head<3>();
+  const double angle = turn.norm();
+  const Eigen::Matrix3d r =
+      angle > 1e-12 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
+  RigidTransform out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out.rotation.m[3 * i + j] = r(i, j);
+  const Vec3d turned = apply(out.rotation, pivot);
+  out.translation_mm = {pivot.x - turned.x + d[3], pivot.y - turned.y + d[4], pivot.z - turned.z + d[5]};
+  return out;
+}
+
+Vec3f narrow(const Vec3d& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+// What one sample of a pose says against another one's surface.
+struct Residual {
+  double value, weight;
+  Vector6 toward;  // derivative by a motion of the sample's pose; of the other one it is the opposite
+  Vec3d at;
+  std::size_t patch;
+};
+
+class Solver {
+ public:
+  Solver(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed, StageContext& context)
+      : poses_(poses),
+        placed_(placed),
+        context_(context),
+        unknowns_(6 * static_cast<Eigen::Index>(poses.size() - 1)),
+        patches_(&context.scratch),
+        known_(&context.scratch) {
+    pivot_ = apply(inverse(poses[0].head_from_camera), Vec3d{0, 20, -kHeadCentreMm});
+  }
+
+  // Each pose from its head frame or the start that serves best, the surest first.
+  Result<void> place_all() {
+    std::pmr::vector<std::size_t> left(&context_.scratch);
+    for (std::size_t p = 1; p < poses_.size(); ++p) left.push_back(p);
+    known_.assign(poses_.size(), 0);
+    known_[0] = 1;
+    for (const bool anywhere : {false, true})
+      for (bool more = true; more;) {
+        more = false;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+          if (context_.stop()) return stopped();
+          const Laid laid = anywhere ? lay_from_anywhere(left[i]) : lay_from_head(left[i]);
+          if (laid.count < kFewestCoarse || laid.share < (anywhere ? kMetShare : kWellMetShare)) continue;
+          placed_[left[i]].first_from_pose = laid.placed;
+          known_[left[i]] = 1;
+          left.erase(left.begin() + static_cast<std::ptrdiff_t>(i--));
+          more = true;
+        }
+      }
+    if (left.empty()) return {};
+    return meets_none(left[0]);
+  }
+
+  Result<void> run() {
+    RELIEVO_TRY(place_all());
+    for (const Round& round : kRounds)
+      for (int k = 0; k < round.times && move(round) > kStillMm; ++k)
+        if (context_.stop()) return stopped();
+    patches_.assign(kPatches * poses_.size() * poses_.size(), Patch{});
+    for (int k = 0; k < kLast.times; ++k) {
+      weigh_patches();
+      if (context_.stop()) return stopped();
+      if (move(kLast) <= kStillMm) break;
+    }
+    return measure();
+  }
+  const Vec3d& pivot() const { return pivot_; }
+
+ private:
+  struct Patch {
+    float sum = 0, weight = 0;
+  };
+  struct Laid {
+    RigidTransform placed;
+    double count = 0,
+           share = 0;  // what lies on another pose's surface, by its say: how much, and of what is near one
+  };
+
+  Laid lay_from_head(std::size_t p) {
+    if (!poses_[p].has_head) return {};
+    return lay(p, product(inverse(poses_[0].head_from_camera), poses_[p].head_from_camera));
+  }
+  // As if the head had turned before the same cameras.
+  Laid lay_from_anywhere(std::size_t p) {
+    Laid best = lay_from_head(p);
+    for (const Vec2d& turn : kTurnsDeg) {
+      if (context_.stop()) break;
+      const Eigen::Matrix3d r = (Eigen::AngleAxisd(turn.x * kRadians, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(turn.y * kRadians, Eigen::Vector3d::UnitX()))
+                                    .toRotationMatrix();
+      RigidTransform turned;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) turned.rotation.m[3 * i + j] = r(i, j);
+      const Vec3d middle{0, 20, -kHeadCentreMm}, moved = apply(turned.rotation, middle);
+      turned.translation_mm = minus(middle, moved);
+      const RigidTransform& head = poses_[0].head_from_camera;
+      const Laid laid = lay(p, product(inverse(head), product(turned, head)));
+      if (laid.count * laid.share > best.count * best.share) best = laid;
+    }
+    return best;
+  }
+
+  // One pose onto the known ones, which stay.
+  Laid lay(std::size_t p, const RigidTransform& start) {
+    placed_[p].first_from_pose = start;
+    Laid laid;
+    double near = 0;
+    for (const Round& round : kCoarse)
+      for (int k = 0; k < round.times; ++k) {
+        Matrix6 normal = kRidge * Matrix6::Identity();
+        Vector6 right = Vector6::Zero();
+        laid.count = near = 0;
+        for_each_sample(p, kCoarseSamples, [&](std::size_t node, const Vec3d& n, double say, Residual& res) {
+          for (std::size_t b = 0; b < poses_.size(); ++b) {
+            if (known_[b] == 0 || b == p || !meet(poses_[p], node, n, b, round, res)) continue;
+            normal += say * res.weight * res.toward * res.toward.transpose();
+            right += say * res.weight * res.value * res.toward;
+            near += say;
+            laid.count += std::abs(res.value) < kMetMm ? say : 0;
+          }
+        });
+        if (near < kFewestCoarse) return {};
+        const Vector6 step = normal.ldlt().solve(right);
+        placed_[p].first_from_pose = product(small_motion(-step, pivot_), placed_[p].first_from_pose);
+      }
+    laid.placed = placed_[p].first_from_pose;
+    laid.share = laid.count / near;
+    return laid;
+  }
+  static Error meets_none(std::size_t p) {
+    return Error{Errc::PoorGeometry,
+                 "what this pair shows meets none of the others: turn the head by less between two of them"}
+        .at("pair " + std::to_string(p + 1));
+  }
+  static Error stopped() { return {Errc::Cancelled, "stopped while the poses were laid onto each other"}; }
+  static Eigen::Index place(std::size_t pose) { return 6 * (static_cast<Eigen::Index>(pose) - 1); }
+
+  // One Gauss-Newton step; returns how far it went, millimetres and radians together.
+  double move(const Round& round) {
+    Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
+    Column right = Column::Zero(unknowns_);
+    std::pmr::vector<float> off(&context_.scratch);
+    for_each_residual(round, [&](std::size_t a, std::size_t b, const Residual& r) {
+      add(normal, right, a, b, r);
+      off.push_back(static_cast<float>(std::abs(r.value)));
+    });
+    usual_mm_ = off.empty() ? 0 : median(off);
+    const Column step = normal.ldlt().solve(right);
+    for (std::size_t p = 1; p < poses_.size(); ++p)
+      placed_[p].first_from_pose =
+          product(small_motion(-step.segment<6>(place(p)), pivot_), placed_[p].first_from_pose);
+    return step.norm();
+  }
+
+  static void add(Square& normal, Column& right, std::size_t a, std::size_t b, const Residual& r) {
+    const Matrix6 square = r.weight * r.toward * r.toward.transpose();
+    const Vector6 pull = r.weight * r.value * r.toward;
+    if (a > 0) {
+      normal.block<6, 6>(place(a), place(a)) += square;
+      right.segment<6>(place(a)) += pull;
+    }
+    if (b > 0) {
+      normal.block<6, 6>(place(b), place(b)) += square;
+      right.segment<6>(place(b)) -= pull;
+    }
+    if (a > 0 && b > 0) {
+      normal.block<6, 6>(place(a), place(b)) -= square;
+      normal.block<6, 6>(place(b), place(a)) -= square;
+    }
+  }
+
+  // Places of a pose that say something of how the skull stands: visit(node, normal in the first pose's
+  // frame, say, residual with its place and patch).
+  template <typename Visit>
+  void for_each_sample(std::size_t a, double most, Visit&& visit) const {
+    const PoseSurface& from = poses_[a];
+    const int every = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(from.trust.size()) / most)));
+    const RigidTransform& placed = placed_[a].first_from_pose;
+    for (int r = every / 2; r < from.rows; r += every)
+      for (int c = every / 2; c < from.columns; c += every) {
+        const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(from.columns) +
+                              static_cast<std::size_t>(c);
+        if (from.trust[k] < kLeastTrust) continue;
+        Residual res{};
+        res.at = apply(placed, wide(from.at_mm[k]));
+        const Vec3d in_head = apply(poses_[0].head_from_camera, res.at);
+        const double say = patches_.empty() ? say_of(in_head) : in_head.y < kNeckMm ? 0 : 1;
+        if (say == 0) continue;
+        res.patch = patch_of(in_head);
+        visit(k, apply(placed.rotation, wide(from.normal[k])), say, res);
+      }
+  }
+
+  template <typename Visit>
+  void for_each_residual(const Round& round, Visit&& visit) const {
+    for (std::size_t a = 0; a < poses_.size(); ++a)
+      for_each_sample(a, kSamples, [&](std::size_t k, const Vec3d& normal, double say, Residual& res) {
+        for (std::size_t b = 0; b < poses_.size(); ++b)
+          if (b != a && meet(poses_[a], k, normal, b, round, res)) {
+            res.weight *= say * still(res.patch, a, b);
+            visit(a, b, res);
+          }
+      });
+  }
+
+  // False where pose `b` shows nothing near, or the other side of something.
+  bool meet(const PoseSurface& from, std::size_t k, const Vec3d& normal, std::size_t b, const Round& round,
+            Residual& res) const {
+    const RigidTransform& placed = placed_[b].first_from_pose;
+    const auto hit = poses_[b].look(narrow(apply(inverse(placed), res.at)));
+    if (!hit || hit->trust < kLeastTrust) return false;
+    const Vec3d n = apply(placed.rotation, wide(hit->normal));
+    if (dot(n, normal) < kSameWay) return false;
+    res.value = dot(n, minus(res.at, apply(placed, wide(hit->at_mm))));
+    if (std::abs(res.value) > round.reach_mm) return false;
+    const double a = static_cast<double>(from.sigma_mm[k]), s = static_cast<double>(hit->sigma_mm);
+    const double scale = std::max(round.scale_mm, kScaleOfUsual * usual_mm_);
+    const double kept = scale * scale / (scale * scale + res.value * res.value);
+    res.weight = static_cast<double>(std::min(from.trust[k], hit->trust)) * kept * kept /
+                 (a * a + s * s + kLeastSigmaMm * kLeastSigmaMm);
+    const Vec3d turn = cross(minus(res.at, pivot_), n);
+    res.toward << turn.x, turn.y, turn.z, n.x, n.y, n.z;
+    return true;
+  }
+
+  static std::size_t patch_of(const Vec3d& in_head) {
+    const auto cell = [](double x) {
+      return static_cast<std::size_t>(
+          std::clamp(static_cast<int>(std::floor(x / kPatchMm)) + kAcross / 2, 0, kAcross - 1));
+    };
+    return (cell(in_head.z + kHeadCentreMm) * kAcross + cell(in_head.y)) * kAcross + cell(in_head.x);
+  }
+  // Skin moves in regions of two patches each way.
+  static std::size_t region_of(std::size_t patch) {
+    const std::size_t x = patch % kAcross, y = patch / kAcross % kAcross, z = patch / kAcross / kAcross;
+    return ((z / 2) * (kAcross / 2) + y / 2) * (kAcross / 2) + x / 2;
+  }
+  // Of a patch of one pose's skin, about where it should be: half of that between two poses, robustly.
+  double skin_variance() const { return usual_patch_mm() * usual_patch_mm() / 2; }
+  // How far patches lie off between two poses, one standard deviation, robustly.
+  double usual_patch_mm() const {
+    std::pmr::vector<double> off(&context_.scratch);
+    for (const Patch& p : patches_)
+      if (p.weight > 0) off.push_back(std::abs(static_cast<double>(p.sum / p.weight)));
+    return off.empty() ? 0 : median(off) / 0.6745;
+  }
+  std::size_t patch_between(std::size_t patch, std::size_t a, std::size_t b) const {
+    return (patch * poses_.size() + std::min(a, b)) * poses_.size() + std::max(a, b);
+  }
+
+  // How far each patch of skin has moved between every two poses: the mean of what it lies off.
+  void weigh_patches() {
+    std::pmr::vector<Patch> sums(patches_.size(), Patch{}, &context_.scratch);
+    for_each_residual(kLast, [&](std::size_t a, std::size_t b, const Residual& r) {
+      Patch& sum = sums[patch_between(r.patch, a, b)];
+      const double weight = r.weight / std::max(still(r.patch, a, b), 1e-6);
+      sum.sum += static_cast<float>(a < b ? weight * r.value : -weight * r.value);
+      sum.weight += static_cast<float>(weight);
+    });
+    patches_ = sums;
+    patch_scale_mm_ = std::max(kPatchScaleMm, usual_patch_mm());
+  }
+  double still(std::size_t patch, std::size_t a, std::size_t b) const {
+    if (patches_.empty()) return 1;
+    const Patch& p = patches_[patch_between(patch, a, b)];
+    const double mean = p.weight > 0 ? static_cast<double>(p.sum / p.weight) : 0;
+    const double kept = patch_scale_mm_ * patch_scale_mm_ / (patch_scale_mm_ * patch_scale_mm_ + mean * mean);
+    return kept * kept;
+  }
+
+  // The covariance, and how well the poses lie on each other.
+  Result<void> measure() {
+    Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
+    Column none = Column::Zero(unknowns_);
+    // What it does to all poses when a region of one pose's skin stands a millimetre out.
+    std::pmr::vector<Column> pulls(kRegions * poses_.size(), Column::Zero(0), &context_.scratch);
+    struct Sum {
+      double squares = 0, weight = 0, count = 0;
+    };
+    std::pmr::vector<Sum> sums(poses_.size(), Sum{}, &context_.scratch);
+    for_each_residual(kLast, [&](std::size_t a, std::size_t b, const Residual& r) {
+      add(normal, none, a, b, r);
+      const Vector6 one = r.weight * r.toward;
+      for (const std::size_t p : {a, b}) {
+        Column& pull = pulls[region_of(r.patch) * poses_.size() + p];
+        if (pull.size() == 0) pull = Column::Zero(unknowns_);
+        const double way = p == a ? 1 : -1;
+        if (a > 0) pull.segment<6>(place(a)) += way * one;
+        if (b > 0) pull.segment<6>(place(b)) -= way * one;
+        sums[p].squares += r.weight * r.value * r.value;
+        sums[p].weight += r.weight;
+        sums[p].count += 1;
+      }
+    });
+    const Square bread = normal.ldlt().solve(Square::Identity(unknowns_, unknowns_));
+    Square covariance = Square::Zero(unknowns_, unknowns_);
+    for (const Column& pull : pulls) {
+      if (pull.size() == 0) continue;
+      const Column moved = bread * pull;
+      covariance += moved * moved.transpose();
+    }
+    covariance *= skin_variance();
+    for (std::size_t p = 0; p < poses_.size(); ++p) {
+      RegisteredPose& pose = placed_[p];
+      if (sums[p].count < kFewestSamples) return meets_none(p);
+      pose.rms_mm = std::sqrt(sums[p].squares / sums[p].weight);
+      if (p == 0) continue;
+      for (Eigen::Index i = 0; i < 6; ++i)
+        for (Eigen::Index j = 0; j < 6; ++j)
+          pose.covariance[static_cast<std::size_t>(6 * i + j)] = covariance(place(p) + i, place(p) + j);
+    }
+    return {};
+  }
+
+  std::span<const PoseSurface> poses_;
+  std::span<RegisteredPose> placed_;
+  StageContext& context_;
+  Eigen::Index unknowns_;
+  double usual_mm_ = 0;  // distance between the surfaces, in the step before
+  double patch_scale_mm_ = kPatchScaleMm;
+  std::pmr::vector<Patch> patches_;       // empty until the poses lie on each other
+  std::pmr::vector<std::uint8_t> known_;  // poses that others are laid onto, while they are placed
+  Vec3d pivot_;
+};
+
+}  // namespace
+
+Result<Registration> register_poses(std::span<const PoseSurface> poses, StageContext& context) {
+  if (poses.empty() || !poses[0].has_head)
+    return Error{Errc::InvalidInput, "no head was found in the first pair: it must be the one from in front"}
+        .at("pair 1");
+  Registration made(&context.output);
+  made.poses.resize(poses.size());
+  Solver solver(poses, made.poses, context);
+  made.pivot_mm = solver.pivot();
+  if (poses.size() > 1) RELIEVO_TRY(solver.run());
+  return made;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Finds how the head turned between the pictures: for every pose the rigid motion into the first one's left
+// camera's frame. All poses at once, each against each: what a pose measured is laid onto every other one's
+// surface (point to plane; Chen, Medioni 1992, projected as Blais, Levine 1995), with a redescending weight
+// (Geman, McClure 1987) that narrows to the noise. A living face moves: forehead, temples, the bridge of the
+// nose, the sides and the ears count, lids, lips, jaw and neck hardly do.
+// The covariance holds how far regions of skin were seen to move, each as one: what one region moved is one
+// observation and not a thousand. Millimetres, radians.
+#pragma once
+
+#include <array>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "pipeline/base/stage.h"
+#include "pipeline/fuse/pose_surface.h"
+
+namespace relievo::pipeline {
+
+inline constexpr int kMostPoses = 7;
+
+struct RegisteredPose {
+  RigidTransform first_from_pose;
+  // Of a small motion after it, in the first pose's frame about the middle of the head (`pivot_mm`): rotation
+  // vector, then translation; row by row.
+  std::array<double, 36> covariance{};
+  double rms_mm = 0;  // of the skin that counts, from the other poses' surfaces
+};
+
+struct Registration {
+  explicit Registration(std::pmr::memory_resource* memory) : poses(memory) {}
+  std::pmr::vector<RegisteredPose> poses;  // the first is the identity, its covariance 0
+  Vec3d pivot_mm;
+};
+
+// The first pose must have a head frame; others start from theirs, or, where that leads nowhere, from a head
+// turned by 25, 45 and 65 degrees. Memory: the result in `output`. Errors: InvalidInput (the first has no
+// head frame), PoorGeometry (a pose meets no other: names it), Cancelled. Throws std::bad_alloc. Thread: any.
+Result<Registration> register_poses(std::span<const PoseSurface> poses, StageContext& context);
+
+}  // namespace relievo::pipeline

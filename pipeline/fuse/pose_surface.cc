@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/pose_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/mesh/lattice/lattice_surface.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+// What joins two nodes to one surface: as the grid mesher has it.
+constexpr LatticeLimits kLimits{4.33F, 4, 3, 0.5F};  // tangent of 77 degrees
+constexpr float kMostSigmaMm = 1;       // along the line of sight: hair seen through, and what lies behind
+constexpr float kEdgeNodes = 6;         // over which trust grows from the edge of what was measured
+constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
+constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
+
+// Steps from the edge, by two sweeps of a chamfer (Borgefors 1986).
+std::pmr::vector<float> steps_from_edge(int columns, int rows, const std::pmr::vector<float>& inside,
+                                        std::pmr::memory_resource* memory) {
+  constexpr float kDiagonal = 1.4F;
+  std::pmr::vector<float> steps(inside.size(), 0.0F, memory);
+  const auto at = [&](int c, int r) {
+    return c < 0 || r < 0 || c >= columns || r >= rows
+               ? 0.0F
+               : steps[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(c)];
+  };
+  for (std::size_t k = 0; k < inside.size(); ++k) steps[k] = inside[k] > 0 ? 1e6F : 0;
+  const auto relax = [&](int c, int r, int way) {
+    float& here =
+        steps[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+    here = std::min({here, at(c - way, r) + 1, at(c, r - way) + 1, at(c - way, r - way) + kDiagonal,
+                     at(c + way, r - way) + kDiagonal});
+  };
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) relax(c, r, 1);
+  for (int r = rows - 1; r >= 0; --r)
+    for (int c = columns - 1; c >= 0; --c) relax(c, r, -1);
+  return steps;
+}
+
+// 1 where all cells around a node carry surface.
+std::pmr::vector<float> whole_nodes(const PointLattice& lattice, const LatticeSurface& surface,
+                                    std::pmr::memory_resource* memory) {
+  std::pmr::vector<float> whole(lattice.size(), 0.0F, memory);
+  for (int r = 1; r + 1 < lattice.rows; ++r)
+    for (int c = 1; c + 1 < lattice.columns; ++c) {
+      bool all = true;
+      for (const auto& [dc, dr] : {std::pair{0, 0}, {-1, 0}, {0, -1}, {-1, -1}})
+        all = all && triangle_count(surface.cells[lattice.index(c + dc, r + dr)]) == 2;
+      whole[lattice.index(c, r)] = all ? 1.0F : 0.0F;
+    }
+  return whole;
+}
+
+}  // namespace
+
+Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
+                                      StageContext& context) {
+  if (cloud.lattice_step_px <= 0)
+    return Error{Errc::Unsupported,
+                 "only points on a lattice can be fused: choose selector=dense or grid-points"};
+  const PointLattice lattice = make_lattice(cloud, &context.scratch);
+  if (lattice.columns < 3 || lattice.rows < 3)
+    return Error{Errc::PoorGeometry, "too little was measured to make a surface of"};
+  const LatticeSurface surface = join_neighbours(lattice, kLimits, &context.scratch);
+  if (context.stop()) return Error{Errc::Cancelled, "stopped before the fusion"};
+
+  PoseSurface pose(&context.output);
+  pose.columns = lattice.columns;
+  pose.rows = lattice.rows;
+  pose.rectified_from_camera = pair.rectified_from_left;
+  pose.focal_px = pair.focal_px;
+  pose.centre_px = pair.left_centre_px;
+  pose.step_px = cloud.lattice_step_px;
+  pose.first_px = {1e9, 1e9};
+  for (const CloudPoint& p : cloud.points) {
+    pose.first_px.x = std::min(pose.first_px.x, static_cast<double>(p.left_px.x));
+    pose.first_px.y = std::min(pose.first_px.y, static_cast<double>(p.left_px.y));
+  }
+  pose.at_mm.assign(lattice.at_mm.begin(), lattice.at_mm.end());
+  pose.normal.assign(lattice.size(), Vec3f{});
+  pose.sigma_mm.assign(lattice.size(), 0.0F);
+  pose.trust.assign(lattice.size(), 0.0F);
+
+  for_each_triangle(lattice, surface, [&](const std::array<std::uint32_t, 3>& t) {
+    const Vec3f& a = lattice.at_mm[t[0]];
+    const Vec3f area = cross(minus(lattice.at_mm[t[1]], a), minus(lattice.at_mm[t[2]], a));
+    for (const std::uint32_t v : t) pose.normal[v] = plus(pose.normal[v], area);
+  });
+  std::pmr::vector<float> whole = whole_nodes(lattice, surface, &context.scratch);
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    if (lattice.sigma_mm[k] > kMostSigmaMm) whole[k] = 0;
+  const std::pmr::vector<float> steps = steps_from_edge(pose.columns, pose.rows, whole, &context.scratch);
+  // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
+  std::pmr::vector<Vec3f> raw(pose.normal.begin(), pose.normal.end(), &context.scratch);
+  for (int r = 1; r + 1 < pose.rows; ++r)
+    for (int c = 1; c + 1 < pose.columns; ++c) {
+      const std::size_t k = lattice.index(c, r);
+      if (whole[k] == 0) continue;
+      Vec3f sum{};
+      for (int dr = -2; dr <= 2; ++dr)
+        for (int dc = -2; dc <= 2; ++dc) {
+          if (!lattice.inside(c + dc, r + dr)) continue;
+          const std::size_t other = lattice.index(c + dc, r + dr);
+          if (whole[other] != 0) sum = plus(sum, raw[other]);
+        }
+      Vec3f n = unit(sum);
+      const Vec3f sight = unit(lattice.at_mm[k]);
+      if (dot(n, sight) > 0) n = times(n, -1.0F);
+      const float cosine = -dot(n, sight);
+      pose.normal[k] = n;
+      pose.sigma_mm[k] = lattice.sigma_mm[k] * std::max(cosine, kEdgeOnCosine);
+      pose.trust[k] = std::min(1.0F, steps[k] / kEdgeNodes) *
+                      std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
+    }
+  return pose;
+}
+
+std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
+  const Vec3d p = apply(rectified_from_camera, wide(place));
+  if (!(p.z > 0)) return std::nullopt;
+  const double x = (focal_px * p.x / p.z + centre_px.x - first_px.x) / step_px;
+  const double y = (focal_px * p.y / p.z + centre_px.y - first_px.y) / step_px;
+  if (!(x >= 0 && y >= 0 && x < columns - 1 && y < rows - 1)) return std::nullopt;
+  const std::size_t w = static_cast<std::size_t>(columns);
+  const std::size_t k = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
+  const float fx = static_cast<float>(x - std::floor(x)), fy = static_cast<float>(y - std::floor(y));
+  SurfaceHit hit{};
+  float least = 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t node = k + i % 2 + (i / 2) * w;
+    if (trust[node] <= 0) return std::nullopt;
+    const float share = (i % 2 == 0 ? 1 - fx : fx) * (i < 2 ? 1 - fy : fy);
+    hit.at_mm = along(hit.at_mm, share, at_mm[node]);
+    hit.normal = along(hit.normal, share, normal[node]);
+    hit.sigma_mm += share * sigma_mm[node];
+    hit.trust += share * trust[node];
+    least = std::min(least, dot(normal[node], normal[k]));
+  }
+  if (least < 0) return std::nullopt;  // a fold between the nodes
+  hit.normal = unit(hit.normal);
+  return hit;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// PoseSurface: what one pair of pictures measured of a head, kept until the heads of all poses are fused: a
+// lattice of points with normals, in that pose's left camera's frame, and how that camera sees it, so that
+// the surface at any place is found by projecting the place into the view. Millimetres. 32 bytes a node.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "pipeline/base/stage.h"
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+
+namespace relievo::pipeline {
+
+// Where the surface lies at a place that was projected into the view.
+struct SurfaceHit {
+  Vec3f at_mm;     // on the line of sight through the place
+  Vec3f normal;    // towards the camera, unit length
+  float sigma_mm;  // perpendicular to the surface
+  float trust;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
+};
+
+struct PoseSurface {
+  explicit PoseSurface(std::pmr::memory_resource* memory)
+      : at_mm(memory), normal(memory), sigma_mm(memory), trust(memory) {}
+  int columns = 0, rows = 0;
+  // How the rectified left view sees the left camera's frame.
+  Rotation rectified_from_camera;
+  double focal_px = 0;
+  Vec2d centre_px;
+  Vec2d first_px;  // of node (0, 0)
+  double step_px = 1;
+  // columns * rows each, row by row.
+  std::pmr::vector<Vec3f> at_mm;
+  std::pmr::vector<Vec3f> normal;
+  std::pmr::vector<float> sigma_mm;  // perpendicular to the surface
+  std::pmr::vector<float> trust;     // 0: nothing was measured there
+  RigidTransform head_from_camera;
+  bool has_head = false;  // whether a head frame was found
+
+  // None where nothing was measured, or the surface is torn there.
+  std::optional<SurfaceHit> look(const Vec3f& place_mm) const;
+};
+
+// Of a cloud on a lattice. Nodes on the edge of what was measured and surface steeper than 75 degrees to the
+// line of sight go. Memory: output; scratch. Thread: any. Errors: Unsupported (scattered points),
+// PoorGeometry (no surface), Cancelled; throws std::bad_alloc.
+Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
+                                      StageContext& context);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/rim.h"
+
+#include <algorithm>
+
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
+
+// How many edges each vertex lies from those that are `at` 0; `most` and beyond is `most`.
+void count_edges(std::span<const Triangle> triangles, int most, std::pmr::vector<std::uint8_t>& at) {
+  for (int round = 0; round < most; ++round)
+    for (const Triangle& t : triangles) {
+      const auto next = static_cast<std::uint8_t>(std::min({at[t[0]], at[t[1]], at[t[2]]}) + 1);
+      for (const std::uint32_t v : t) at[v] = std::min(at[v], next);
+    }
+}
+
+}  // namespace
+
+std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
+                                          std::pmr::memory_resource* memory) {
+  struct Edge {
+    std::uint64_t key;
+    bool forward;
+  };
+  std::pmr::vector<Edge> edges(memory);
+  edges.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = t[i], b = t[(i + 1) % 3];
+      edges.push_back({a < b ? a << 32 | b : b << 32 | a, a < b});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });
+  std::pmr::vector<BorderEdge> border(memory);
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i + 1;
+    while (end < edges.size() && edges[end].key == edges[i].key) ++end;
+    const auto low = static_cast<std::uint32_t>(edges[i].key >> 32),
+               high = static_cast<std::uint32_t>(edges[i].key);
+    if (end - i == 1) border.push_back(edges[i].forward ? BorderEdge{low, high} : BorderEdge{high, low});
+    i = end;
+  }
+  return border;
+}
+
+void open_rims(std::size_t vertices, std::pmr::vector<Triangle>& triangles, int edges,
+               std::pmr::memory_resource* memory) {
+  const auto far = static_cast<std::uint8_t>(edges);
+  std::pmr::vector<std::uint8_t> from_rim(vertices, far, memory);
+  for (const BorderEdge& e : border_edges(triangles, memory)) from_rim[e[0]] = from_rim[e[1]] = 0;
+  count_edges(triangles, edges, from_rim);
+  std::pmr::vector<std::uint8_t> from_core(vertices, static_cast<std::uint8_t>(far + 1), memory);
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (from_rim[v] >= far) from_core[v] = 0;
+  count_edges(triangles, edges, from_core);
+  std::erase_if(triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return from_core[v] > far; });
+  });
+}
+
+void smooth_rims(std::span<Vec3f> vertices, std::span<const BorderEdge> border, int rounds, float most_mm,
+                 std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> next(vertices.size(), kNobody, memory),
+      before(vertices.size(), kNobody, memory);
+  std::pmr::vector<std::uint8_t> shared(vertices.size(), 0, memory);
+  for (const BorderEdge& e : border) {
+    if (next[e[0]] != kNobody) shared[e[0]] = 1;
+    if (before[e[1]] != kNobody) shared[e[1]] = 1;
+    next[e[0]] = e[1];
+    before[e[1]] = e[0];
+  }
+  const std::pmr::vector<Vec3f> first(vertices.begin(), vertices.end(), memory);
+  std::pmr::vector<Vec3f> moved(first, memory);
+  for (int round = 0; round < rounds; ++round) {
+    for (const BorderEdge& e : border) {
+      const std::uint32_t v = e[0];
+      if (shared[v] != 0 || before[v] == kNobody) continue;
+      const Vec3f middle = times(plus(vertices[next[v]], vertices[before[v]]), 0.5F);
+      const Vec3f way = minus(times(plus(vertices[v], middle), 0.5F), first[v]);
+      const float far = length(way);
+      moved[v] = along(first[v], far > most_mm ? most_mm / far : 1.0F, way);
+    }
+    for (const BorderEdge& e : border) vertices[e[0]] = moved[e[0]];
+  }
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The rims of a fused head's surface. Triangles are counter-clockwise seen from outside. Thread: any. Throw
+// std::bad_alloc.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "pipeline/mesh/surface_cleaner.h"
+
+namespace relievo::pipeline {
+
+using BorderEdge = std::array<std::uint32_t, 2>;  // as its triangle runs
+
+std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
+                                          std::pmr::memory_resource* memory);
+
+// Takes away what is narrower than about twice so many edges: teeth, threads (an opening; Serra 1982).
+void open_rims(std::size_t vertices, std::pmr::vector<Triangle>& triangles, int edges,
+               std::pmr::memory_resource* memory);
+
+// Straightens rims: every vertex of them towards the middle of its two neighbours, by at most so much from
+// where it was. One that several rims share stays.
+void smooth_rims(std::span<Vec3f> vertices_mm, std::span<const BorderEdge> border, int rounds, float most_mm,
+                 std::pmr::memory_resource* memory);
+
+// Closes every hole but the longest rim, where its rim is no longer than `most_mm`: without new vertices, by
+// the triangulation of least area (Barequet, Sharir 1995; CGAL). One whose closing would use an edge that is
+// there already stays open. Returns the vertices of the rims that were closed.
+std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices_mm, std::span<const BorderEdge> border,
+                                       float most_mm, std::pmr::vector<Triangle>& triangles);
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/skin_bender.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr float kReachMm = 3;          // a surface further off is another one
+constexpr float kSameWay = 0.6F;       // cosine between the normals of what is taken for the same skin
+constexpr float kCellMm = 2;           // of the grid on which the displacement is smoothed
+constexpr float kNothingSaid = 0.02F;  // weight that pulls to no displacement, beyond the overlap
+constexpr float kMovedSigma = 0.9F;    // what is not known of a displacement, share of its usual size around
+
+Vec3f narrow(const Vec3d& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+struct Field {
+  Field(int w, int h, std::pmr::memory_resource* memory)
+      : columns(w),
+        rows(h),
+        sum(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0.0F, memory),
+        weight(sum.size(), 0.0F, memory),
+        square(sum.size(), 0.0F, memory) {}
+  int columns, rows;
+  std::pmr::vector<float> sum, weight;  // displacement times weight; weight
+  std::pmr::vector<float> square;       // of the displacement, its mean around
+};
+
+// A Gaussian by three boxes (Wells 1986), along rows and columns.
+void blur(std::pmr::vector<float>& plane, int columns, int rows, double sigma_cells,
+          std::pmr::memory_resource* memory) {
+  const int reach =
+      std::max(1, static_cast<int>(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2)));
+  std::pmr::vector<float> line(static_cast<std::size_t>(std::max(columns, rows)), 0.0F, memory);
+  const auto pass = [&](int count, std::size_t first, std::size_t stride) {
+    double sum = 0;
+    const auto at = [&](int i) -> float& { return plane[first + static_cast<std::size_t>(i) * stride]; };
+    for (int i = 0; i < std::min(reach, count); ++i) sum += static_cast<double>(at(i));
+    for (int i = 0; i < count; ++i) {
+      if (i + reach < count) sum += static_cast<double>(at(i + reach));
+      if (i - reach - 1 >= 0) sum -= static_cast<double>(at(i - reach - 1));
+      line[static_cast<std::size_t>(i)] = static_cast<float>(sum / (2 * reach + 1));
+    }
+    for (int i = 0; i < count; ++i) at(i) = line[static_cast<std::size_t>(i)];
+  };
+  for (int round = 0; round < 3; ++round) {
+    for (int r = 0; r < rows; ++r)
+      pass(columns, static_cast<std::size_t>(r) * static_cast<std::size_t>(columns), 1);
+    for (int c = 0; c < columns; ++c)
+      pass(rows, static_cast<std::size_t>(c), static_cast<std::size_t>(columns));
+  }
+}
+
+class Bender {
+ public:
+  Bender(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
+         StageContext& context)
+      : poses_(poses),
+        registration_(registration),
+        limits_(limits),
+        context_(context),
+        fixed_(poses.size(), 0, &context.scratch) {
+    fixed_[0] = 1;
+  }
+
+  void run() {
+    for (std::size_t n = 1; n < poses_.size() && !context_.stop(); ++n) {
+      std::size_t best = 0;
+      double most = -1;
+      for (std::size_t k = 1; k < poses_.size(); ++k)
+        if (fixed_[k] == 0)
+          if (const double share = overlap(k); share > most) {
+            most = share;
+            best = k;
+          }
+      bend(best);
+      fixed_[best] = 1;
+    }
+  }
+
+ private:
+  // By how much node i of pose k lies before what is fixed, and how sure that is.
+  struct Gap {
+    float distance = 0, weight = 0;
+  };
+  Gap gap(std::size_t k, std::size_t i) const {
+    const RigidTransform& placed = registration_.poses[k].first_from_pose;
+    const Vec3d at = apply(placed, wide(poses_[k].at_mm[i]));
+    const Vec3d normal = apply(placed.rotation, wide(poses_[k].normal[i]));
+    Gap sum;
+    for (std::size_t j = 0; j < poses_.size(); ++j) {
+      if (fixed_[j] == 0) continue;
+      const RigidTransform& other = registration_.poses[j].first_from_pose;
+      const auto hit = poses_[j].look(narrow(apply(inverse(other), at)));
+      if (!hit) continue;
+      const Vec3d n = apply(other.rotation, wide(hit->normal));
+      if (dot(n, normal) < static_cast<double>(kSameWay)) continue;
+      const float d = static_cast<float>(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
+      if (std::abs(d) > kReachMm) continue;
+      const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + 1e-4F);
+      sum.distance += w * d;
+      sum.weight += w;
+    }
+    if (sum.weight > 0) sum.distance /= sum.weight;
+    return sum;
+  }
+
+  double overlap(std::size_t k) const {
+    constexpr std::size_t kEvery = 37;
+    double met = 0;
+    for (std::size_t i = 0; i < poses_[k].at_mm.size(); i += kEvery)
+      if (poses_[k].trust[i] > 0 && gap(k, i).weight > 0) met += 1;
+    return met;
+  }
+
+  void bend(std::size_t k) {
+    PoseSurface& pose = poses_[k];
+    const Arena::Mark mark(context_.scratch);
+    const float node_mm = static_cast<float>(pose.step_px / pose.focal_px * distance_of(pose));
+    const int every = std::max(1, static_cast<int>(std::lround(kCellMm / node_mm)));
+    Field field((pose.columns + every - 1) / every + 1, (pose.rows + every - 1) / every + 1,
+                &context_.scratch);
+    for (int r = 0; r < pose.rows; ++r)
+      for (int c = 0; c < pose.columns; ++c) {
+        const std::size_t i = static_cast<std::size_t>(r) * static_cast<std::size_t>(pose.columns) +
+                              static_cast<std::size_t>(c);
+        if (pose.trust[i] <= 0 || (r + c) % 2 != 0) continue;
+        const Gap g = gap(k, i);
+        if (g.weight <= 0) continue;
+        const std::size_t cell =
+            static_cast<std::size_t>(r / every) * static_cast<std::size_t>(field.columns) +
+            static_cast<std::size_t>(c / every);
+        const float w = pose.trust[i] * std::min(1.0F, g.weight / 400);
+        field.sum[cell] += w * g.distance;
+        field.weight[cell] += w;
+      }
+    const double sigma_cells = limits_.width_mm / (static_cast<double>(every) * static_cast<double>(node_mm));
+    blur(field.sum, field.columns, field.rows, sigma_cells, &context_.scratch);
+    blur(field.weight, field.columns, field.rows, sigma_cells, &context_.scratch);
+    usual_square(field, sigma_cells);
+    const float still = static_cast<float>(limits_.still_mm), most = static_cast<float>(limits_.most_mm);
+    for (int r = 0; r < pose.rows; ++r)
+      for (int c = 0; c < pose.columns; ++c) {
+        const std::size_t i = static_cast<std::size_t>(r) * static_cast<std::size_t>(pose.columns) +
+                              static_cast<std::size_t>(c);
+        if (pose.trust[i] <= 0) continue;
+        const float d = read(field, (static_cast<float>(c) + 0.5F) / static_cast<float>(every) - 0.5F,
+                             (static_cast<float>(r) + 0.5F) / static_cast<float>(every) - 0.5F);
+        const float moved = d * d * d / (d * d + still * still);
+        if (std::abs(moved) > most) {
+          pose.trust[i] = 0;
+          continue;
+        }
+        pose.at_mm[i] = along(pose.at_mm[i], -moved, pose.normal[i]);
+        pose.sigma_mm[i] =
+            std::hypot(pose.sigma_mm[i],
+                       kMovedSigma * std::sqrt(field.square[static_cast<std::size_t>(r / every) *
+                                                                static_cast<std::size_t>(field.columns) +
+                                                            static_cast<std::size_t>(c / every)]));
+      }
+  }
+
+  // Where nothing overlaps, the mean over all that does.
+  void usual_square(Field& field, double sigma_cells) const {
+    double sum = 0, weight = 1e-9;
+    for (std::size_t k = 0; k < field.sum.size(); ++k) {
+      const float w = field.weight[k], d = field.sum[k] / (w + kNothingSaid);
+      field.square[k] = w * d * d;
+      sum += static_cast<double>(field.square[k]);
+      weight += static_cast<double>(w);
+    }
+    std::pmr::vector<float> around(field.weight, &context_.scratch);
+    blur(field.square, field.columns, field.rows, sigma_cells, &context_.scratch);
+    blur(around, field.columns, field.rows, sigma_cells, &context_.scratch);
+    const float all = static_cast<float>(sum / weight);
+    for (std::size_t k = 0; k < field.square.size(); ++k)
+      field.square[k] = (field.square[k] + kNothingSaid * all) / (around[k] + kNothingSaid);
+  }
+
+  static double distance_of(const PoseSurface& pose) {
+    double sum = 0, count = 1e-9;
+    for (std::size_t i = 0; i < pose.at_mm.size(); i += 101)
+      if (pose.trust[i] > 0) {
+        sum += static_cast<double>(pose.at_mm[i].z);
+        count += 1;
+      }
+    return sum / count;
+  }
+
+  static float read(const Field& f, float x, float y) {
+    x = std::clamp(x, 0.0F, static_cast<float>(f.columns - 1) - 1e-3F);
+    y = std::clamp(y, 0.0F, static_cast<float>(f.rows - 1) - 1e-3F);
+    const std::size_t k =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(f.columns) + static_cast<std::size_t>(x);
+    const float fx = x - std::floor(x), fy = y - std::floor(y);
+    float sum = 0, weight = kNothingSaid;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float share = (i % 2 == 0 ? 1 - fx : fx) * (i < 2 ? 1 - fy : fy);
+      const std::size_t cell = k + i % 2 + (i / 2) * static_cast<std::size_t>(f.columns);
+      sum += share * f.sum[cell];
+      weight += share * f.weight[cell];
+    }
+    return sum / weight;
+  }
+
+  std::span<PoseSurface> poses_;
+  const Registration& registration_;
+  const BendLimits& limits_;
+  StageContext& context_;
+  std::pmr::vector<std::uint8_t> fixed_;
+};
+
+}  // namespace
+
+void bend_to_master(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
+                    StageContext& context) {
+  Bender(poses, registration, limits, context).run();
+}
+
+}  // namespace relievo::pipeline

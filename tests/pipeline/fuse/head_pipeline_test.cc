@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A simulated head that turned between its pictures: where each pair stands is known, and what comes out is
+// one surface that shows more than one pair can. Pictures at a quarter of the rig's size.
+#include "pipeline/fuse/head_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/pipeline/mesh/mesh_checks.h"
+#include "tests/support/head_album.h"
+#include "tests/support/stage_bench.h"
+
+namespace relievo::pipeline::test {
+namespace {
+
+using relievo::test::shared_album;
+using relievo::test::StageBench;
+using relievo::test::standing;
+
+constexpr std::uint32_t kPerson = 4;
+
+RigidTransform camera_from_head(const hal::sim::HeadPose& pose) {
+  RigidTransform out;
+  const hal::sim::Mat3 r = pose.world_from_head();
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.rotation.m[3 * i] = r.row[i].x;
+    out.rotation.m[3 * i + 1] = r.row[i].y;
+    out.rotation.m[3 * i + 2] = r.row[i].z;
+  }
+  const hal::sim::Vec3 t = pose.origin_mm();
+  out.translation_mm = {t.x, t.y, t.z};
+  return out;
+}
+
+double degrees_between(const Rotation& a, const Rotation& b) {
+  double trace = 0;
+  for (std::size_t i = 0; i < 9; ++i) trace += a.m[i] * b.m[i];
+  return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+struct Person {
+  std::uint32_t seed;
+  hal::sim::HeadPose pose;
+};
+
+class Heads : public ::testing::Test {
+ protected:
+  explicit Heads(int threads = 2) : bench_(std::size_t{256} << 20, std::size_t{512} << 20, threads) {}
+
+  Result<FusedHead> fuse(const std::vector<Person>& shots, StageBench& bench, Arena& kept) {
+    relievo::test::Album& album = shared_album();
+    RELIEVO_TRY_ASSIGN(const HeadPipeline pipeline, HeadPipeline::make({}));
+    std::vector<HeadPose> poses;
+    for (std::size_t k = 0; k < shots.size(); ++k) poses.emplace_back(&kept);
+    relievo::test::Developing how;
+    const auto develop = [&](std::size_t k) {
+      how.noise_seed = 10 + k;
+      return album.develop(album.shoot(shots[k].seed, shots[k].pose), how);
+    };
+    for (std::size_t k = 1; k < shots.size(); ++k) {
+      const Arena::Mark mark(bench.output);
+      const hal::sim::PicturePair pictures = develop(k);
+      RELIEVO_TRY_ASSIGN(poses[k], pipeline.turned({pictures.left.view(), pictures.right.view()},
+                                                   album.calibration(), bench.context, kept));
+    }
+    const hal::sim::PicturePair pictures = develop(0);
+    RELIEVO_TRY_ASSIGN(FrontPose front, pipeline.front({pictures.left.view(), pictures.right.view()},
+                                                       album.calibration(), bench.context, kept));
+    poses[0] = std::move(front.pose);
+    alone_mm2_ = front.face.quality.measured_area_mm2;
+    return pipeline.fuse(std::move(front.face), poses, bench.context);
+  }
+  Result<FusedHead> fuse(const std::vector<Person>& shots) { return fuse(shots, bench_, kept_); }
+
+  StageBench bench_;
+  std::vector<std::byte> kept_block_ = std::vector<std::byte>(std::size_t{64} << 20);
+  Arena kept_{kept_block_};
+  double alone_mm2_ = 0;  // what the frontal pair measured
+};
+
+std::vector<Person> turning() {
+  return {{kPerson, standing(560)}, {kPerson, standing(560, 0, 0, -25)}, {kPerson, standing(560, 4, 2, 25)}};
+}
+
+// At a quarter of the size a pixel is 1.4 mm: full size is tried by command (tests/system/json_head_test.cc).
+TEST_F(Heads, StandAboutWhereTheyDid) {
+  auto shots = turning();
+  shots.push_back({kPerson, standing(560, 0, 0, 0, 12)});
+  const auto head = fuse(shots);
+  ASSERT_TRUE(head) << head.error().what.view() << " " << head.error().where();
+  ASSERT_EQ(head->registration.poses.size(), shots.size());
+  for (std::size_t k = 1; k < shots.size(); ++k) {
+    const RigidTransform back = inverse(camera_from_head(shots[k].pose)),
+                         front = camera_from_head(shots[0].pose);
+    Rotation truth;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        truth.m[3 * i + j] = 0;
+        for (std::size_t n = 0; n < 3; ++n)
+          truth.m[3 * i + j] += front.rotation.m[3 * i + n] * back.rotation.m[3 * n + j];
+      }
+    const RegisteredPose& found = head->registration.poses[k];
+    EXPECT_LT(degrees_between(found.first_from_pose.rotation, truth), 3.5) << k;
+    const Vec3d middle = apply(inverse(found.first_from_pose), head->registration.pivot_mm);
+    const Vec3d where = apply(front, apply(back, middle));
+    EXPECT_LT(distance(where, head->registration.pivot_mm), 3.5) << k;
+    EXPECT_GT(found.covariance[0], 0) << k;
+  }
+}
+
+TEST_F(Heads, BecomeOneSurfaceThatShowsMoreThanOnePair) {
+  const auto head = fuse(turning());
+  ASSERT_TRUE(head) << head.error().what.view() << " " << head.error().where();
+  const FaceMesh& mesh = head->model.mesh;
+  expect_whole_arrays(mesh);
+  expect_one_manifold_surface(mesh);
+  EXPECT_GT(head->model.quality.measured_area_mm2, 1.4 * alone_mm2_);
+  ASSERT_EQ(mesh.pose.size(), mesh.vertices_mm.size());
+  std::array<int, 3> by_pose{};
+  for (const std::uint8_t p : mesh.pose) ++by_pose.at(p);
+  for (const int count : by_pose) EXPECT_GT(count, static_cast<int>(mesh.pose.size() / 20));
+  // Each vertex's place comes from its pose: the person's left side, from the head turned to show it.
+  const auto& atlas = head->model.texture;
+  EXPECT_EQ(atlas.uv.size(), 3 * mesh.triangles.size());
+  std::size_t filled = 0, shown = 0;
+  for (const std::uint8_t origin : atlas.origin) {
+    filled += origin == kFilledTexel;
+    shown += origin >= kLeftPhotographTexel;
+  }
+  EXPECT_LT(filled, shown / 10) << "a camera saw nearly all of it";
+}
+
+TEST_F(Heads, AreTheSameForAnyNumberOfThreads) {
+  const auto two = fuse(turning());
+  ASSERT_TRUE(two);
+  StageBench alone(std::size_t{256} << 20, std::size_t{512} << 20, 1);
+  std::vector<std::byte> block(std::size_t{64} << 20);
+  Arena kept{block};
+  const auto one = fuse(turning(), alone, kept);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->model.mesh.vertices_mm.size(), two->model.mesh.vertices_mm.size());
+  for (std::size_t v = 0; v < one->model.mesh.vertices_mm.size(); ++v)
+    ASSERT_EQ(distance(one->model.mesh.vertices_mm[v], two->model.mesh.vertices_mm[v]), 0) << v;
+  EXPECT_EQ(one->model.texture.rgb, two->model.texture.rgb);
+}
+
+TEST_F(Heads, StopWhenTold) {
+  bench_.cancelled = true;
+  const auto head = fuse(turning());
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().code, Errc::Cancelled);
+}
+
+TEST_F(Heads, SayWhenMemoryIsUsedUp) {
+  std::vector<std::byte> block(std::size_t{1} << 20);
+  Arena kept{block};
+  const auto head = fuse(turning(), bench_, kept);
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().code, Errc::OutOfMemory);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline::test

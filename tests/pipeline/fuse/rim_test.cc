@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/rim.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/model/vector3.h"
+#include "tests/pipeline/mesh/mesh_checks.h"
+
+namespace relievo::pipeline::test {
+namespace {
+
+constexpr int kSide = 12;  // vertices
+
+// A flat sheet a millimetre a cell, counter-clockwise seen from -z, without the cells that `hole` names.
+template <typename Hole>
+FaceMesh sheet(Hole&& hole) {
+  FaceMesh mesh(std::pmr::get_default_resource());
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), 0});
+  for (int y = 0; y + 1 < kSide; ++y)
+    for (int x = 0; x + 1 < kSide; ++x) {
+      if (hole(x, y)) continue;
+      const auto a = static_cast<std::uint32_t>(y * kSide + x);
+      mesh.triangles.push_back({a, a + kSide, a + kSide + 1});
+      mesh.triangles.push_back({a, a + kSide + 1, a + 1});
+    }
+  return mesh;
+}
+
+float area(const FaceMesh& mesh) {
+  float sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3f& a = mesh.vertices_mm[t[0]];
+    sum += cross(minus(mesh.vertices_mm[t[1]], a), minus(mesh.vertices_mm[t[2]], a)).z / 2;
+  }
+  return std::abs(sum);
+}
+
+TEST(Rims, AreTheEdgesOfOneTriangle) {
+  const FaceMesh mesh = sheet([](int, int) { return false; });
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  EXPECT_EQ(border.size(), 4U * (kSide - 1));
+  for (const BorderEdge& e : border)
+    EXPECT_FLOAT_EQ(distance(mesh.vertices_mm[e[0]], mesh.vertices_mm[e[1]]), 1);
+}
+
+TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
+  FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  const auto closed = close_holes(mesh.vertices_mm, border, 15, mesh.triangles);
+  EXPECT_EQ(closed.size(), 10U);
+  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1), 1e-3) << "closed, and facing the same way";
+  EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSide - 1));
+}
+
+TEST(Rims, OfLargeHolesStayOpen) {
+  FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  EXPECT_TRUE(close_holes(mesh.vertices_mm, border, 9, mesh.triangles).empty());
+  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 6, 1e-3);
+}
+
+TEST(Rims, LoseTheirThreadsAndKeepTheRest) {
+  // A thread one cell wide between two halves.
+  FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y != 5; });
+  const float before = area(mesh);
+  open_rims(mesh.vertices_mm.size(), mesh.triangles, 1, std::pmr::get_default_resource());
+  EXPECT_GE(before - area(mesh), 3) << "the thread";
+  EXPECT_LE(before - area(mesh), 6) << "and little else";
+  for (const auto& t : mesh.triangles) {
+    const float x = (mesh.vertices_mm[t[0]].x + mesh.vertices_mm[t[1]].x + mesh.vertices_mm[t[2]].x) / 3;
+    EXPECT_TRUE(x < 5 || x > 6) << x;
+  }
+}
+
+TEST(Rims, AreStraightenedByAtMostSoMuch) {
+  FaceMesh mesh = sheet([](int, int) { return false; });
+  for (int x = 1; x + 1 < kSide; x += 2) mesh.vertices_mm[static_cast<std::size_t>(x)].y -= 0.4F;  // teeth
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  const std::pmr::vector<Vec3f> before = mesh.vertices_mm;
+  smooth_rims(mesh.vertices_mm, border, 20, 0.3F, std::pmr::get_default_resource());
+  float rough_before = 0, rough = 0;
+  for (std::size_t x = 3; x + 4 < kSide; ++x) {
+    rough_before += std::abs(before[x].y - before[x + 1].y);
+    rough += std::abs(mesh.vertices_mm[x].y - mesh.vertices_mm[x + 1].y);
+  }
+  EXPECT_LT(rough, rough_before / 4);
+  for (std::size_t v = 0; v < before.size(); ++v)
+    EXPECT_LE(distance(before[v], mesh.vertices_mm[v]), 0.3001F);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline::test
