@@ -73,15 +73,15 @@ TEST_F(ScrollerTest, ItsEndCanBeReachedWithThePaddingBelowIt) {
   EXPECT_FLOAT_EQ(tree_.nodes().back().rect.bottom(), kScreen.bottom() - kPad);
 }
 
-// A card that hugs ends with its last row, and takes no more room for it than it was given.
-TEST_F(ScrollerTest, ACardThatHugsEndsWhereItsRowsDo) {
+// A card that fits its content ends with its last row, and takes no more room for it than it was given.
+TEST_F(ScrollerTest, ACardThatFitsItsContentEndsWhereItsRowsDo) {
   for (const int rows : {2, 10}) {
     tree_.begin(false);
     tree_.open({});
     Node card;
     card.id = "card";
     card.box.grow = 1;
-    card.box.scroll = card.box.hugs = true;
+    card.box.scroll = card.box.fit_content = true;
     card.box.pad_y = kPad;
     tree_.open(card);
     Node row;

@@ -149,7 +149,7 @@ TEST_F(SharesTest, ALabelStandsAtItsPicture) {
     Node column;
     column.id = "column";
     column.box.gap = 6;
-    column.box.along = Along::Centre;
+    column.box.justify = Justify::Centre;
     tree_.open(column);
     Node label;
     label.box.height = 24;
@@ -170,20 +170,20 @@ TEST_F(SharesTest, ALabelStandsAtItsPicture) {
   }
 }
 
-// A scroller that yields is as high as its words, and no higher than what the others leave.
-TEST_F(SharesTest, AScrollerThatYieldsIsAsHighAsItsWordsWhereThereIsRoom) {
+// A scroller that shrinks is as high as its words, and no higher than what the others leave.
+TEST_F(SharesTest, AScrollerThatShrinksIsAsHighAsItsWordsWhereThereIsRoom) {
   for (const float words_px : {120.0F, 900.0F}) {
     tree_.begin(false);
     Node veil;
-    veil.box.along = Along::Centre;
+    veil.box.justify = Justify::Centre;
     tree_.open(veil);
     Node card;
     card.id = "card";
-    card.box.yields = true;
+    card.box.shrink = true;
     tree_.open(card);
     Node scroller;
     scroller.id = "words";
-    scroller.box.scroll = scroller.box.yields = true;
+    scroller.box.scroll = scroller.box.shrink = true;
     tree_.open(scroller);
     Node words;
     words.box.height = words_px;

@@ -14,8 +14,8 @@ void tile(StaffFrame& page, const StaffPageInfo& info) {
   node.name = title;
   node.role = Role::Button;
   node.action = {ActionKind::StaffOpen, static_cast<int>(info.page)};
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
+  node.box.justify = Justify::Centre;
+  node.box.align = Align::Centre;
   node.box.min_height = page.px(148);
   node.box.fill = page.palette.card;
   node.box.border = page.palette.card_border;
@@ -34,7 +34,7 @@ void menu_page(StaffFrame& page) {
   Node list = page.grown(page.box(Flow::Column, space::kM));
   list.id = "menu";
   list.box.scroll = true;
-  list.box.spreads = page.portrait ? 1.35F : 1;
+  list.box.row_stretch = page.portrait ? 1.35F : 1;
   page.tree.open(list);
   // Where letters are large, a long word must not be torn: fewer and wider tiles.
   const bool large = page.text_share > 1.2F;

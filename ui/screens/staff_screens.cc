@@ -100,8 +100,8 @@ void staff_entrance(Page& page) {
   const Step step = page.visit.step;
   if (step != Step::Attract && step != Step::Trouble) return;
   Node corner = page.box(Flow::Row, 0, 16, 16);
-  corner.box.along = Along::End;
-  corner.box.across = Across::Start;
+  corner.box.justify = Justify::End;
+  corner.box.align = Align::Start;
   page.tree.open(corner);
   Node door = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
   door.id = "staff";
@@ -110,8 +110,8 @@ void staff_entrance(Page& page) {
   door.action = {ActionKind::StaffEnter, 0};
   door.hold = true;
   door.filling = page.palette.accent;
-  door.box.along = Along::Centre;
-  door.box.across = Across::Centre;
+  door.box.justify = Justify::Centre;
+  door.box.align = Align::Centre;
   door.box.radius = page.px(size::kRadius);
   page.tree.open(door);
   page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);

@@ -18,14 +18,14 @@ Rect meet(const Rect& a, const Rect& b) {
 // Words can be broken into more lines; a sign cannot.
 constexpr float kLeastShare = 0.5F;  // of a row: so much of it belongs to the words, or all of what they need
 constexpr float kEndless = 1e6F;
-constexpr float kRounding = 1e-3F;    // of a pixel: thirds make a whole
-constexpr float kFoldedGaps = 0.25F;  // what was a gap beside is a smaller one between lines
+constexpr float kRounding = 1e-3F;     // of a pixel: thirds make a whole
+constexpr float kWrappedGaps = 0.25F;  // what was a gap beside is a smaller one between lines
 
 bool is_row(const Node& node) {
   return node.box.flow == Flow::Row && node.first_child >= 0 && node.box.grow <= 0;
 }
 
-float spread_height(const Node& node, float h, float more) { return is_row(node) ? h + more : h; }
+float stretched_height(const Node& node, float h, float more) { return is_row(node) ? h + more : h; }
 
 bool may_shrink(const Node& node) { return node.box.width <= 0 && !node.style.icon; }
 
@@ -51,7 +51,7 @@ Layout::Need Layout::need(const Node& node, float width) {
   n.h = std::max(n.h, box.min_height);
   if (box.width > 0) n.w = box.width;
   if (box.height > 0) n.h = box.height;
-  if (box.scroll && !box.yields) n.h = std::max(box.min_height, box.height);
+  if (box.scroll && !box.shrink) n.h = std::max(box.min_height, box.height);
   return n;
 }
 
@@ -62,8 +62,8 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   }
   Need n;
   int count = 0;
-  const bool is_folded = folded(node, width);
-  if (node.box.flow == Flow::Row && !is_folded) {
+  const bool is_wrapped = wrapped(node, width);
+  if (node.box.flow == Flow::Row && !is_wrapped) {
     const Shares given = shares(node, width);
     for (std::int32_t at = node.first_child; at >= 0;
          at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
@@ -80,13 +80,13 @@ Layout::Need Layout::content_need(const Node& node, float width) {
     n.h = node.box.flow == Flow::Stack ? std::max(n.h, child.h) : n.h + child.h;
   }
   if (node.box.flow != Flow::Stack && count > 1)
-    n.h += node.box.gap * (is_folded ? kFoldedGaps : 1) * static_cast<float>(count - 1);
+    n.h += node.box.gap * (is_wrapped ? kWrappedGaps : 1) * static_cast<float>(count - 1);
   return n;
 }
 
 // Would the words of its first child be broken into more lines beside what stands behind them?
-bool Layout::folded(const Node& row, float width) {
-  if (!row.box.folds || row.box.flow != Flow::Row || row.first_child < 0) return false;
+bool Layout::wrapped(const Node& row, float width) {
+  if (!row.box.wrap || row.box.flow != Flow::Row || row.first_child < 0) return false;
   const Node& words = nodes_[static_cast<std::size_t>(row.first_child)];
   float left = width;
   for (std::int32_t at = words.next; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next)
@@ -94,9 +94,9 @@ bool Layout::folded(const Node& row, float width) {
   return left < kLeastShare * width && need(words, kEndless).w > left;
 }
 
-// How much higher than its content each row of a column is, where it may spread and there is room.
-float Layout::spread(const Node& column, const Rect& inner) {
-  if (column.box.spreads <= 1) return 0;
+// How much higher than its content each row of a column is, where its rows may stretch and there is room.
+float Layout::row_stretch(const Node& column, const Rect& inner) {
+  if (column.box.row_stretch <= 1) return 0;
   float rows = 0, lowest = inner.h, all = -column.box.gap;
   for (std::int32_t at = column.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
@@ -104,9 +104,10 @@ float Layout::spread(const Node& column, const Rect& inner) {
     all += h + column.box.gap;
     if (is_row(child)) ++rows, lowest = std::min(lowest, h);
   }
-  return rows > 0 ? std::floor(std::clamp((inner.h - all) / rows, 0.0F, (column.box.spreads - 1) * lowest) +
-                               kRounding)
-                  : 0;
+  return rows > 0
+             ? std::floor(std::clamp((inner.h - all) / rows, 0.0F, (column.box.row_stretch - 1) * lowest) +
+                          kRounding)
+             : 0;
 }
 
 // The widths of a row's children. Those that grow share what the others leave.
@@ -145,14 +146,14 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   return given;
 }
 
-float Layout::across_start(const Node& node, float room, float size) const {
-  switch (node.box.across) {
-    case Across::Stretch:
-    case Across::Start:
+float Layout::align_start(const Node& node, float room, float size) const {
+  switch (node.box.align) {
+    case Align::Stretch:
+    case Align::Start:
       return 0;
-    case Across::Centre:
+    case Align::Centre:
       return (room - size) / 2;
-    case Across::End:
+    case Align::End:
       return room - size;
   }
   return 0;
@@ -170,7 +171,7 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
     case Flow::Column:
       return place_column(node, inner, inside);
     case Flow::Row:
-      return folded(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
+      return wrapped(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
     case Flow::Stack:
       return place_stack(node, inner, inside);
   }
@@ -181,10 +182,10 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
         shown = 0;  // highest: a share of what those need that grow, were all shares as high
                     // shown: the height of a picture, when it alone grows
   int count = 0;
-  const float spread_by = spread(node, inner);
+  const float taller = row_stretch(node, inner);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
-    const float h = spread_height(child, need(child, inner.w).h, spread_by);
+    const float h = stretched_height(child, need(child, inner.w).h, taller);
     fixed += h;
     if (child.box.grow <= 0) continue;
     grow += child.box.grow, growing += h;
@@ -193,38 +194,39 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
                 : 0;
     highest = std::max(highest, h / child.box.grow);
   }
-  float gap = node.box.gap * (node.box.flow == Flow::Row ? kFoldedGaps : 1);
+  float gap = node.box.gap * (node.box.flow == Flow::Row ? kWrappedGaps : 1);
   if (count > 1) fixed += gap * static_cast<float>(count - 1);
   node.content_height = fixed + 2 * node.box.pad_y;
-  if (node.box.hugs && grow <= 0) node.rect.h = std::min(node.rect.h, std::round(node.content_height));
+  if (node.box.fit_content && grow <= 0) node.rect.h = std::min(node.rect.h, std::round(node.content_height));
   float y = inner.y, over = node.box.scroll ? 0 : std::max(0.0F, fixed - inner.h);
   float left = std::max(0.0F, inner.h - fixed);
   if (node.box.scroll && fixed > inner.h && hands_.scrolled == node.id)
     y -= std::clamp(hands_.scroll_px, 0.0F, fixed - inner.h);
   const bool even = node.box.even && grow > 0 && highest * grow <= growing + left;
-  if (grow <= 0 && node.box.along == Along::Centre) y += left / 2;
-  if (shown > 0 && node.box.along == Along::Centre &&
+  if (grow <= 0 && node.box.justify == Justify::Centre) y += left / 2;
+  if (shown > 0 && node.box.justify == Justify::Centre &&
       growing + left > shown) {  // what belongs to a picture stands beside it
     y += (growing + left - shown) / 2;
     left = std::max(0.0F, shown - growing);
   }
-  if (grow <= 0 && node.box.along == Along::End) y += left;
-  if (grow <= 0 && node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
+  if (grow <= 0 && node.box.justify == Justify::End) y += left;
+  if (grow <= 0 && node.box.justify == Justify::SpaceBetween && count > 1)
+    gap += left / static_cast<float>(count - 1);
   for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
     const Node& child = nodes_[static_cast<std::size_t>(at)];
     Need n = need(child, inner.w);
-    n.h = spread_height(child, n.h, spread_by);
-    if (child.box.yields) n.h -= std::exchange(over, 0.0F);
+    n.h = stretched_height(child, n.h, taller);
+    if (child.box.shrink) n.h -= std::exchange(over, 0.0F);
     const float more = grow > 0 ? left * child.box.grow / grow : 0,
                 h = even && child.box.grow > 0 ? (growing + left) * child.box.grow / grow : n.h + more;
-    const bool stretch = (node.box.across == Across::Stretch || node.box.flow == Flow::Row) &&
+    const bool stretch = (node.box.align == Align::Stretch || node.box.flow == Flow::Row) &&
                          child.box.width <= 0 && child.box.max_width <= 0;
     const float w = stretch ? inner.w
-                            : std::min(node.box.across == Across::Stretch && child.box.width <= 0
+                            : std::min(node.box.align == Align::Stretch && child.box.width <= 0
                                            ? std::min(inner.w, child.box.max_width)
                                            : n.w,
                                        inner.w);
-    float x = across_start(node, inner.w, w);
+    float x = align_start(node, inner.w, w);
     if (right_to_left_) x = inner.w - w - x;
     place(static_cast<std::size_t>(at), {inner.x + x, y, w, h}, clip);
     y += h + gap;
@@ -242,18 +244,17 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   if (count > 1) used += gap * static_cast<float>(count - 1);
   const float left = std::max(0.0F, inner.w - used);
   float x = 0;
-  if (node.box.along == Along::Centre) x = left / 2;
-  if (node.box.along == Along::End) x = left;
-  if (node.box.along == Along::Apart && count > 1) gap += left / static_cast<float>(count - 1);
+  if (node.box.justify == Justify::Centre) x = left / 2;
+  if (node.box.justify == Justify::End) x = left;
+  if (node.box.justify == Justify::SpaceBetween && count > 1) gap += left / static_cast<float>(count - 1);
   const bool mirrored = right_to_left_ && !node.box.left_to_right;
   std::size_t i = 0;
   for (std::int32_t at = node.first_child; at >= 0 && i < count; ++i) {
     const auto child = static_cast<std::size_t>(at);
     at = nodes_[child].next;
     const float w = given.w[i];
-    const float h =
-        node.box.across == Across::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
-    place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + across_start(node, inner.h, h), w, h},
+    const float h = node.box.align == Align::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
+    place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + align_start(node, inner.h, h), w, h},
           clip);
     x += w + gap;
   }

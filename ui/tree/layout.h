@@ -3,7 +3,7 @@
 //
 // Layout: gives every node its place. First what a box needs at a width, then where it goes:
 // what is left over goes to those that grow; what is short is taken from rows' longest texts. A row that
-// folds (Box::folds) is a column where its first child, in one line, would have less than kLeastShare beside
+// wraps (Box::wrap) is a column where its first child, in one line, would have less than kLeastShare beside
 // the others. Pixels. Thread: main. Errors: none.
 #pragma once
 
@@ -30,12 +30,12 @@ class Layout {
   Need need(const Node& node, float width);
   Need content_need(const Node& node, float width);
   Shares shares(const Node& row, float width);
-  bool folded(const Node& row, float width);
-  float spread(const Node& column, const Rect& inner);
+  bool wrapped(const Node& row, float width);
+  float row_stretch(const Node& column, const Rect& inner);
   void place_column(Node& node, const Rect& inner, const Rect& clip);
   void place_row(Node& node, const Rect& inner, const Rect& clip);
   void place_stack(Node& node, const Rect& inner, const Rect& clip);
-  float across_start(const Node& node, float room, float size) const;
+  float align_start(const Node& node, float room, float size) const;
 
   std::vector<Node>& nodes_;
   TextEngine& text_;

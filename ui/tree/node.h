@@ -17,13 +17,14 @@ namespace relievo::ui {
 
 enum class Role : std::uint8_t { Group, Heading, Text, Icon, Button, Key, Field, Picture, Status };
 enum class Flow : std::uint8_t { Column, Row, Stack };
-enum class Along : std::uint8_t { Start, Centre, End, Apart };     // in the direction of the flow
-enum class Across : std::uint8_t { Stretch, Start, Centre, End };  // at right angles to it
+enum class Justify : std::uint8_t { Start, Centre, End, SpaceBetween };  // in the direction of the flow
+enum class Align : std::uint8_t { Stretch, Start, Centre, End };         // at right angles to it
 
+// In the words of CSS flexbox where it has one.
 struct Box {
   Flow flow = Flow::Column;
-  Along along = Along::Start;
-  Across across = Across::Stretch;
+  Justify justify = Justify::Start;
+  Align align = Align::Stretch;
   float gap = 0;
   float pad_x = 0, pad_y = 0;
   float width = 0, height = 0;  // 0: as its content is
@@ -31,13 +32,12 @@ struct Box {
   float grow = 0;     // share of what is left over
   bool grid = false;  // a row of columns alike: a child that grows by n covers n of them and the gaps between
   bool even = false;  // a column whose growing children are as high as their shares, not higher by them
-  bool scroll = false;  // a column that may be higher than its room
-  bool yields = false;  // in a column: as high as its content is where there is room, else as high as is left
-  float spreads = 1;    // a column: where there is room its rows get higher, the lowest up to so many times
-  bool hugs =
-      false;  // a growing column that ends where its content does; what is left of its share stays free
+  bool scroll = false;    // a column that may be higher than its room
+  bool shrink = false;    // in a column: as high as its content where there is room, else as high as is left
+  float row_stretch = 1;  // a column: up to how many times higher its lowest row gets where there is room
+  bool fit_content = false;    // a growing column that ends where its content does
   bool left_to_right = false;  // a row that is not mirrored: digits, keys
-  bool folds = false;  // a row whose first child grows: the others stand under it where it would be narrow
+  bool wrap = false;  // a row whose first child grows: the others stand under it where it would be narrow
   Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
   float border_px = 0, radius = 0;
   bool shadow = false;

@@ -64,7 +64,7 @@ void last_row(Page& page, Action done) {
 void keyboard(Page& page, Action done) {
   Node board = page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F);
   board.id = "keyboard";
-  board.box.along = Along::End;
+  board.box.justify = Justify::End;
   page.tree.open(board);
   page.tree.open(row_box(page));
   letters(page, kDigits);

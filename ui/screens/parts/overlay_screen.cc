@@ -44,13 +44,13 @@ void begin_card(Page& page) {
   veil.id = "veil";
   veil.modal = true;
   veil.box.fill = page.palette.veil;
-  veil.box.along = Along::Centre;
-  veil.box.across = Across::Centre;
+  veil.box.justify = Justify::Centre;
+  veil.box.align = Align::Centre;
   page.tree.open(veil);
   Node card = page.box(Flow::Column, space::kM, 44, 40);
   card.id = "card";
   card.box.width = page.px(std::min(820.0F, page.width_dp - 80));
-  card.box.yields = true;
+  card.box.shrink = true;
   card.box.fill = page.palette.card;
   card.box.border = page.palette.card_border;
   card.box.border_px = page.px(2);
@@ -78,7 +78,7 @@ void help(Page& page) {
   page.heading("overlay_title", page.tr("Help"));
   Node words = page.box(Flow::Column, space::kM);
   words.id = "overlay_words";
-  words.box.scroll = words.box.yields = true;
+  words.box.scroll = words.box.shrink = true;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
   if (page.visit.step == Step::Name)

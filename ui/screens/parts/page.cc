@@ -117,8 +117,8 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   node.name = label;
   node.role = Role::Button;
   node.action = action;
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
+  node.box.justify = Justify::Centre;
+  node.box.align = Align::Centre;
   node.box.grow = grow;
   node.box.min_height = px(lengths.height);
   node.box.min_width = px(lengths.width);
@@ -146,8 +146,8 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   node.name = spoken;
   node.role = Role::Button;
   node.action = action;
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
+  node.box.justify = Justify::Centre;
+  node.box.align = Align::Centre;
   node.box.radius = px(size::kRadius);
   node.box.fill = palette.quiet;
   node.box.border = palette.quiet_border;
@@ -199,7 +199,7 @@ void Page::bar(bool with_back) {
   tree.open(box(Flow::Row, space::kS));
   tree.open(grown([&] {
     Node n = box(Flow::Row, space::kS);
-    n.box.across = Across::Centre;
+    n.box.align = Align::Centre;
     return n;
   }()));
   if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
@@ -218,7 +218,7 @@ void Page::steps() {
   const int now = number_of(visit.step);
   if (now < 0) return;
   Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   row.id = "steps";
   row.name = tr("How far you are");
   row.role = Role::Status;

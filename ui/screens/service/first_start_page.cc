@@ -22,7 +22,7 @@ void welcome(StaffFrame& page) {
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = "languages";
   list.box.scroll = true;
-  list.box.spreads = page.portrait ? 1.5F : 1;
+  list.box.row_stretch = page.portrait ? 1.5F : 1;
   page.tree.open(list);
   const std::size_t abreast = page.portrait ? 1 : 2;
   for (std::size_t i = 0; i < kLanguages; ++i) {
@@ -41,7 +41,7 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
   page.tree.leaf(page.text(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre));
   Node row = page.box(Flow::Row, space::kXs);
-  row.box.along = Along::Centre;
+  row.box.justify = Justify::Centre;
   row.box.left_to_right = true;
   page.tree.open(row);
   const auto named = [&](std::string_view end) {
@@ -58,7 +58,7 @@ void clock(StaffFrame& page) {
   const auto& tr = page.tr;
   page.heading("clock title", tr("Are the date and the time right?"), type::kHeading);
   Node room = page.grown(page.box(Flow::Column, space::kL));
-  room.box.along = Along::Centre;
+  room.box.justify = Justify::Centre;
   room.box.scroll = true;
   room.id = "clock room";
   page.tree.open(room);

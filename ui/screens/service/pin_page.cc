@@ -16,10 +16,10 @@ void dots(StaffFrame& page) {
   row.id = "typed";
   row.role = Role::Field;
   row.name = page.tr("Your PIN");
-  row.box.along = page.portrait     ? Along::Centre
-                  : page.mirrored() ? Along::End
-                                    : Along::Start;  // as the words above it
-  row.box.across = Across::Centre;
+  row.box.justify = page.portrait     ? Justify::Centre
+                    : page.mirrored() ? Justify::End
+                                      : Justify::Start;  // as the words above it
+  row.box.align = Align::Centre;
   row.box.left_to_right = true;
   row.box.height = page.px(36);
   page.tree.open(row);
@@ -61,8 +61,8 @@ PinWords words_of(StaffFrame& page) {
 
 void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done) {
   Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
-  room.box.across = Across::Centre;
-  room.box.along = Along::Centre;
+  room.box.align = Align::Centre;
+  room.box.justify = Justify::Centre;
   page.tree.open(room);
   Node said = page.box(Flow::Column, space::kM);
   said.box.width = page.px(page.portrait ? 560.0F : 440.0F);

@@ -28,7 +28,7 @@ void typing(StaffFrame& page) {
   field.role = Role::Field;
   field.name = page.tr("Name or number");
   field.box.min_height = page.px(56);
-  field.box.across = Across::Centre;
+  field.box.align = Align::Centre;
   field.box.fill = page.palette.card;
   field.box.border = page.palette.accent;
   field.box.border_px = page.px(3);
@@ -44,7 +44,7 @@ void typing(StaffFrame& page) {
 
 void working(StaffFrame& page) {
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.along = Along::Centre;
+  room.box.justify = Justify::Centre;
   page.tree.open(room);
   page.heading("writing", page.tr("Writing to the stick"), type::kHeading, TextAlign::Centre);
   page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);

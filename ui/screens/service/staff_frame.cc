@@ -52,12 +52,12 @@ void StaffFrame::begin(const char* title, const char* letter) {
   root.box.fill_end = palette.ground_end;
   tree.open(root);
   Node bar = box(Flow::Row, space::kS);
-  bar.box.across = Across::Centre;
+  bar.box.align = Align::Centre;
   tree.open(bar);
   square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
   const auto name_page = [&] {
     Node name = grown(box(Flow::Row, space::kS));
-    name.box.across = Across::Centre;
+    name.box.align = Align::Centre;
     tree.open(name);
     if (letter != nullptr) sign(letter, 34 / text_share, palette.accent);
     tree.open(grown(box(Flow::Column)));
@@ -175,7 +175,7 @@ void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) 
   row.id = id;
   row.role = Role::Status;
   row.name = words;
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   tree.open(row);
   if (const char* letter = sign_of(mood)) sign(letter, 28, ink_of(mood));
   tree.open(grown(box(Flow::Column)));
@@ -187,7 +187,7 @@ void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) 
 void StaffFrame::asked(const char* title, const char* words, const char* hint) {
   Node room = grown(box(Flow::Column, space::kM));
   room.id = "question";
-  room.box.along = Along::Centre;
+  room.box.justify = Justify::Centre;
   room.box.scroll = true;
   tree.open(room);
   heading("question title", title, type::kHeading);
@@ -232,8 +232,8 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
   node.action = action;
   node.hold = node.slow_key = true;
   node.filling = palette.bad;
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
+  node.box.justify = Justify::Centre;
+  node.box.align = Align::Centre;
   node.box.grow = grow;
   node.box.min_height = px(kSize.height);
   node.box.radius = px(kSize.radius);
@@ -283,8 +283,8 @@ void StaffFrame::keypad(Action done) {
     node.name = spoken;
     node.role = Role::Key;
     node.action = action;
-    node.box.along = Along::Centre;
-    node.box.across = Across::Centre;
+    node.box.justify = Justify::Centre;
+    node.box.align = Align::Centre;
     node.box.min_height = px(size::kKeyLeast * key_share(*this));
     node.box.radius = px(16);
     node.box.fill = main ? palette.accent : palette.card;

@@ -89,7 +89,7 @@ class StaffFrame : public Page {
   std::string_view noted(const struct LogLine& what);
   bool rule_due_ = false;  // a row stands above what comes next
   void due_rule();
-  void begin_card(std::string_view id, bool hugs);
+  void begin_card(std::string_view id, bool fit_content);
   void leaving();
   void asked(const char* title, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);

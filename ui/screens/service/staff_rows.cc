@@ -9,14 +9,14 @@
 
 namespace relievo::ui {
 
-constexpr float kUprightSpread = 1.8F;  // of rows on an upright screen, where there is room
+constexpr float kUprightStretch = 1.8F;  // of rows on an upright screen, where there is room
 
-void StaffFrame::begin_card(std::string_view id, bool hugs) {
+void StaffFrame::begin_card(std::string_view id, bool fit_content) {
   Node list = grown(box(Flow::Column, 0, space::kM, 8));
   list.id = id;
   list.box.scroll = true;
-  list.box.hugs = hugs;
-  list.box.spreads = portrait ? kUprightSpread : 1;
+  list.box.fit_content = fit_content;
+  list.box.row_stretch = portrait ? kUprightStretch : 1;
   list.box.fill = palette.card;
   list.box.border = palette.card_border;
   list.box.border_px = px(1.5F);
@@ -31,7 +31,7 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.id = id;
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   row.box.min_height = px(action.kind == ActionKind::None ? 44 : size::kStaffTarget);
   if (action.kind != ActionKind::None) {
     row.role = Role::Button;
@@ -40,16 +40,16 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   }
   tree.open(row);
   Node both = grown(box(Flow::Row, space::kM));
-  both.box.across = Across::Centre;
-  both.box.folds = true;
+  both.box.align = Align::Centre;
+  both.box.wrap = true;
   tree.open(both);
   tree.open(grown(box(Flow::Column)));
   tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.close();
   if (!value.empty()) {
     Node end = box(Flow::Row, space::kXs);
-    end.box.along = Along::End;
-    end.box.across = Across::Centre;
+    end.box.justify = Justify::End;
+    end.box.align = Align::Centre;
     tree.open(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
     tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
@@ -87,8 +87,8 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   node.name = joined(label, ": ", spoken);
   node.role = dead ? Role::Group : Role::Button;
   node.action = action;
-  node.box.along = Along::Centre;
-  node.box.across = Across::Centre;
+  node.box.justify = Justify::Centre;
+  node.box.align = Align::Centre;
   node.box.radius = px(18);
   node.box.fill = dead ? Colour{} : palette.quiet;
   node.box.border = dead ? Colour{} : palette.quiet_border;
@@ -102,19 +102,19 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
                          const char* less_letter, Action less, const char* more_letter, Action more) {
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
-  row.box.across = Across::Centre;
-  row.box.along = Along::Centre;  // of a folded one
-  row.box.folds = true;
+  row.box.align = Align::Centre;
+  row.box.justify = Justify::Centre;  // of a wrapped one
+  row.box.wrap = true;
   tree.open(row);
   tree.open(grown(box(Flow::Column)));
   tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.close();
   Node end = box(Flow::Row, space::kS);
-  end.box.across = Across::Centre;
-  end.box.along = Along::End;
+  end.box.align = Align::Centre;
+  end.box.justify = Justify::End;
   tree.open(end);
   Node scale = box(Flow::Row, space::kS);
-  scale.box.across = Across::Centre;
+  scale.box.align = Align::Centre;
   scale.box.left_to_right = true;  // less, then more, as on every page that counts
   tree.open(scale);
   step_button(id, "less", tr("Less"), label, less_letter, less);
@@ -132,8 +132,8 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
 
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
   Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
-  room.box.along = Along::Centre;
-  room.box.across = Across::Centre;
+  room.box.justify = Justify::Centre;
+  room.box.align = Align::Centre;
   tree.open(room);
   sign(letter, 64 / text_share, palette.track);
   Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);

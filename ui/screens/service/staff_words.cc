@@ -151,7 +151,7 @@ std::string_view StaffFrame::noted(const LogLine& what) {
 
 void StaffFrame::logged(const LogLine& what) {
   Node row = box(Flow::Row, space::kS, 0, 6);
-  row.box.across = Across::Start;
+  row.box.align = Align::Start;
   row.role = what.fault ? Role::Status : Role::Group;
   if (what.fault) row.name = tr("Fault");
   tree.open(row);
@@ -160,7 +160,7 @@ void StaffFrame::logged(const LogLine& what) {
   time.style.tabular = true;
   tree.leaf(time);
   Node mark = sized(box(Flow::Column), 24 * text_share, 0);
-  mark.box.across = Across::Centre;
+  mark.box.align = Align::Centre;
   tree.open(mark);
   if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
   tree.close();

@@ -71,8 +71,8 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   cross.pinned = true;
   cross.pin_x = at.x;
   cross.pin_y = at.y;
-  cross.box.along = Along::Centre;
-  cross.box.across = Across::Centre;
+  cross.box.justify = Justify::Centre;
+  cross.box.align = Align::Centre;
   page.tree.open(cross);
   page.sign(kCross, 72 / page.text_share, test ? page.palette.good : page.palette.accent);
   page.tree.close();

@@ -17,7 +17,7 @@ void face(Page& page) {
 
 void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
-  row.box.along = Along::End;
+  row.box.justify = Justify::End;
   page.tree.open(row);
   page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
   page.square_button("contrast", page.tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
@@ -38,7 +38,7 @@ void languages(Page& page) {
 void words(Page& page) {
   Node column = page.box(Flow::Column, space::kM);
   column.box.grow = page.portrait ? 0 : 1.1F;
-  column.box.along = Along::Centre;
+  column.box.justify = Justify::Centre;
   page.tree.open(column);
   const bool tight = !page.portrait && page.text_share > 1.3F;
   if (!tight)

@@ -16,7 +16,7 @@ constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 // it in their language, and as large as they need it.
 void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
-  row.box.along = Along::End;
+  row.box.justify = Justify::End;
   page.tree.open(row);
   page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble)
@@ -37,12 +37,12 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   page.tree.open(root);
   if (with_tools) tools(page);
   Node middle = page.grown(page.box(Flow::Column, 0, 24, with_tools ? 0 : 24));
-  middle.box.across = Across::Centre;
+  middle.box.align = Align::Centre;
   page.tree.open(middle);
   Node column = page.grown(page.box(Flow::Column, space::kM));
   column.box.max_width = page.px(kColumn);
   column.box.width = page.px(std::min(kColumn, page.width_dp - 80));
-  column.box.along = Along::Centre;
+  column.box.justify = Justify::Centre;
   column.box.scroll = true;
   column.id = "message";
   page.tree.open(column);
@@ -132,7 +132,7 @@ void thanks_screen(Page& page) {
   page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
             TextAlign::Centre);
   Node row = page.box(Flow::Row);
-  row.box.along = Along::Centre;
+  row.box.justify = Justify::Centre;
   page.tree.open(row);
   Node card = page.box(Flow::Column, 4, 48, 20);
   card.box.fill = page.palette.card;

@@ -15,7 +15,7 @@ bool side_by_side(const Page& page) { return !page.portrait && page.text_share <
 
 void badge(Page& page, const char* letter) {
   Node box = page.sized(page.box(Flow::Column), kBadge, kBadge);
-  box.box.along = Along::Centre;
+  box.box.justify = Justify::Centre;
   box.box.fill = page.palette.accent.with_alpha(0.12F);
   box.box.radius = page.px(kBadge / 4);
   page.tree.open(box);
@@ -29,7 +29,7 @@ void badge(Page& page, const char* letter) {
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
   Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
-  row.box.across = side_by_side(page) ? Across::Start : Across::Centre;  // titles of neighbours on one line
+  row.box.align = side_by_side(page) ? Align::Start : Align::Centre;  // titles of neighbours on one line
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
   row.box.border_px = page.px(1.5F);

@@ -47,7 +47,7 @@ void known_screen(Page& page) {
   page.begin(true);
   Node middle = page.grown(page.box(Flow::Column, space::kM));
   middle.id = "known";
-  middle.box.along = Along::Centre;
+  middle.box.justify = Justify::Centre;
   middle.box.scroll = true;
   page.tree.open(middle);
   page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));

@@ -16,7 +16,7 @@ void name_screen(Page& page) {
   const bool abreast = !page.portrait && page.text_share > 1.1F;
   if (abreast) {
     Node row = page.box(Flow::Row, space::kM);
-    row.box.across = Across::Centre;
+    row.box.align = Align::Centre;
     page.tree.open(row);
   }
   const char* const asked = page.visit.quotes_code() ? tr("Type your code") : tr("Your name or your number");
@@ -27,7 +27,7 @@ void name_screen(Page& page) {
   field.role = Role::Field;
   field.name = asked;
   field.box.min_height = page.px(72);
-  field.box.across = Across::Centre;
+  field.box.align = Align::Centre;
   field.box.fill = page.palette.card;
   field.box.border = page.palette.accent;
   field.box.border_px = page.px(3);

@@ -112,8 +112,8 @@ float room_above(const Page& page) {
 
 void oval(Page& page, bool good, std::optional<float> countdown) {
   Node room = page.box(Flow::Row);
-  room.box.along = Along::Centre;
-  room.box.across = Across::Centre;
+  room.box.justify = Justify::Centre;
+  room.box.align = Align::Centre;
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
   const ImageView& live = page.view.live.picture;
@@ -131,8 +131,8 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
   ring.line_px = page.px(10);
   ring.colour = {6, 10, 18, 150};
   ring.box.fill = good ? page.palette.good : Colour{255, 255, 255, 255};
-  ring.box.along = Along::Centre;
-  ring.box.across = Across::Centre;
+  ring.box.justify = Justify::Centre;
+  ring.box.align = Align::Centre;
   ring.share = countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F;
   page.tree.leaf(ring);
   page.tree.close();
@@ -140,14 +140,14 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
 
 void advice(Page& page, const Said& what, std::optional<float> countdown) {
   Node row = page.box(Flow::Row);
-  row.box.along = Along::Centre;
+  row.box.justify = Justify::Centre;
   page.tree.open(row);
   Node pill = page.box(Flow::Row, 18, 32, 10);
   pill.id = "advice";
   pill.role = Role::Status;
   pill.name = what.words;
-  pill.box.across = Across::Centre;
-  pill.box.along = Along::Centre;
+  pill.box.align = Align::Centre;
+  pill.box.justify = Justify::Centre;
   pill.box.max_width = page.px(page.portrait ? 700.0F : 1160.0F);
   pill.box.fill = page.visit.high_contrast ? Colour{0, 0, 0, 255} : Colour{8, 14, 26, 225};
   pill.box.border = what.good ? page.palette.good : page.palette.quiet_border;
@@ -188,8 +188,8 @@ void position_screen(Page& page) {
   advice(page, what, countdown);
   if (const char* again = last_time(page); again != nullptr && !what.good) {
     Node row = page.box(Flow::Row);
-    row.box.along =
-        page.portrait ? Along::Centre : Along::Start;  // where there is room beside the oval, there
+    row.box.justify =
+        page.portrait ? Justify::Centre : Justify::Start;  // where there is room beside the oval, there
     page.tree.open(row);
     Node note = page.text(again, type::kSmall, Weight::Medium, {255, 255, 255, 255},
                           page.portrait ? TextAlign::Centre : TextAlign::Start);
@@ -208,7 +208,7 @@ void position_screen(Page& page) {
     page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
                 {ActionKind::TakePicture, 0});
   Node foot = page.box(Flow::Row, page.portrait ? space::kS : space::kXs);
-  foot.box.across = Across::End;
+  foot.box.align = Align::End;
   page.tree.open(foot);
   // Large words would reach into the oval.
   if (page.portrait || page.text_share < 1.2F)

@@ -28,7 +28,7 @@ const char* quality(const Page& page, bool& good) {
 void tools(Page& page) {
   const auto& tr = page.tr;
   Node row = page.box(Flow::Row, 10);
-  row.box.along = Along::Centre;
+  row.box.justify = Justify::Centre;
   row.box.left_to_right = true;  // what turns the face to the left lies on the left
   page.tree.open(row);
   page.square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
@@ -71,7 +71,7 @@ void assurance(Page& page) {
   Node row = page.box(Flow::Row, 14, 18, 14);
   row.id = "quality";
   row.role = Role::Status;
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   row.box.fill = page.palette.card;
   row.box.border = page.palette.card_border;
   row.box.border_px = page.px(1.5F);
@@ -93,7 +93,7 @@ void question(Page& page) {
   words.id = "words";
   words.box.grow = page.portrait ? 0.0F : 1.0F;
   words.box.scroll = !page.portrait;
-  words.box.along = Along::Centre;
+  words.box.justify = Justify::Centre;
   page.tree.open(words);
   page.heading("title", tr("Is this you?"));
   if (page.view.trouble == Trouble::Storage) {

@@ -37,8 +37,8 @@ int stage_under_way(Screen screen) {
 void tick(Page& page) {
   const float across_dp = 38 * page.text_share;
   Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
-  disc.box.along = Along::Centre;
-  disc.box.across = Across::Centre;
+  disc.box.justify = Justify::Centre;
+  disc.box.align = Align::Centre;
   disc.box.radius = page.px(across_dp / 2);
   disc.box.fill = page.palette.card;
   page.tree.open(disc);
@@ -62,8 +62,8 @@ void card(Page& page, int stage, const char* words) {
   Node picture = page.grown(page.box(Flow::Column));
   picture.box.radius = page.px(18);
   picture.box.fill = page.palette.stage;
-  picture.box.along = Along::Centre;
-  picture.box.across = Across::Centre;
+  picture.box.justify = Justify::Centre;
+  picture.box.align = Align::Centre;
   if (!born.picture.empty()) {
     picture.role = Role::Picture;
     picture.name = words;
@@ -73,15 +73,15 @@ void card(Page& page, int stage, const char* words) {
     picture.covers = true;
   }
   if (stage < now)
-    picture.box.along = Along::End, picture.box.across = Across::End,
+    picture.box.justify = Justify::End, picture.box.align = Align::End,
     picture.box.pad_x = picture.box.pad_y = page.px(8);
   page.tree.open(picture);
   if (stage < now) tick(page);
   else if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
   page.tree.close();
   Node row = page.box(Flow::Row, 10);
-  row.box.across = Across::Centre;
-  row.box.along = Along::Centre;
+  row.box.align = Align::Centre;
+  row.box.justify = Justify::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
   page.tree.leaf(page.text(words, 22, Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft,

@@ -35,7 +35,7 @@ void kinds(BenchFrame& b) {
     row.role = Role::Button;
     row.action = bench(BenchAct::ChooseKind, static_cast<std::int32_t>(i));
     row.box.min_height = b.page.px(size::kStaffTarget);
-    row.box.along = Along::Centre;
+    row.box.justify = Justify::Centre;
     row.box.radius = b.page.px(12);
     row.box.fill = chosen ? b.page.palette.accent : b.page.palette.card;
     b.page.tree.open(row);
@@ -137,8 +137,8 @@ void keys(BenchFrame& b) {
       erase.name = b.tr("Erase");
       erase.role = Role::Key;
       erase.action = bench(BenchAct::EraseDigit);
-      erase.box.along = Along::Centre;
-      erase.box.across = Across::Centre;
+      erase.box.justify = Justify::Centre;
+      erase.box.align = Align::Centre;
       erase.box.fill = b.page.palette.card;
       erase.box.border = b.page.palette.card_border;
       erase.box.border_px = b.page.px(1.5F);

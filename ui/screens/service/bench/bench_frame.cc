@@ -207,7 +207,7 @@ void BenchFrame::alert(std::string_view words, std::string_view detail) {
   Node row = page.box(Flow::Row, space::kS, 0, 8);
   row.id = "problem";
   row.role = Role::Status;
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   page.tree.open(row);
   page.sign(icon::kAlert, 26, page.palette.bad);
   page.tree.open(page.grown(page.box(Flow::Column)));
@@ -220,8 +220,8 @@ void BenchFrame::alert(std::string_view words, std::string_view detail) {
 
 void BenchFrame::uncalibrated() {
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.along = Along::Centre;
-  room.box.across = Across::Centre;
+  room.box.justify = Justify::Centre;
+  room.box.align = Align::Centre;
   page.tree.open(room);
   page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
   page.body(
@@ -241,7 +241,7 @@ bool BenchFrame::capture_state() {
   problem(view.problem);
   if (view.phase == BenchPhase::Ready || (view.phase == BenchPhase::Failed && view.result.there)) return true;
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.along = Along::Centre;
+  room.box.justify = Justify::Centre;
   page.tree.open(room);
   if (view.phase == BenchPhase::Empty || view.phase == BenchPhase::Failed) {
     page.heading("nothing", tr("No test capture yet"), type::kHeading, TextAlign::Centre);

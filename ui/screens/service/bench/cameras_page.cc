@@ -15,7 +15,7 @@ constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 void live(BenchFrame& b, std::string_view id, const char* title, const BenchPicture& picture,
           PictureSlot slot) {
   Node column = b.page.grown(b.page.box(Flow::Column, 6));
-  column.box.along = Along::Centre;
+  column.box.justify = Justify::Centre;
   b.page.tree.open(column);
   b.page.tree.leaf(b.page.text(title, type::kSmall, Weight::Bold, b.page.palette.ink, TextAlign::Centre));
   b.open_picture(id, title, picture, slot);
@@ -28,7 +28,7 @@ void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string
               std::string_view right, Mood left_mood, Mood right_mood) {
   Node row = b.page.box(Flow::Row, space::kS, 0, 6);
   row.id = id;
-  row.box.across = Across::Centre;
+  row.box.align = Align::Centre;
   row.box.min_height = b.page.px(44);
   b.page.tree.open(row);
   b.page.tree.open(b.page.grown(b.page.box(Flow::Column), 1.4F));
@@ -40,7 +40,7 @@ void pair_row(BenchFrame& b, std::string_view id, const char* label, std::string
   for (std::size_t side = 0; side < 2; ++side) {
     const Mood mood = side == 0 ? left_mood : right_mood;
     Node cell = b.page.grown(b.page.box(Flow::Row, space::kXs));
-    cell.box.across = Across::Centre;
+    cell.box.align = Align::Centre;
     b.page.tree.open(cell);
     if (const char* letter = b.page.sign_of(mood)) b.page.sign(letter, 22, b.page.ink_of(mood));
     b.page.tree.leaf(b.page.text(side == 0 ? left : right, type::kSmall, Weight::Regular,

@@ -101,15 +101,15 @@ class Columns {
   void drop_button(std::size_t i) {
     page.tree.open(page.box(Flow::Column));
     Node end = page.box(Flow::Row);
-    end.box.along = Along::End;
+    end.box.justify = Justify::End;
     page.tree.open(end);
     Node cross = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
     cross.id = b.id("drop", i);
     cross.name = b.tr("Drop this result");
     cross.role = Role::Button;
     cross.action = bench(BenchAct::DropResult, static_cast<std::int32_t>(i));
-    cross.box.along = Along::Centre;
-    cross.box.across = Across::Centre;
+    cross.box.justify = Justify::Centre;
+    cross.box.align = Align::Centre;
     cross.box.radius = page.px(12);
     cross.box.fill = page.palette.quiet;
     page.tree.open(cross);
@@ -127,7 +127,7 @@ class Columns {
     Node line = page.box(above ? Flow::Column : Flow::Row, above ? 2 : space::kXs, 0, 5);
     line.id = id;
     line.box.min_height = page.px(38);
-    if (!above) line.box.across = Across::Centre;
+    if (!above) line.box.align = Align::Centre;
     page.tree.open(line);
     if (!label.empty() || !above) {
       page.tree.open(above ? page.box(Flow::Column) : page.grown(page.box(Flow::Column), label_share()));

@@ -25,7 +25,7 @@ void switches(BenchFrame& b) {
 
 void hands(BenchFrame& b) {
   Node row = b.page.box(Flow::Row, space::kXs, space::kXs, space::kXs);
-  row.box.along = Along::Centre;
+  row.box.justify = Justify::Centre;
   row.box.left_to_right = true;  // as on the page where a visitor looks at it
   b.page.tree.open(row);
   b.page.square_button("turn_left", b.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
@@ -70,7 +70,7 @@ void bench_model_page(StaffFrame& page) {
     body(b);
     Node side = page.box(Flow::Column, space::kS);
     if (!page.portrait) side.box.width = page.px(page.text_share > 1.2F ? 330 : 260);
-    side.box.along = Along::Centre;
+    side.box.justify = Justify::Centre;
     page.tree.open(side);
     switches(b);
     page.tree.close();

@@ -34,8 +34,8 @@ void tabs(BenchFrame& b) {
       tab.name = title_of(b.tr, stage);
       tab.role = Role::Button;
       tab.action = bench(BenchAct::ShowStage, static_cast<std::int32_t>(i));
-      tab.box.along = Along::Centre;
-      tab.box.across = Across::Centre;
+      tab.box.justify = Justify::Centre;
+      tab.box.align = Align::Centre;
       tab.box.min_height = b.page.px(size::kStaffTarget);
       tab.box.radius = b.page.px(14);
       tab.box.fill = chosen ? b.page.palette.accent : b.page.palette.quiet;
@@ -179,7 +179,7 @@ void rule_rows(BenchFrame& b) {
     const BenchRule& rule = r.rules[i];
     Node row = b.page.box(Flow::Row, space::kS, 0, 6);
     row.id = b.id("rule", i);
-    row.box.across = Across::Centre;
+    row.box.align = Align::Centre;
     b.page.tree.open(row);
     Node patch = b.page.sized(b.page.box(Flow::Column), 26, 26);
     patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};

@@ -75,7 +75,7 @@ void record(BenchFrame& b, std::span<const std::string_view> texts, bool heading
     Node row = b.page.box(Flow::Row, kGap, 4, 0);
     row.box.left_to_right = true;
     row.box.min_height = b.page.px(36);
-    row.box.across = Across::Centre;
+    row.box.align = Align::Centre;
     b.page.tree.open(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
       b.page.tree.open(b.page.grown(b.page.box(Flow::Column),
@@ -92,8 +92,8 @@ void pager(BenchFrame& b) {
   const BenchRows& rows = b.view.rows;
   if (rows.pages < 2) return;
   Node row = b.page.box(Flow::Row, space::kS);
-  row.box.across = Across::Centre;
-  row.box.along = Along::Centre;
+  row.box.align = Align::Centre;
+  row.box.justify = Justify::Centre;
   row.box.left_to_right = true;
   b.page.tree.open(row);
   const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
@@ -104,8 +104,8 @@ void pager(BenchFrame& b) {
     node.name = spoken;
     node.role = Role::Button;
     node.action = bench(BenchAct::TurnPage, pages);
-    node.box.along = Along::Centre;
-    node.box.across = Across::Centre;
+    node.box.justify = Justify::Centre;
+    node.box.align = Align::Centre;
     node.box.radius = b.page.px(18);
     node.box.fill = b.page.palette.quiet;
     node.box.border = b.page.palette.quiet_border;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A list that may spread uses the height there is: its rows grow alike, up to a limit, and never out of their
-// card.
+// A list whose rows may stretch uses the height there is: its rows grow alike, up to a limit, and never out
+// of their card.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -12,7 +12,7 @@
 namespace relievo::ui {
 namespace {
 
-class SpreadTest : public testing::Test {
+class RowStretchTest : public testing::Test {
  protected:
   void SetUp() override {
     auto made = TextEngine::make();
@@ -20,7 +20,7 @@ class SpreadTest : public testing::Test {
     text_ = std::move(*made);
   }
   // A list of four rows of 50 with thin lines between them, in `room` pixels.
-  void list_in(float room, float spreads) {
+  void list_in(float room, float row_stretch) {
     constexpr const char* kRows[] = {"a", "b", "c", "d"};
     tree_.begin(false);
     tree_.open(Node{});
@@ -28,8 +28,8 @@ class SpreadTest : public testing::Test {
     list.id = "list";
     list.box.grow = 1;
     list.box.pad_y = 8;
-    list.box.scroll = list.box.hugs = true;
-    list.box.spreads = spreads;
+    list.box.scroll = list.box.fit_content = true;
+    list.box.row_stretch = row_stretch;
     tree_.open(list);
     for (const char* id : kRows) {
       Node row, inside, line;
@@ -56,28 +56,28 @@ class SpreadTest : public testing::Test {
 
 constexpr float kLeast = 4 * 51 + 2 * 8;
 
-TEST_F(SpreadTest, RowsGrowAlikeUpToTheLimitAndTheCardWithThem) {
+TEST_F(RowStretchTest, RowsGrowAlikeUpToTheLimitAndTheCardWithThem) {
   list_in(1000, 1.8F);
   for (const char* id : {"a", "b", "c", "d"}) EXPECT_FLOAT_EQ(at(id).h, 90) << id;
   EXPECT_FLOAT_EQ(at("list").h, kLeast + 4 * 40);
   EXPECT_GE(at("b").y, at("a").bottom() + 1);
 }
 
-TEST_F(SpreadTest, AHigherRowGetsNoMoreThanTheOthers) {
+TEST_F(RowStretchTest, AHigherRowGetsNoMoreThanTheOthers) {
   highest_ = 120;
   list_in(1000, 1.8F);
   EXPECT_FLOAT_EQ(at("a").h, 90);
   EXPECT_FLOAT_EQ(at("d").h, 160);
 }
 
-TEST_F(SpreadTest, WithLessRoomTheyFillIt) {
+TEST_F(RowStretchTest, WithLessRoomTheyFillIt) {
   list_in(kLeast + 100, 1.8F);
   EXPECT_NEAR(at("list").h, kLeast + 100, 4);
   EXPECT_FLOAT_EQ(at("a").h, at("d").h);
   EXPECT_LE(at("d").bottom() + 1 + 8, at("list").bottom() + 1);
 }
 
-TEST_F(SpreadTest, WithoutRoomOrLeaveTheyAreAsHighAsTheirContent) {
+TEST_F(RowStretchTest, WithoutRoomOrLeaveTheyAreAsHighAsTheirContent) {
   list_in(1000, 1);
   EXPECT_FLOAT_EQ(at("a").h, 50);
   EXPECT_FLOAT_EQ(at("list").h, kLeast);

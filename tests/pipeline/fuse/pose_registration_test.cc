@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A head of a formula, seen by rays: what a pose shows and where it stands are known to the last digit.
+#include "pipeline/fuse/pose_registration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/fuse/skin_bender.h"
+#include "pipeline/model/vector3.h"
+#include "tests/pipeline/mesh/stage_room.h"
+
+namespace relievo::pipeline::test {
+namespace {
+
+constexpr int kColumns = 130, kRows = 150, kStepPx = 2;
+constexpr double kFocalPx = 900, kSigmaMm = 0.05;
+
+Rotation product(const Rotation& a, const Rotation& b) {
+  Rotation out;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      out.m[3 * i + j] = 0;
+      for (std::size_t k = 0; k < 3; ++k) out.m[3 * i + j] += a.m[3 * i + k] * b.m[3 * k + j];
+    }
+  return out;
+}
+
+// The head turned about its upright axis, its middle 640 mm before the camera.
+RigidTransform camera_from_head(double yaw_deg) {
+  const double a = yaw_deg * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
+  RigidTransform out;
+  out.rotation = product({{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {{c, 0, s, 0, 1, 0, -s, 0, c}});
+  const Vec3d middle{0, 20, -95};
+  out.translation_mm = minus(Vec3d{0, 0, 640}, apply(out.rotation, middle));
+  return out;
+}
+
+// Negative inside: an ellipsoid with waves of some millimetres; `moved_mm`: by how much the lower face stands
+// out.
+double shape(const Vec3d& p, double moved_mm) {
+  const Vec3d q{p.x / 75, (p.y - 20) / 110, (p.z + 95) / 95};
+  const double waves = 2.5 * std::sin(p.x / 11) * std::cos(p.y / 9) + 2 * std::sin((p.y + p.z) / 13);
+  const double jaw =
+      p.y < 10 && p.z > -60 ? moved_mm * std::sin((10 - p.y) / 25) * std::sin((p.z + 60) / 30) : 0;
+  return (length(q) - 1) * 85 - waves - jaw;
+}
+
+Result<PoseSurface> seen(double yaw_deg, double moved_mm, StageContext& context) {
+  const RigidTransform camera = camera_from_head(yaw_deg), head = inverse(camera);
+  RectifiedPair pair(&context.scratch);
+  pair.focal_px = kFocalPx;
+  pair.left_centre_px = {kColumns * kStepPx / 2.0, kRows * kStepPx / 2.0};
+  PointCloud cloud(&context.scratch);
+  cloud.lattice_step_px = kStepPx;
+  for (int r = 0; r < kRows; ++r)
+    for (int c = 0; c < kColumns; ++c) {
+      const Vec2f px{static_cast<float>(c * kStepPx), static_cast<float>(r * kStepPx)};
+      const Vec3d ray{(static_cast<double>(px.x) - pair.left_centre_px.x) / kFocalPx,
+                      (static_cast<double>(px.y) - pair.left_centre_px.y) / kFocalPx, 1};
+      const auto outside = [&](double z) { return shape(apply(head, times(ray, z)), moved_mm) > 0; };
+      double far = 500;
+      while (far < 760 && outside(far)) far += 1;
+      if (far >= 760) continue;
+      double near = far - 1;
+      for (int k = 0; k < 40; ++k) (outside((near + far) / 2) ? near : far) = (near + far) / 2;
+      const Vec3d at = times(ray, near);
+      cloud.points.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
+                              px,
+                              static_cast<float>(kSigmaMm)});
+    }
+  RELIEVO_TRY_ASSIGN(PoseSurface pose, make_pose_surface(cloud, pair, context));
+  pose.head_from_camera = head;
+  pose.has_head = true;
+  return pose;
+}
+
+RigidTransform turned_by(const RigidTransform& t, double degrees) {
+  const double a = degrees * std::numbers::pi / 180;
+  RigidTransform out = t;
+  out.rotation = product({{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}}, t.rotation);
+  return out;
+}
+
+double degrees_off(const RegisteredPose& found, double yaw_deg) {
+  const Rotation truth =
+      product(camera_from_head(0).rotation, transposed(camera_from_head(yaw_deg).rotation));
+  double trace = 0;
+  for (std::size_t i = 0; i < 9; ++i) trace += truth.m[i] * found.first_from_pose.rotation.m[i];
+  return std::acos(std::min(1.0, (trace - 1) / 2)) * 180 / std::numbers::pi;
+}
+
+class Poses : public ::testing::Test {
+ protected:
+  void show(std::initializer_list<std::pair<double, double>> yaw_and_moved) {
+    for (const auto& [yaw, moved] : yaw_and_moved) {
+      auto pose = room_.run([yaw = yaw, moved = moved](StageContext& c) { return seen(yaw, moved, c); });
+      ASSERT_TRUE(pose) << pose.error().what.view();
+      poses_.push_back(*std::move(pose));
+    }
+  }
+  Result<Registration> registered() {
+    return room_.run([this](StageContext& c) { return register_poses(poses_, c); });
+  }
+  StageRoom room_;
+  std::vector<PoseSurface> poses_;
+};
+
+TEST_F(Poses, ShowTheSurfaceWhereItIs) {
+  show({{20, 0}});
+  const PoseSurface& pose = poses_[0];
+  int hits = 0;
+  for (double x = -60; x <= 60; x += 7)
+    for (double y = -60; y <= 60; y += 7) {
+      const auto hit = pose.look({static_cast<float>(x), static_cast<float>(y), 560});
+      if (!hit) continue;
+      ++hits;
+      EXPECT_NEAR(shape(apply(pose.head_from_camera, wide(hit->at_mm)), 0), 0, 0.06) << x << " " << y;
+      EXPECT_LT(dot(hit->normal, unit(hit->at_mm)), 0) << "towards the camera";
+      EXPECT_LE(hit->sigma_mm, kSigmaMm + 1e-6);
+      EXPECT_GT(hit->trust, 0);
+    }
+  EXPECT_GT(hits, 150);
+  EXPECT_FALSE(pose.look({300, 0, 560})) << "beside the head";
+  EXPECT_FALSE(pose.look({0, 0, -100})) << "behind the camera";
+}
+
+TEST_F(Poses, AreFoundFromAWrongStart) {
+  show({{0, 0}, {-25, 0}, {25, 0}, {45, 0}});
+  poses_[1].head_from_camera =
+      turned_by(poses_[1].head_from_camera, 4);  // a head frame is a degree off at worst
+  poses_[3].has_head = false;
+  const auto found = registered();
+  ASSERT_TRUE(found) << found.error().what.view() << " " << found.error().where();
+  for (const auto& [k, yaw] : {std::pair<std::size_t, double>{1, -25}, {2, 25}, {3, 45}})
+    EXPECT_LT(degrees_off(found->poses[k], yaw), 0.02) << yaw;
+  EXPECT_EQ(found->poses[0].first_from_pose.translation_mm.x, 0);
+}
+
+TEST_F(Poses, AreNotTurnedByALowerFaceThatMoved) {
+  show({{0, 0}, {-25, 0.8}, {25, -0.8}});
+  const auto found = registered();
+  ASSERT_TRUE(found) << found.error().what.view() << " " << found.error().where();
+  EXPECT_LT(degrees_off(found->poses[1], -25), 0.1);
+  EXPECT_LT(degrees_off(found->poses[2], 25), 0.1);
+}
+
+TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
+  show({{0, 0}, {20, 0.8}});
+  auto found = registered();
+  ASSERT_TRUE(found);
+  const std::pmr::vector<Vec3f> first = poses_[0].at_mm, before = poses_[1].at_mm;
+  ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
+    bend_to_master(poses_, *found, {1.5, 8, 0.05}, c);
+    return {};
+  }));
+  double jaw_before = 0, jaw = 0, count = 0, brow = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (poses_[1].trust[k] < 0.9F) continue;
+    const Vec3d was = apply(poses_[1].head_from_camera, wide(before[k]));
+    const Vec3d is = apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[k]));
+    if (was.y > 50) brow = std::max(brow, distance(was, is));
+    if (was.y > -50 && was.y < -20 && was.z > -40 && std::abs(was.x) < 25) {
+      jaw_before += std::abs(shape(was, 0));
+      jaw += std::abs(shape(is, 0));
+      count += 1;
+    }
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_GT(jaw_before / count, 0.2);
+  EXPECT_LT(jaw, jaw_before / 3) << "what moved lies on the first one's surface";
+  EXPECT_LT(brow, 0.05) << "what did not stays";
+  EXPECT_EQ(distance(first[first.size() / 2], poses_[0].at_mm[first.size() / 2]), 0)
+      << "the first never moves";
+}
+
+TEST_F(Poses, ThatMeetNothingAreNamed) {
+  show({{0, 0}, {0, 0}});
+  for (Vec3f& at : poses_[1].at_mm) at.z += 25 * std::sin(at.x / 6);  // something else
+  poses_[1].has_head = false;
+  const auto found = registered();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, Errc::PoorGeometry);
+  EXPECT_EQ(found.error().where(), "pair 2");
+}
+
+TEST_F(Poses, NeedAHeadInTheFirst) {
+  show({{0, 0}, {25, 0}});
+  poses_[0].has_head = false;
+  const auto found = registered();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, Errc::InvalidInput);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline::test
