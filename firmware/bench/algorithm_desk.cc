@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& order, const std::vector<std:
 
 AlgorithmDesk::AlgorithmDesk() : all_(pipeline::describe_algorithms()) {
   for (const auto& one : all_) {
-    if (!one.is_option()) kinds_.push_back(&one);
+    if (!one.is_option() && one.key != "fuser") kinds_.push_back(&one);  // the page takes one pair
   }
   rebuild();
 }

@@ -14,6 +14,7 @@ State stage_of(const pipeline::OptionDescription& option) {
   if (kind == "triangulator" || kind == "outliers") return State::Reconstruct;
   if (kind == "mesher" || kind == "completion") return State::Mesh;
   if (kind == "texturer") return State::Texture;
+  if (kind == "fuser") return State::Review;  // of several pairs
   return kind == "relief" ? State::Assemble : State::Match;
 }
 

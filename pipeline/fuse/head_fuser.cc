@@ -26,7 +26,8 @@ constexpr float kReachMm = 1.2F;     // of a pose's surface from a vertex that i
 constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kFullTrust = 0.95F;
 constexpr float kLeastTrust = 0.005F;          // of a point that counts at all
-constexpr int kRimEdges = 3, kRimRounds = 20;  // what is opened, how often rims are straightened ...
+constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
+constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
 constexpr float kHoleRimMm = 180;              // holes with a shorter rim are closed
 constexpr int kBands = 32;
@@ -383,7 +384,9 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::erase_if(surface.triangles, [&](const Triangle& t) {
     return vertices[t[0]].kept == 0 || vertices[t[1]].kept == 0 || vertices[t[2]].kept == 0;
   });
-  open_rims(vertices.size(), surface.triangles, kRimEdges, &context.scratch);
+  std::pmr::vector<std::uint8_t> sure(&context.scratch);
+  for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
+  open_rims(sure, surface.triangles, kRimEdges, &context.scratch);
   keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
   if (surface.triangles.empty()) return no_surface();
 

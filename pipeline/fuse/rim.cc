@@ -48,15 +48,16 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
   return border;
 }
 
-void open_rims(std::size_t vertices, std::pmr::vector<Triangle>& triangles, int edges,
+void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
                std::pmr::memory_resource* memory) {
+  const std::size_t vertices = sure.size();
   const auto far = static_cast<std::uint8_t>(edges);
   std::pmr::vector<std::uint8_t> from_rim(vertices, far, memory);
   for (const BorderEdge& e : border_edges(triangles, memory)) from_rim[e[0]] = from_rim[e[1]] = 0;
   count_edges(triangles, edges, from_rim);
   std::pmr::vector<std::uint8_t> from_core(vertices, static_cast<std::uint8_t>(far + 1), memory);
   for (std::size_t v = 0; v < vertices; ++v)
-    if (from_rim[v] >= far) from_core[v] = 0;
+    if (from_rim[v] >= far || sure[v] != 0) from_core[v] = 0;
   count_edges(triangles, edges, from_core);
   std::erase_if(triangles, [&](const Triangle& t) {
     return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return from_core[v] > far; });

@@ -21,7 +21,8 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
                                           std::pmr::memory_resource* memory);
 
 // Takes away what is narrower than about twice so many edges: teeth, threads (an opening; Serra 1982).
-void open_rims(std::size_t vertices, std::pmr::vector<Triangle>& triangles, int edges,
+// Vertices with `sure` 1, one byte a vertex, stay, and what lies that near to them.
+void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
                std::pmr::memory_resource* memory);
 
 // Straightens rims: every vertex of them towards the middle of its two neighbours, by at most so much from
