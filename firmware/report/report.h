@@ -39,7 +39,7 @@ struct Report {
   pipeline::RigidTransform head_from_camera{};
   std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
   std::size_t by_hand = 0;                        // matches, of those that Reconstruct took
-  std::vector<PoseReport> poses{};                 // empty: there was one pair
+  std::vector<PoseReport> poses{};                // empty: there was one pair
 };
 
 std::string line_of(const StageRecord& stage);  // for a terminal
