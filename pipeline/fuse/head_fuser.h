@@ -10,8 +10,7 @@
 //   shape     the zero of the mean distance to what is left (implicit moving least squares; Kolluri 2008), by
 //             marching cubes: one sheet, whoever measured it;
 //   place     every vertex on the mean of the poses' own surfaces at it, weighted by certainty and fading to
-//   the
-//             edge of each: no step where one ends.
+//             the edge of each: no step where one ends.
 // `sigma_mm` holds what was measured, how sure the registration is, and how far the skin was bent.
 // Memory: the mesh in `output`; scratch 9 bytes a voxel of the head's box. Errors: PoorGeometry, Cancelled;
 // throws std::bad_alloc. Thread: any; works on the pool, the result does not depend on its size.
@@ -28,9 +27,9 @@ namespace relievo::pipeline {
 struct HeadFuserOptions {
   double voxel_mm = 0.8;
   double most_bend_mm = 1.5;
-  double bend_width_mm = 8;
-  double still_mm = 0.05;
-  double neck_mm = 112;
+  double bend_width_mm = 8;  // sigma of its smoothing
+  double still_mm = 0.05;    // less than this is noise
+  double neck_mm = 112;      // below the tip of the nose
 };
 
 template <typename Field>
