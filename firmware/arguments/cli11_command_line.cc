@@ -207,8 +207,13 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   for (const char* other : instead) load->excludes(command->get_option(other));
   load->excludes(command->get_option("--region"));
   command->callback([&chosen, &args, command, load, instead] {
-    for (const char* other : instead)
-      if (load->count() == 0 && command->get_option(other)->count() == 0) throw CLI::RequiredError(other);
+    if (load->count() == 0 && args.calibrations.empty()) throw CLI::RequiredError("--calibration");
+    // Pictures after --calibration look like further calibrations: the first of them is the only one.
+    if (args.pictures.empty() && args.calibrations.size() > 1) {
+      args.pictures.assign(args.calibrations.begin() + 1, args.calibrations.end());
+      args.calibrations.resize(1);
+    }
+    if (load->count() == 0 && args.pictures.empty()) throw CLI::RequiredError("pictures");
     const std::size_t pairs = args.pictures.size() / 2;
     if (args.pictures.size() % 2 != 0)
       throw CLI::ValidationError("pictures", "a left one and a right one each");

@@ -16,6 +16,10 @@ namespace relievo::firmware {
 
 namespace {
 
+WhenMoved when_moved(const ReconstructArgs& args) {
+  return args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
+}
+
 // Model, pictures and report, all or nothing. `save` writes what else belongs to it.
 template <typename Made, typename Save>
 Result<std::string> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
@@ -53,10 +57,11 @@ void say_of_model(const pipeline::FaceModel& model, const std::string& light, co
 
 Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
   HeadReconstruction head;
-  RELIEVO_TRY(head.run(args.pictures, args.calibrations, args.algorithms, console));
+  RELIEVO_TRY(head.run(args.pictures, args.calibrations, args.algorithms, console, when_moved(args)));
   RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, head, [] { return Result<void>(); }));
   for (std::size_t k = 1; k < head.report().poses.size(); ++k)
     console.say(line_of(k + 1, head.report().poses[k]));
+  console.say(line_of(*head.report().drift));
   say_of_model(head.model(), light, args.output, console);
   return {};
 }
@@ -66,12 +71,11 @@ Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
 Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
   Reconstruction reconstruction;
-  const WhenMoved when_moved = args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
   RELIEVO_TRY(args.load.empty()
                   ? reconstruction.run(args.pictures[0], args.pictures[1], args.calibrations[0],
-                                       args.algorithms, args.by_hand, services.console, when_moved)
+                                       args.algorithms, args.by_hand, services.console, when_moved(args))
                   : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand, services.console,
-                                        when_moved));
+                                        when_moved(args)));
   const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
   RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, reconstruction, save));
 

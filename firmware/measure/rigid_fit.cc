@@ -49,16 +49,6 @@ pipeline::Rotation rotation_of(const Vec3d& w) {  // Rodrigues
            c + u.z * u.z * v}};
 }
 
-pipeline::Rotation product(const pipeline::Rotation& a, const pipeline::Rotation& b) {
-  pipeline::Rotation r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      r.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
-    }
-  }
-  return r;
-}
-
 }  // namespace
 
 RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surface) {

@@ -50,8 +50,13 @@ PoseReport report_of(const pipeline::RegisteredPose& pose) {
 class HeadReconstruction::HeadJob final : public Job {
  public:
   HeadJob(const pipeline::HeadPipeline& pipeline, const std::vector<Shot>& shots, HeadReconstruction& owner,
-          ThreadPool& pool)
-      : pipeline_(pipeline), shots_(shots), owner_(owner), pool_(pool), scratch_(owner.memory_.scratch()) {}
+          ThreadPool& pool, WhenMoved when_moved)
+      : pipeline_(pipeline),
+        shots_(shots),
+        owner_(owner),
+        pool_(pool),
+        when_moved_(when_moved),
+        scratch_(owner.memory_.scratch()) {}
 
   // Which pair is worked on; as many as there are: all of them together. Thread: any.
   std::size_t at() const { return at_.load(std::memory_order_relaxed); }
@@ -76,6 +81,9 @@ class HeadReconstruction::HeadJob final : public Job {
     return done;
   }
 
+  bool refused(const pipeline::DriftJudgement& drift) const {
+    return drift.verdict == pipeline::DriftVerdict::Refuse && when_moved_ == WhenMoved::Refuse;
+  }
   Error placed(const Error& error, std::size_t pair) const {
     const std::string where = error.where().empty() ? "" : ": " + std::string(error.where());
     return error.at(shots_[pair].left.string() + where);
@@ -84,6 +92,7 @@ class HeadReconstruction::HeadJob final : public Job {
   const std::vector<Shot>& shots_;
   HeadReconstruction& owner_;
   ThreadPool& pool_;
+  WhenMoved when_moved_;
   Arena scratch_;
   std::atomic<std::size_t> at_{0};
 };
@@ -99,12 +108,15 @@ Result<void> HeadReconstruction::HeadJob::run(JobControl& control) {
     });
     if (!turned) return placed(turned.error(), k);
     poses[k] = *std::move(turned);
+    if (refused(poses[k].drift)) return placed(error_of(poses[k].drift), k);
   }
   auto front = timed(0, [&] {
     return pipeline_.front(shots_[0].pictures.frame(), shots_[0].calibration, context, *owner_.kept_);
   });
   if (!front) return placed(front.error(), 0);
   poses[0] = std::move(front->pose);
+  owner_.report_.drift = poses[0].drift;
+  if (refused(poses[0].drift)) return placed(error_of(poses[0].drift), 0);
   auto head = timed(shots_.size(), [&] { return pipeline_.fuse(std::move(front->face), poses, context); });
   if (!head) return head.error();
   owner_.head_.emplace(*std::move(head));
@@ -112,7 +124,8 @@ Result<void> HeadReconstruction::HeadJob::run(JobControl& control) {
 }
 
 Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const std::vector<Path>& calibrations,
-                                     const AlgorithmArgs& algorithms, Console& console) {
+                                     const AlgorithmArgs& algorithms, Console& console,
+                                     WhenMoved when_moved) {
   RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, choose_algorithms(algorithms));
   RELIEVO_TRY_ASSIGN(const auto pipeline, pipeline::HeadPipeline::make(set));
   std::vector<Shot> shots(pictures.size() / 2);
@@ -126,7 +139,7 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   kept_block_.reset(new std::byte[kept]);  // not value-initialised: pages stay untouched
   kept_.emplace(std::span(kept_block_.get(), kept));
   ThreadPool pool(pool_size());
-  HeadJob job(pipeline, shots, *this, pool);
+  HeadJob job(pipeline, shots, *this, pool, when_moved);
   const Result<void> done = run_watched(job, console, [&] {
     return std::string_view(job.at() == shots.size() ? "Fuse" : job.at() == 0 ? "Front" : "Turned");
   });

@@ -13,6 +13,7 @@
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/console.h"
 #include "firmware/report/report.h"
+#include "firmware/work/pipeline_stages.h"
 #include "pipeline/fuse/head_pipeline.h"
 #include "pipeline/model/recognition_images.h"
 
@@ -25,7 +26,8 @@ class HeadReconstruction {
   // `pictures`: left, right of each pair, two or more pairs, the frontal one first. `calibrations`: one, or
   // one a pair. Errors: those of the files, the settings and the stages; each names its place.
   Result<void> run(const std::vector<Path>& pictures, const std::vector<Path>& calibrations,
-                   const AlgorithmArgs& algorithms, Console& console);
+                   const AlgorithmArgs& algorithms, Console& console,
+                   WhenMoved when_moved = WhenMoved::Refuse);
   // As Reconstruction has them.
   Result<pipeline::RecognitionImages> draw_images();
   const pipeline::FaceModel& model() const { return head_->model; }

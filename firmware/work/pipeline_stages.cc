@@ -27,12 +27,6 @@ bool may_be_the_pictures(Errc code) {
          code == Errc::NotCalibrated;
 }
 
-Error moved(const pipeline::DriftJudgement& drift) {
-  char place[64];
-  std::snprintf(place, sizeof place, "%.2f px", drift.residual_px);
-  return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(place);
-}
-
 }  // namespace
 
 // A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is
@@ -88,7 +82,7 @@ Result<void> PipelineStages::match(Products& products, pipeline::StageContext& c
   record.out = accepted(*products.matches);
   products.drift = pipeline::judge_drift(products.matches->epipolar_shift, pipeline_->calibration());
   if (products.drift->verdict != pipeline::DriftVerdict::Refuse || when_moved_ == WhenMoved::GoOn) return {};
-  return moved(*products.drift);
+  return error_of(*products.drift);
 }
 
 Result<void> PipelineStages::reconstruct(Products& products, pipeline::StageContext& context,

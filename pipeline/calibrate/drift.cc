@@ -3,6 +3,7 @@
 #include "pipeline/calibrate/drift.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include <Eigen/Dense>
 
@@ -81,6 +82,12 @@ std::string sentence(const DriftJudgement& j) {
           {decimal(j.residual_px, 2), decimal(kRefusedPx, 1)});
   }
   return "this face has too little texture to tell whether the cameras have moved";
+}
+
+Error error_of(const DriftJudgement& judgement) {
+  char place[64];
+  std::snprintf(place, sizeof place, "%.2f px", judgement.residual_px);
+  return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(place);
 }
 
 }  // namespace relievo::pipeline

@@ -24,6 +24,7 @@
 #include <string>
 #include <string_view>
 
+#include "hal/base/result.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/match_set.h"
 
@@ -56,5 +57,7 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
 std::string_view word(DriftVerdict verdict);  // unknown, ok, warn, refuse
 // For a technician: what was found, and what to do.
 std::string sentence(const DriftJudgement& judgement);
+// Of a verdict of Refuse: NotCalibrated.
+Error error_of(const DriftJudgement& judgement);
 
 }  // namespace relievo::pipeline

@@ -35,12 +35,6 @@ constexpr int kBands = 32;
 constexpr double kHighestMm = 190, kFurthestMm = -215, kWidestMm = 120;
 constexpr double kChinMm = -85, kNeckAxisMm = -95, kNeckRadiusMm = 75;
 
-// A measured or completed point in the master's frame.
-struct Splat {
-  Vec3f at_mm, normal;
-  float weight;
-};
-
 // Eyes move and close, and what lies between the lids is measured badly: there the master's own face stands.
 class EyeZone {
  public:
@@ -108,8 +102,8 @@ class Fusion {
   }
 
   // The points that count, of all poses.
-  std::pmr::vector<Splat> choose() const {
-    std::pmr::vector<Splat> all(&context_.scratch);
+  std::pmr::vector<FieldPoint> choose() const {
+    std::pmr::vector<FieldPoint> all(&context_.scratch);
     std::size_t room = 0;
     for (const PoseSurface& p : poses_) room += p.at_mm.size();
     all.reserve(room);
@@ -147,54 +141,64 @@ class Fusion {
     if (eyes_.holds(at)) return std::nullopt;
     std::optional<Placed> placed;
     for (int round = 0; round < 2; ++round) {
-      struct Seen {
-        float distance, weight, certainty, trust;
-        Vec3f normal;
-      };
-      std::array<Seen, kMostPoses> seen{};
-      std::size_t best = poses_.size();
-      for (std::size_t k = 0; k < poses_.size(); ++k) {
-        const auto hit = look(k, at);
-        if (!hit || dot(hit->normal, normal) < kSameWay) continue;
-        const float d = dot(hit->normal, minus(at, hit->at_mm));
-        if (std::abs(d) > kReachMm) continue;
-        const float certainty = 1 / squared(std::max(hit->sigma_mm, kLeastSigmaMm));
-        seen[k] = {d, hit->trust * certainty, certainty, hit->trust, hit->normal};
-        if (best == poses_.size() ||
-            rank(k, seen[k].trust, seen[k].weight) > rank(best, seen[best].trust, seen[best].weight))
-          best = k;
-      }
-      if (best == poses_.size()) return placed;
-      // What disagrees with the one that counts most is other skin, or skin that moved.
-      Vec3f pull{}, way{};
-      float weight = 0, variance = 0;
-      std::size_t most = best;
-      for (std::size_t k = 0; k < poses_.size(); ++k) {
-        Seen& s = seen[k];
-        if (s.weight <= 0) continue;
-        const float allowed =
-            std::max(kDisagreeMm, kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty));
-        // Fades, so that no step is left where one begins to disagree.
-        const float off = std::abs(s.distance - seen[best].distance) / allowed;
-        s.weight *= k == best ? 1 : std::clamp(2 - 2 * off, 0.0F, 1.0F);
-        pull = along(pull, s.weight * s.distance, s.normal);
-        weight += s.weight;
-        variance += s.weight * s.weight * (1 / s.certainty);
-        if (s.weight > seen[most].weight) most = k;
-      }
-      way = times(pull, -1 / weight);
-      at = plus(at, way);
-      const float registered = static_cast<float>(registration_sigma(most, at, normal));
-      placed = Placed{at, std::sqrt(variance / squared(weight) + squared(registered)),
-                      static_cast<std::uint8_t>(most)};
+      const auto moved = step(at, normal);
+      if (!moved) return placed;
+      placed = moved;
+      at = placed->at_mm;
     }
     return placed;
   }
 
  private:
   static float squared(float x) { return x * x; }
-  static Vec3f narrow(const Vec3d& p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+
+  // What a pose shows at a vertex.
+  struct Seen {
+    float distance = 0, weight = 0, certainty = 0, trust = 0;
+    Vec3f normal{};
+  };
+
+  std::optional<Placed> step(const Vec3f& at, const Vec3f& normal) const {
+    std::array<Seen, kMostPoses> seen{};
+    std::size_t best = poses_.size();
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      const auto hit = look(k, at);
+      if (!hit || dot(hit->normal, normal) < kSameWay) continue;
+      const float d = dot(hit->normal, minus(at, hit->at_mm));
+      if (std::abs(d) > kReachMm) continue;
+      const float certainty = 1 / squared(std::max(hit->sigma_mm, kLeastSigmaMm));
+      seen[k] = {d, hit->trust * certainty, certainty, hit->trust, hit->normal};
+      if (best == poses_.size() ||
+          rank(k, seen[k].trust, seen[k].weight) > rank(best, seen[best].trust, seen[best].weight))
+        best = k;
+    }
+    if (best == poses_.size()) return std::nullopt;
+    return mean_of(seen, best, at, normal);
+  }
+
+  // What disagrees with the one that counts most is other skin, or skin that moved: its weight fades, so that
+  // no step is left where one begins to disagree.
+  Placed mean_of(std::array<Seen, kMostPoses>& seen, std::size_t best, const Vec3f& at,
+                 const Vec3f& normal) const {
+    Vec3f pull{};
+    float weight = 0, variance = 0;
+    std::size_t most = best;
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      Seen& s = seen[k];
+      if (s.weight <= 0) continue;
+      const float allowed =
+          std::max(kDisagreeMm, kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty));
+      const float off = std::abs(s.distance - seen[best].distance) / allowed;
+      s.weight *= k == best ? 1 : std::clamp(2 - 2 * off, 0.0F, 1.0F);
+      pull = along(pull, s.weight * s.distance, s.normal);
+      weight += s.weight;
+      variance += s.weight * s.weight * (1 / s.certainty);
+      if (s.weight > seen[most].weight) most = k;
+    }
+    const Vec3f there = along(at, -1 / weight, pull);
+    const float registered = static_cast<float>(registration_sigma(most, there, normal));
+    return {there, std::sqrt(variance / squared(weight) + squared(registered)),
+            static_cast<std::uint8_t>(most)};
   }
 
   // The master where it sees well; else whoever is surest.
@@ -237,32 +241,6 @@ class Fusion {
   StageContext& context_;
   std::pmr::vector<RigidTransform> back_;
 };
-
-// Mean distance to the points' planes, weighted by certainty and a Gaussian of a voxel. A band of slices
-// each.
-void fill_field(std::span<const Splat> points, BandVolume& volume, StageContext& context) {
-  std::pmr::vector<float> weight(volume.value.size(), 0.0F, &context.scratch);
-  std::fill(volume.value.begin(), volume.value.end(), 0.0F);
-  const float radius = kBandVoxels * volume.voxel_mm;
-  const float narrow = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
-  context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
-    const float low = volume.at(0, 0, begin).z - radius, high = volume.at(0, 0, end - 1).z + radius;
-    for (const Splat& s : points) {
-      if (s.at_mm.z < low || s.at_mm.z > high) continue;
-      for_each_voxel_near(volume, s.at_mm, radius, [&](int x, int y, int z) {
-        if (z < begin || z >= end) return;
-        const Vec3f from = minus(volume.at(x, y, z), s.at_mm);
-        const float w = s.weight * std::exp(-narrow * dot(from, from));
-        const std::size_t k = volume.index(x, y, z);
-        volume.value[k] += w * dot(from, s.normal);
-        weight[k] += w;
-      });
-    }
-  });
-  for (std::size_t k = 0; k < weight.size(); ++k)
-    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius, radius)
-                                    : std::numeric_limits<float>::quiet_NaN();
-}
 
 // Where the master's own face stands for what the poses do not show.
 class OwnFace {
@@ -332,7 +310,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   if (context.stop()) return stopped;
   const EyeZone eyes(landmarks, poses[0].head_from_camera);
   const Fusion fusion(poses, registration, options_, eyes, context);
-  std::pmr::vector<Splat> points = fusion.choose();
+  std::pmr::vector<FieldPoint> points = fusion.choose();
   if (points.empty()) return no_surface();
   // What the master's mesher completed and nobody measured, and its eyes.
   std::pmr::vector<std::uint32_t> own(&context.scratch);
@@ -346,12 +324,9 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
 
   std::pmr::vector<Vec3f> places(&context.scratch);
   places.reserve(points.size());
-  for (const Splat& s : points) places.push_back(s.at_mm);
+  for (const FieldPoint& s : points) places.push_back(s.at_mm);
   BandVolume volume = volume_around(places, static_cast<float>(options_.voxel_mm), 4, &context.scratch);
-  {
-    const Arena::Mark mark(context.scratch);
-    fill_field(points, volume, context);
-  }
+  fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
   if (context.stop()) return stopped;
   Polygonised surface = polygonise(volume, &context.scratch);
   if (context.stop()) return stopped;

@@ -29,21 +29,26 @@ void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
   pose.right_rgb.assign(pair.right.rgb.begin(), pair.right.rgb.end());
 }
 
-// What outlives the stages of one pose.
-Result<HeadPose> keep(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context,
-                      Arena& kept) {
-  StageContext keeping{kept, context.scratch, context.pool, context.progress, context.cancelled};
-  return run_stage(keeping, [&](StageContext& c) -> Result<HeadPose> {
-    HeadPose pose(&c.output);
-    RELIEVO_TRY_ASSIGN(pose.surface, make_pose_surface(cloud, pair, c));
-    keep_photographs(pair, pose);
-    return pose;
-  });
-}
-
-Result<PointCloud> measure(const Pipeline& pipeline, RectifiedPair& pair, StageContext& context) {
+// A pair as far as its points, and what of it outlives the stages.
+struct Measured {
+  RectifiedPair pair;
+  PointCloud cloud;
+  HeadPose pose;
+};
+Result<Measured> measure(const Pipeline& pipeline, const StereoFrame& frame, StageContext& context,
+                         Arena& kept) {
+  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
   RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
-  return pipeline.reconstruct(pair, matches, context);
+  RELIEVO_TRY_ASSIGN(PointCloud cloud, pipeline.reconstruct(pair, matches, context));
+  StageContext keeping{kept, context.scratch, context.pool, context.progress, context.cancelled};
+  RELIEVO_TRY_ASSIGN(HeadPose pose, run_stage(keeping, [&](StageContext& c) -> Result<HeadPose> {
+                       HeadPose made(&c.output);
+                       RELIEVO_TRY_ASSIGN(made.surface, make_pose_surface(cloud, pair, c));
+                       keep_photographs(pair, made);
+                       return made;
+                     }));
+  pose.drift = judge_drift(matches.epipolar_shift, pipeline.calibration());
+  return Measured{std::move(pair), std::move(cloud), std::move(pose)};
 }
 
 // Both cameras of every pose, the master's first.
@@ -60,14 +65,7 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
       view.height_px = pose.height_px;
       view.focal_px = pose.surface.focal_px;
       view.centre_px = right ? pose.right_centre_px : pose.surface.centre_px;
-      const Rotation& rectify = pose.surface.rectified_from_camera;
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-          double sum = 0;
-          for (std::size_t n = 0; n < 3; ++n) sum += rectify.m[3 * i + n] * back.rotation.m[3 * n + j];
-          view.view_from_head.rotation.m[3 * i + j] = sum;
-        }
-      view.view_from_head.translation_mm = apply(rectify, back.translation_mm);
+      view.view_from_head = product({pose.surface.rectified_from_camera, {}}, back);
       if (right) view.view_from_head.translation_mm.x -= pose.baseline_mm;
       view.master = k == 0;
       view.right = right;
@@ -89,10 +87,9 @@ Result<HeadPipeline> HeadPipeline::make(const AlgorithmSet& set) {
 Result<FrontPose> HeadPipeline::front(const StereoFrame& frame, const StereoCalibration& calibration,
                                       StageContext& context, Arena& kept) const {
   RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(set_, calibration));
-  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
-  RELIEVO_TRY_ASSIGN(const PointCloud cloud, measure(pipeline, pair, context));
+  RELIEVO_TRY_ASSIGN(Measured measured, measure(pipeline, frame, context, kept));
+  auto& [pair, cloud, pose] = measured;
   RELIEVO_TRY_ASSIGN(FaceMesh mesh, pipeline.mesh(cloud, pair, context));
-  RELIEVO_TRY_ASSIGN(HeadPose pose, keep(cloud, pair, context, kept));
   RELIEVO_TRY_ASSIGN(FaceModel face,
                      pipeline.assemble(std::move(mesh), TextureAtlas(&context.output), pair, context));
   pose.surface.head_from_camera = face.head_from_camera;
@@ -103,11 +100,11 @@ Result<FrontPose> HeadPipeline::front(const StereoFrame& frame, const StereoCali
 Result<HeadPose> HeadPipeline::turned(const StereoFrame& frame, const StereoCalibration& calibration,
                                       StageContext& context, Arena& kept) const {
   RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(set_, calibration, {}, Region::TurnedHead));
-  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
-  RELIEVO_TRY_ASSIGN(const PointCloud cloud, measure(pipeline, pair, context));
-  RELIEVO_TRY_ASSIGN(HeadPose pose, keep(cloud, pair, context, kept));
+  RELIEVO_TRY_ASSIGN(Measured measured, measure(pipeline, frame, context, kept));
+  HeadPose& pose = measured.pose;
   const auto head = run_stage(context, [&](StageContext& c) -> Result<HeadFrame> {
-    RELIEVO_TRY_ASSIGN(const FaceMesh rough, lattice_sheet(cloud, kRoughTriangles, kRoughAreaMm2, c));
+    RELIEVO_TRY_ASSIGN(const FaceMesh rough,
+                       lattice_sheet(measured.cloud, kRoughTriangles, kRoughAreaMm2, c));
     return find_head_frame(rough, c);
   });
   if (!head && head.error().code != Errc::PoorGeometry) return head.error();
@@ -115,7 +112,7 @@ Result<HeadPose> HeadPipeline::turned(const StereoFrame& frame, const StereoCali
     pose.surface.head_from_camera = head->head_from_camera;
     pose.surface.has_head = true;
   }
-  return pose;
+  return std::move(pose);
 }
 
 Result<FusedHead> HeadPipeline::fuse(FaceModel face, std::span<HeadPose> poses, StageContext& context) const {

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/calibrate/drift.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/pose_registration.h"
 #include "pipeline/pipeline.h"
@@ -31,6 +32,7 @@ struct HeadPose {
   Vec2d right_centre_px;
   double baseline_mm = 0;
   std::pmr::vector<std::uint8_t> left_rgb, right_rgb;
+  DriftJudgement drift;  // what the matches say of the calibration; the caller refuses
 };
 
 struct FrontPose {

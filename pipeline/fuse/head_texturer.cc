@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "pipeline/fuse/level_grid.h"
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
@@ -27,99 +28,6 @@ constexpr float kMasterLevel = 20;           // the others are brought to the ma
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
 constexpr float kWinner = 12;                // power of what a view's say is to the best one's
 constexpr float kBorderPx = 3;
-constexpr double kLevelCellMm = 8;  // of the grid of slowly varying differences
-constexpr int kLevelBlurs = 3;
-
-struct Cell {
-  std::array<float, 3> sum{};
-  float weight = 0;
-};
-
-// A coarse grid of colour differences over the head's box.
-class LevelGrid {
- public:
-  LevelGrid(const FaceMesh& mesh, std::pmr::memory_resource* memory) : cells_(memory), spare_(memory) {
-    Vec3f high{-1e9F, -1e9F, -1e9F};
-    low_ = {1e9F, 1e9F, 1e9F};
-    for (const Vec3f& v : mesh.vertices_mm) {
-      low_ = {std::min(low_.x, v.x), std::min(low_.y, v.y), std::min(low_.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
-    const auto count = [](float from, float to) {
-      return static_cast<int>(static_cast<double>(to - from) / kLevelCellMm) + 3;
-    };
-    size_ = {count(low_.x, high.x), count(low_.y, high.y), count(low_.z, high.z)};
-    cells_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                  static_cast<std::size_t>(size_[2]));
-    spare_.resize(cells_.size());
-  }
-  void clear() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
-  void add(const Vec3f& at, const VertexColour& difference, float weight) {
-    for_corners(at, [&](std::size_t k, float share) {
-      for (std::size_t c = 0; c < 3; ++c) cells_[k].sum[c] += share * weight * difference[c];
-      cells_[k].weight += share * weight;
-    });
-  }
-  // A binomial along each axis, so many times; then cells that nobody filled take their neighbours' mean.
-  void smooth() {
-    for (int round = 0; round < kLevelBlurs; ++round)
-      for (std::size_t axis = 0; axis < 3; ++axis) blur(axis);
-  }
-  VertexColour at(const Vec3f& place) const {
-    VertexColour sum{0, 0, 0};
-    float weight = 1e-6F;
-    for_corners(place, [&](std::size_t k, float share) {
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += share * cells_[k].sum[c];
-      weight += share * cells_[k].weight;
-    });
-    for (float& c : sum) c /= weight;
-    return sum;
-  }
-
- private:
-  template <typename Visit>
-  void for_corners(const Vec3f& place, Visit&& visit) const {
-    const std::array<float, 3> p{(place.x - low_.x), (place.y - low_.y), (place.z - low_.z)};
-    std::array<std::size_t, 3> first{};
-    std::array<float, 3> f{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      const float x = std::max(p[a] / static_cast<float>(kLevelCellMm), 0.0F);
-      first[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(size_[a] - 2));
-      f[a] = std::min(x - static_cast<float>(first[a]), 1.0F);
-    }
-    for (std::size_t i = 0; i < 8; ++i) {
-      const std::size_t dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
-      const float share =
-          (dx != 0 ? f[0] : 1 - f[0]) * (dy != 0 ? f[1] : 1 - f[1]) * (dz != 0 ? f[2] : 1 - f[2]);
-      visit(((first[2] + dz) * static_cast<std::size_t>(size_[1]) + first[1] + dy) *
-                    static_cast<std::size_t>(size_[0]) +
-                first[0] + dx,
-            share);
-    }
-  }
-  void blur(std::size_t axis) {
-    const std::array<std::size_t, 3> stride{
-        1, static_cast<std::size_t>(size_[0]),
-        static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1])};
-    const std::size_t n = static_cast<std::size_t>(size_[axis]), step = stride[axis];
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const std::size_t at = k / step % n;
-      Cell sum;
-      const auto take = [&](const Cell& cell, float share) {
-        for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += share * cell.sum[c];
-        sum.weight += share * cell.weight;
-      };
-      take(cells_[k], 0.5F);
-      take(cells_[at > 0 ? k - step : k], 0.25F);
-      take(cells_[at + 1 < n ? k + step : k], 0.25F);
-      spare_[k] = sum;
-    }
-    std::swap(cells_, spare_);
-  }
-  Vec3f low_;
-  std::array<int, 3> size_{};
-  std::pmr::vector<Cell> cells_, spare_;
-};
 
 class Texturing {
  public:

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "hal/base/statistics.h"
@@ -28,7 +29,6 @@ constexpr double kLeastSigmaMm = 0.03;
 constexpr double kHeadCentreMm = 95;  // behind the tip of the nose
 constexpr double kNeckMm = -60;       // above the tip of the nose
 constexpr double kFewestSamples = 300, kFewestCoarse = 80;
-constexpr double kRadians = 3.14159265358979 / 180;
 constexpr double kRidge = 1e-9;
 constexpr double kStillMm = 1e-5;
 // How far apart two surfaces may lie to be taken for the same skin, and the scale beyond which a distance
@@ -39,9 +39,9 @@ struct Round {
 };
 constexpr std::array<Round, 5> kRounds{{{12, 6, 8}, {6, 2, 6}, {3, 0.7, 6}, {2, 0.25, 8}, {1.5, 0.12, 8}}};
 constexpr Round kLast{1.5, 0.08, 12};
-// Skin moves in patches: one whose mean lies further off than this has moved.
 // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
 constexpr double kScaleOfUsual = 1.5;
+// Skin moves in patches: one whose mean lies further off than this has moved.
 constexpr double kPatchScaleMm = 0.05;
 constexpr double kPatchMm = 20;
 constexpr int kAcross = 24;  // patches
@@ -51,10 +51,14 @@ constexpr std::size_t kPatches = std::size_t{kAcross} * kAcross * kAcross, kRegi
 // start.
 constexpr std::array<Round, 4> kCoarse{{{25, 12, 8}, {12, 6, 6}, {6, 2, 6}, {3, 0.7, 4}}};
 constexpr double kCoarseSamples = 4'500;
-constexpr double kMetMm = 1;  // of what lies near another pose's surface, this near:
-constexpr double kWellMetShare = 0.8, kMetShare = 0.5;  // at once believed; the best of all starts is
+// A pose is well laid where so much of what lies near another pose's surface lies on it: from its own head
+// frame, and from the best of all starts.
+constexpr double kMetMm = 1;
+constexpr double kWellMetShare = 0.8, kMetShare = 0.5;
 constexpr std::array<Vec2d, 9> kTurnsDeg{
     {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {-65, 0}, {65, 0}, {0, -20}, {0, 20}}};  // yaw, pitch
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // How much the skin at a place in the head's frame has to say of how the skull stands.
 double say_of(const Vec3d& p) {
@@ -69,18 +73,6 @@ double say_of(const Vec3d& p) {
   return 0.02;                                // lips, chin, jaw
 }
 
-RigidTransform product(const RigidTransform& a, const RigidTransform& b) {
-  RigidTransform out;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      out.rotation.m[3 * i + j] = 0;
-      for (int k = 0; k < 3; ++k)
-        out.rotation.m[3 * i + j] += a.rotation.m[3 * i + k] * b.rotation.m[3 * k + j];
-    }
-  out.translation_mm = apply(a, b.translation_mm);
-  return out;
-}
-
 // The motion by a rotation vector and a translation about a pivot.
 RigidTransform small_motion(const Vector6& d, const Vec3d& pivot) {
   const Eigen::Vector3d turn = d.head<3>();
@@ -93,10 +85,6 @@ RigidTransform small_motion(const Vector6& d, const Vec3d& pivot) {
   const Vec3d turned = apply(out.rotation, pivot);
   out.translation_mm = {pivot.x - turned.x + d[3], pivot.y - turned.y + d[4], pivot.z - turned.z + d[5]};
   return out;
-}
-
-Vec3f narrow(const Vec3d& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
 // What one sample of a pose says against another one's surface.
@@ -163,8 +151,8 @@ class Solver {
   };
   struct Laid {
     RigidTransform placed;
-    double count = 0,
-           share = 0;  // what lies on another pose's surface, by its say: how much, and of what is near one
+    double count = 0;  // of samples on another pose's surface, each by its say
+    double share = 0;  // of those near one
   };
 
   Laid lay_from_head(std::size_t p) {
@@ -176,8 +164,8 @@ class Solver {
     Laid best = lay_from_head(p);
     for (const Vec2d& turn : kTurnsDeg) {
       if (context_.stop()) break;
-      const Eigen::Matrix3d r = (Eigen::AngleAxisd(turn.x * kRadians, Eigen::Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(turn.y * kRadians, Eigen::Vector3d::UnitX()))
+      const Eigen::Matrix3d r = (Eigen::AngleAxisd(radians(turn.x), Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(radians(turn.y), Eigen::Vector3d::UnitX()))
                                     .toRotationMatrix();
       RigidTransform turned;
       for (int i = 0; i < 3; ++i)

@@ -14,11 +14,9 @@ constexpr float kReachMm = 3;          // a surface further off is another one
 constexpr float kSameWay = 0.6F;       // cosine between the normals of what is taken for the same skin
 constexpr float kCellMm = 2;           // of the grid on which the displacement is smoothed
 constexpr float kNothingSaid = 0.02F;  // weight that pulls to no displacement, beyond the overlap
-constexpr float kMovedSigma = 0.9F;    // what is not known of a displacement, share of its usual size around
-
-Vec3f narrow(const Vec3d& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
+constexpr float kLeastSigmaMm = 0.01F;
+constexpr float kSureWeight = 400;   // of a surface with a sigma of 0.05 mm: more of it is no surer
+constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 
 struct Field {
   Field(int w, int h, std::pmr::memory_resource* memory)
@@ -103,7 +101,7 @@ class Bender {
       if (dot(n, normal) < static_cast<double>(kSameWay)) continue;
       const float d = static_cast<float>(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
       if (std::abs(d) > kReachMm) continue;
-      const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + 1e-4F);
+      const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + kLeastSigmaMm * kLeastSigmaMm);
       sum.distance += w * d;
       sum.weight += w;
     }
@@ -136,7 +134,7 @@ class Bender {
         const std::size_t cell =
             static_cast<std::size_t>(r / every) * static_cast<std::size_t>(field.columns) +
             static_cast<std::size_t>(c / every);
-        const float w = pose.trust[i] * std::min(1.0F, g.weight / 400);
+        const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
         field.sum[cell] += w * g.distance;
         field.weight[cell] += w;
       }

@@ -35,12 +35,24 @@ inline Vec3d apply(const Rotation& r, const Vec3d& p) {
   return {r.m[0] * p.x + r.m[1] * p.y + r.m[2] * p.z, r.m[3] * p.x + r.m[4] * p.y + r.m[5] * p.z,
           r.m[6] * p.x + r.m[7] * p.y + r.m[8] * p.z};
 }
+// First b, then a.
+inline Rotation product(const Rotation& a, const Rotation& b) {
+  Rotation c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      c.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
+  return c;
+}
 inline Rotation transposed(const Rotation& r) {
   return {{r.m[0], r.m[3], r.m[6], r.m[1], r.m[4], r.m[7], r.m[2], r.m[5], r.m[8]}};
 }
 inline Vec3d apply(const RigidTransform& t, const Vec3d& p) {
   const Vec3d q = apply(t.rotation, p);
   return {q.x + t.translation_mm.x, q.y + t.translation_mm.y, q.z + t.translation_mm.z};
+}
+// First b, then a.
+inline RigidTransform product(const RigidTransform& a, const RigidTransform& b) {
+  return {product(a.rotation, b.rotation), apply(a, b.translation_mm)};
 }
 inline RigidTransform inverse(const RigidTransform& t) {
   const Rotation back = transposed(t.rotation);

@@ -64,15 +64,6 @@ Result<CameraInfo> read_info(const YamlFields& fields, const CalibrationHints& h
   return info;
 }
 
-Rotation product(const Rotation& a, const Rotation& b) {
-  Rotation c;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      c.m[3 * row + column] = a.m[3 * row] * b.m[column] + a.m[3 * row + 1] * b.m[3 + column] +
-                              a.m[3 * row + 2] * b.m[6 + column];
-  return c;
-}
-
 void append(std::string& text, const char* name, int rows, int cols, std::span<const double> values) {
   char word[64];
   std::snprintf(word, sizeof word, "%s:\n  rows: %d\n  cols: %d\n  data: [", name, rows, cols);

@@ -228,6 +228,33 @@ BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int marg
   return volume;
 }
 
+// A band of slices each: every voxel sees the points in their order.
+void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume& volume,
+                StageContext& context) {
+  constexpr int kBands = 32;
+  const Arena::Mark mark(context.scratch);
+  std::pmr::vector<float> weight(volume.value.size(), 0.0F, &context.scratch);
+  std::fill(volume.value.begin(), volume.value.end(), 0.0F);
+  const float narrowness = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
+  context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
+    const float low = volume.at(0, 0, begin).z - radius_mm, high = volume.at(0, 0, end - 1).z + radius_mm;
+    for (const FieldPoint& p : points) {
+      if (p.at_mm.z < low || p.at_mm.z > high) continue;
+      for_each_voxel_near(volume, p.at_mm, radius_mm, [&](int x, int y, int z) {
+        if (z < begin || z >= end) return;
+        const Vec3f from = minus(volume.at(x, y, z), p.at_mm);
+        const float w = p.weight * std::exp(-narrowness * dot(from, from));
+        const std::size_t k = volume.index(x, y, z);
+        volume.value[k] += w * dot(from, p.normal);
+        weight[k] += w;
+      });
+    }
+  });
+  for (std::size_t k = 0; k < weight.size(); ++k)
+    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius_mm, radius_mm)
+                                    : std::numeric_limits<float>::quiet_NaN();
+}
+
 Polygonised polygonise(const BandVolume& volume, std::pmr::memory_resource* memory) {
   return Walker(volume, memory).walk();
 }

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
@@ -57,6 +58,18 @@ void for_each_voxel_near(const BandVolume& volume, const Vec3f& p, float radius_
         if (dx * dx + dy * dy + dz * dz <= r * r) visit(i, j, k);
       }
 }
+
+// A point with the plane through it.
+struct FieldPoint {
+  Vec3f at_mm, normal;
+  float weight;
+};
+
+// At each voxel within `radius_mm` of a point the mean of the distances to the points' planes, weighted by
+// their weights and a Gaussian of a voxel (implicit moving least squares; Kolluri 2008), at most `radius_mm`;
+// NaN elsewhere. Works on the pool; the result does not depend on its size. Memory: scratch, 4 bytes a voxel.
+void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume& volume,
+                StageContext& context);
 
 struct Polygonised {
   explicit Polygonised(std::pmr::memory_resource* memory) : vertices_mm(memory), triangles(memory) {}

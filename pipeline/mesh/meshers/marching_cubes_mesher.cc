@@ -3,9 +3,6 @@
 #include "pipeline/mesh/meshers/marching_cubes_mesher.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
 
 #include "pipeline/mesh/meshers/band_volume.h"
 #include "pipeline/model/vector3.h"
@@ -17,32 +14,13 @@ constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kBetweenShare = 0.05F;  // of a measured point's weight, where there is none near
 constexpr float kSparse = 1.5F;         // voxels: points further apart are joined by others
 
-// Adds the points' planes to values and weights of the field.
-void splat(const FaceMesh& points, float share, float radius, BandVolume& volume, std::span<float> weight) {
-  const float narrow = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
-  for (std::size_t i = 0; i < points.vertices_mm.size(); ++i) {
-    const Vec3f& p = points.vertices_mm[i];
-    const float sigma = std::max(points.sigma_mm[i], kLeastSigmaMm);
-    const float sure = share * kLeastSigmaMm * kLeastSigmaMm / (sigma * sigma);
-    for_each_voxel_near(volume, p, radius, [&](int x, int y, int z) {
-      const Vec3f from = minus(volume.at(x, y, z), p);
-      const float w = sure * std::exp(-narrow * dot(from, from));
-      const std::size_t k = volume.index(x, y, z);
-      volume.value[k] += w * dot(from, points.normals[i]);
-      weight[k] += w;
-    });
+// Those of a sheet, by their certainty.
+void add_points(const FaceMesh& sheet, float share, std::pmr::vector<FieldPoint>& points) {
+  for (std::size_t i = 0; i < sheet.vertices_mm.size(); ++i) {
+    const float sigma = std::max(sheet.sigma_mm[i], kLeastSigmaMm);
+    points.push_back(
+        {sheet.vertices_mm[i], sheet.normals[i], share * kLeastSigmaMm * kLeastSigmaMm / (sigma * sigma)});
   }
-}
-
-void fill_field(const FaceMesh& base, const FaceMesh& between, float radius, BandVolume& volume,
-                std::pmr::memory_resource* memory) {
-  std::pmr::vector<float> weight(volume.value.size(), 0.0F, memory);
-  std::fill(volume.value.begin(), volume.value.end(), 0.0F);
-  splat(base, 1, radius, volume, weight);
-  splat(between, kBetweenShare, radius, volume, weight);
-  for (std::size_t k = 0; k < weight.size(); ++k)
-    volume.value[k] = weight[k] > 0 ? std::clamp(volume.value[k] / weight[k], -radius, radius)
-                                    : std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace
@@ -57,7 +35,12 @@ Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext
   const float radius = static_cast<float>(options_.band_voxels) * voxel;
   BandVolume volume =
       volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
-  fill_field(base, densify(base, kSparse * voxel, &context.scratch), radius, volume, &context.scratch);
+  const FaceMesh between = densify(base, kSparse * voxel, &context.scratch);
+  std::pmr::vector<FieldPoint> points(&context.scratch);
+  points.reserve(base.vertices_mm.size() + between.vertices_mm.size());
+  add_points(base, 1, points);
+  add_points(between, kBetweenShare, points);
+  fill_field(points, radius, volume, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   Polygonised surface = polygonise(volume, &context.scratch);
   return finish_surface(base, surface.vertices_mm, surface.triangles, options_.finish, context);

@@ -95,13 +95,7 @@ TEST_F(Heads, StandAboutWhereTheyDid) {
   for (std::size_t k = 1; k < shots.size(); ++k) {
     const RigidTransform back = inverse(camera_from_head(shots[k].pose)),
                          front = camera_from_head(shots[0].pose);
-    Rotation truth;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        truth.m[3 * i + j] = 0;
-        for (std::size_t n = 0; n < 3; ++n)
-          truth.m[3 * i + j] += front.rotation.m[3 * i + n] * back.rotation.m[3 * n + j];
-      }
+    const Rotation truth = product(front.rotation, back.rotation);
     const RegisteredPose& found = head->registration.poses[k];
     EXPECT_LT(degrees_between(found.first_from_pose.rotation, truth), 3.5) << k;
     const Vec3d middle = apply(inverse(found.first_from_pose), head->registration.pivot_mm);
@@ -122,7 +116,6 @@ TEST_F(Heads, BecomeOneSurfaceThatShowsMoreThanOnePair) {
   std::array<int, 3> by_pose{};
   for (const std::uint8_t p : mesh.pose) ++by_pose.at(p);
   for (const int count : by_pose) EXPECT_GT(count, static_cast<int>(mesh.pose.size() / 20));
-  // Each vertex's place comes from its pose: the person's left side, from the head turned to show it.
   const auto& atlas = head->model.texture;
   EXPECT_EQ(atlas.uv.size(), 3 * mesh.triangles.size());
   std::size_t filled = 0, shown = 0;

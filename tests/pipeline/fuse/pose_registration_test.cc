@@ -19,21 +19,11 @@ namespace {
 constexpr int kColumns = 130, kRows = 150, kStepPx = 2;
 constexpr double kFocalPx = 900, kSigmaMm = 0.05;
 
-Rotation product(const Rotation& a, const Rotation& b) {
-  Rotation out;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      out.m[3 * i + j] = 0;
-      for (std::size_t k = 0; k < 3; ++k) out.m[3 * i + j] += a.m[3 * i + k] * b.m[3 * k + j];
-    }
-  return out;
-}
-
 // The head turned about its upright axis, its middle 640 mm before the camera.
 RigidTransform camera_from_head(double yaw_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
   RigidTransform out;
-  out.rotation = product({{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {{c, 0, s, 0, 1, 0, -s, 0, c}});
+  out.rotation = product(Rotation{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, Rotation{{c, 0, s, 0, 1, 0, -s, 0, c}});
   const Vec3d middle{0, 20, -95};
   out.translation_mm = minus(Vec3d{0, 0, 640}, apply(out.rotation, middle));
   return out;
@@ -81,7 +71,8 @@ Result<PoseSurface> seen(double yaw_deg, double moved_mm, StageContext& context)
 RigidTransform turned_by(const RigidTransform& t, double degrees) {
   const double a = degrees * std::numbers::pi / 180;
   RigidTransform out = t;
-  out.rotation = product({{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}}, t.rotation);
+  out.rotation =
+      product(Rotation{{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}}, t.rotation);
   return out;
 }
 

@@ -31,7 +31,11 @@ TEST(CommandLine, AHeadThatTurned) {
   const auto& args = std::get<ReconstructArgs>(good.command);
   EXPECT_EQ(args.pictures, (std::vector<Path>{"l0", "r0", "l1", "r1"}));
   EXPECT_EQ(args.calibrations, (std::vector<Path>{"a.yml", "b.yml"}));
+  const auto before = parse({"reconstruct", "--calibration", "a.yml", "l0", "r0", "-o", "out"});
+  EXPECT_EQ(std::get<ReconstructArgs>(before.command).pictures, (std::vector<Path>{"l0", "r0"}));
+  EXPECT_EQ(std::get<ReconstructArgs>(before.command).calibrations, std::vector<Path>{"a.yml"});
   const std::vector<std::vector<const char*>> wrong{
+      {"reconstruct", "--calibration", "a.yml", "-o", "out"},
       {"reconstruct", "l0", "r0", "l1", "--calibration", "a.yml", "-o", "out"},
       {"reconstruct", "l0", "r0", "l1", "r1", "l2", "r2", "--calibration", "a.yml", "b.yml", "-o", "out"},
       {"reconstruct", "l0", "r0", "l1", "r1", "--calibration", "a.yml", "-o", "out", "--by-hand", "f"},
