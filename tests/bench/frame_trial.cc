@@ -15,14 +15,6 @@ namespace {
 using namespace pipeline;  // NOLINT: a bench of the pipeline
 namespace measure = firmware::measure;
 
-Rotation product(const Rotation& a, const Rotation& b) {
-  Rotation r;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      r.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
-  return r;
-}
-
 RigidTransform chained(const RigidTransform& outer, const RigidTransform& inner) {
   return {product(outer.rotation, inner.rotation), apply(outer, inner.translation_mm)};
 }
