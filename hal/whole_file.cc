@@ -98,7 +98,7 @@ Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file
   if (in.fd < 0) {
     const int number = errno;
     if (number == ENOENT || number == ENOTDIR)
-      return Error{Errc::NotFound, "there is no such file", number}.at(file.native());
+      return Error{Errc::NotFound, "there is no such file; check its name", number}.at(file.native());
     return Error{Errc::IoFailed, "cannot open this file", number}.at(file.native());
   }
   RELIEVO_TRY_ASSIGN(const std::size_t size, regular_size(in.fd, file, limit_bytes));

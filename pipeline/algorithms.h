@@ -43,10 +43,16 @@ class AlgorithmSet {
   std::string to_text() const;
   // Such a text. Errors: those of set(); InvalidInput for a line that is no "key = value".
   static Result<AlgorithmSet> from_text(std::string_view text);
+  // What is in the files that options name, by the option's key, as far as they were read. Setting the option
+  // forgets it. It is no part of to_text().
+  using Texts = std::map<std::string, std::shared_ptr<const std::string>, std::less<>>;
+  const Texts& texts() const { return texts_; }
+  void keep_text(std::string_view key, std::string text);
 
  private:
   friend class OptionReader;
   std::map<std::string, std::string, std::less<>> chosen_;
+  Texts texts_;
 };
 
 struct AlgorithmDescription {
@@ -63,9 +69,10 @@ struct OptionDescription {
   std::vector<std::string> names;                // of a kind, or an option chosen by name: what it may be
   std::vector<AlgorithmDescription> algorithms;  // of a kind: what each of `names` is
   OptionRange range;                             // of an option
-  bool text = false;                             // any text: a path
+  bool text = false;                             // any text
   bool several = false;                          // of a kind: names may be joined by '+'
   std::string kind = {};                         // of an option: the kind it belongs to
+  bool file = false;                             // of an option: the path of a text file
 
   bool is_option() const { return !kind.empty(); }
 };

@@ -84,14 +84,23 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
   });
 }
 
-// Left taken for right has its rows in step and a face within reach.
-bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) const {
+// How many matches of a pair stay in the surface: none where there is no surface, its rows are out of step,
+// or most matches lie beside it, as those do that are alike by chance.
+std::size_t Pipeline::surface_matches(const StereoFrame& frame, StageContext& context) const {
+  constexpr std::size_t kLeastShare = 6;  // one in so many
   Arena::Mark mark(context.output);
-  auto pair = rectify({frame.right, frame.left, frame.sequence, frame.skew_ns}, context);
-  if (!pair) return false;
+  auto pair = rectify(frame, context);
+  if (!pair) return 0;
   const auto matches = match(*pair, context);
-  return matches && judge_drift(matches->epipolar_shift, calibration_).verdict != DriftVerdict::Refuse &&
-         reconstruct(*pair, *matches, context).has_value();
+  if (!matches || judge_drift(matches->epipolar_shift, calibration_).verdict == DriftVerdict::Refuse)
+    return 0;
+  const auto cloud = reconstruct(*pair, *matches, context);
+  return cloud && kLeastShare * cloud->points.size() > matches->matches.size() ? cloud->points.size() : 0;
+}
+
+bool Pipeline::matches_swapped(const StereoFrame& frame, StageContext& context) const {
+  const StereoFrame swapped{frame.right, frame.left, frame.sequence, frame.skew_ns};
+  return surface_matches(swapped, context) > 2 * surface_matches(frame, context);
 }
 
 std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& context) const {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/arguments/algorithm_choice.h"
 
+#include <string>
 #include <utility>
 
 #include "firmware/arguments/settings_file.h"
+#include "hal/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -20,7 +22,19 @@ Result<void> apply(pipeline::AlgorithmSet& set, const std::vector<std::string>& 
   return {};
 }
 
+// Larger is no list of a picture's points, not of a match at every pixel of 20 megapixels.
+constexpr std::size_t kMostTextBytes = std::size_t{512} << 20;
+
 }  // namespace
+
+Result<void> read_texts(pipeline::AlgorithmSet& set) {
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms()) {
+    if (!option.file || set.get(option.key).empty() || set.texts().contains(option.key)) continue;
+    RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(set.get(option.key), kMostTextBytes));
+    set.keep_text(option.key, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+  return {};
+}
 
 Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipeline::AlgorithmSet start) {
   pipeline::AlgorithmSet set = std::move(start);
@@ -29,6 +43,7 @@ Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipe
     RELIEVO_TRY(apply(set, settings));
   }
   RELIEVO_TRY(apply(set, args.settings));
+  RELIEVO_TRY(read_texts(set));
   return set;
 }
 

@@ -11,6 +11,9 @@
 
 namespace relievo::firmware {
 
+// What is in the files that the options name, as far as it is not there. Errors: read_whole_file()'s.
+Result<void> read_texts(pipeline::AlgorithmSet& set);
+// With the texts of its files.
 Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args,
                                                  pipeline::AlgorithmSet start = {});
 Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args,

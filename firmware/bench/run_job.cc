@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/work/pipeline_stages.h"
 #include "hal/raw/raw_image.h"
 
 namespace relievo::firmware {
@@ -18,6 +17,7 @@ void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCali
   making_.calibration = calibration;
   making_.whole_view = whole_view;
   making_.by_hand = std::move(by_hand);
+  if (wants_before()) first = std::min(first, State::Reconstruct);
   making_.records.resize(std::min(making_.records.size(), number_of(first)));
   first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
   document_.reset();
@@ -49,6 +49,9 @@ Result<void> RunJob::work(JobControl& control) {
   StageJob job(stages, session_, pool_, clock_);
   for (const State stage : kStages) {
     if (stage < first_) continue;
+    if (stage == State::Reconstruct && wants_before()) {
+      RELIEVO_TRY(before_pairs(stages, job, control));
+    }
     now_.store(stage, std::memory_order_relaxed);
     job.choose(stage);
     const Result<void> done = job.run(control);
@@ -64,8 +67,25 @@ Result<void> RunJob::work(JobControl& control) {
   return finish(control);
 }
 
+Result<void> RunJob::before_pairs(PipelineStages& stages, StageJob& job, JobControl& control) {
+  stages.add_by_hand({});
+  for (const State stage : {State::Reconstruct, State::Mesh}) {
+    now_.store(stage, std::memory_order_relaxed);
+    job.choose(stage);
+    const Result<void> done = job.run(control);
+    if (!done && done.error().code == Errc::Cancelled) return done;
+    if (!done) break;  // without the pairs there is no surface
+  }
+  if (const Products& made = session_.products(); made.mesh)
+    change_.before(making_.set, *made.pair, *made.mesh);
+  session_.rework(State::Reconstruct);
+  stages.add_by_hand(making_.by_hand);
+  return {};
+}
+
 Result<void> RunJob::load(JobControl& control) {
   const std::shared_ptr<const SavedBytes> bytes = std::exchange(document_, nullptr);
+  change_.forget();                                                       // another capture
   std::vector<StageRecord> records = std::exchange(making_.records, {});  // none is done before all are read
   RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(bytes->bytes()));
   pipeline::StereoFrame frame;

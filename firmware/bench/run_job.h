@@ -21,6 +21,7 @@
 #include "firmware/bench/show/bench_figures.h"
 #include "firmware/bench/show/bench_pictures.h"
 #include "firmware/work/jobs.h"
+#include "firmware/work/pipeline_stages.h"
 #include "firmware/work/session_document.h"
 
 namespace relievo::firmware {
@@ -50,7 +51,10 @@ class RunJob final : public Job {
  private:
   Result<void> work(JobControl& control);
   Result<void> load(JobControl& control);
+  // The surface without pairs by hand, which those change; of what is done, only the matches stay.
+  Result<void> before_pairs(PipelineStages& stages, StageJob& job, JobControl& control);
   Result<void> finish(JobControl& control);
+  bool wants_before() const { return !making_.by_hand.empty() && !change_.has_before(making_.set); }
 
   EnrolmentSession& session_;
   ThreadPool& pool_;

@@ -25,7 +25,11 @@ bool say_options(const Options& all, std::string_view section, Console& console)
   for (const auto& option : all) {
     if (!option.is_option() || option.key.substr(0, option.key.find('.')) != section) continue;
     console.say("  " + padded(option.key + " = " + option.value, 36) +
-                padded(option.text ? "text" : option.range.possible(), 18) + option.sentence);
+                padded(option.file   ? "a file"
+                       : option.text ? "text"
+                                     : option.range.possible(),
+                       18) +
+                option.sentence);
     any = true;
   }
   return any;

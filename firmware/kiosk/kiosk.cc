@@ -70,7 +70,9 @@ Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty())
     return choose_algorithms(args.algorithms);
-  return pipeline::AlgorithmSet::from_text(*kept);
+  RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(*kept));
+  (void)read_texts(set);  // a file that went away keeps nobody out: its algorithm says so
+  return set;
 }
 
 // Without a calibration everything is made that needs none: the rest comes with the first one (make_bench).

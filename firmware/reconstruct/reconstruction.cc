@@ -14,12 +14,14 @@
 #include "firmware/work/reconstruct_job.h"
 #include "hal/monotonic_clock.h"
 #include "hal/whole_file.h"
-#include "pipeline/match/file/match_file.h"
+#include "pipeline/match/file/match_text.h"
 #include "pipeline/match/rectify/rectified_geometry.h"
 #include "pipeline/recognition/recognition_images.h"
 
 namespace relievo::firmware {
 namespace {
+
+constexpr std::size_t kMostByHandBytes = std::size_t{64} << 20;
 
 // The words of --from.
 State stage_named(std::string_view word) {
@@ -42,9 +44,11 @@ Result<std::vector<pipeline::Match>> read_by_hand(const Path& file,
                                                   const pipeline::StereoCalibration& calibration) {
   pipeline::RectifiedPair windows(std::pmr::get_default_resource());
   RELIEVO_TRY(pipeline::lay_windows(calibration, {}, windows));
-  RELIEVO_TRY_ASSIGN(const auto matches,
-                     pipeline::read_match_file(file.string(), windows, pipeline::kHandSigmaPx,
-                                               std::pmr::get_default_resource()));
+  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMostByHandBytes));
+  RELIEVO_TRY_ASSIGN(
+      const auto matches,
+      pipeline::matches_in({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string(),
+                           windows, pipeline::kHandSigmaPx, std::pmr::get_default_resource()));
   return std::vector<pipeline::Match>(matches.begin(), matches.end());
 }
 

@@ -23,7 +23,7 @@ namespace relievo::firmware {
 class Reconstruction {
  public:
   Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
-  // `by_hand`: a file of matches (pipeline/match/file/match_file.h), checked before anything is matched;
+  // `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is matched;
   // empty: none. Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const Path& left, const Path& right, const Path& calibration,
                    const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,

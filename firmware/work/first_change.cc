@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace relievo::firmware {
 namespace {
@@ -18,12 +19,19 @@ State stage_of(const pipeline::OptionDescription& option) {
   return kind == "relief" ? State::Assemble : State::Match;
 }
 
+std::string_view text_of(const pipeline::AlgorithmSet& set, const pipeline::OptionDescription& option) {
+  const auto text = set.texts().find(option.key);
+  return text == set.texts().end() ? std::string_view() : std::string_view(*text->second);
+}
+
 }  // namespace
 
 State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after) {
   State first = State::Review;
   for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
-    if (before.get(option.key) != after.get(option.key)) first = std::min(first, stage_of(option));
+    if (before.get(option.key) != after.get(option.key) ||
+        (option.file && text_of(before, option) != text_of(after, option)))
+      first = std::min(first, stage_of(option));
   return first;
 }
 

@@ -49,7 +49,7 @@ Result<std::vector<std::byte>> make_document(const Products& products, const Mak
   RELIEVO_ASSERT(products.frame.has_value());
   storage::DocumentHead head{std::string(kVersion), making.set.to_text(),    making.whole_view,
                              making.calibration,    products.frame->skew_ns, {},
-                             making.by_hand};
+                             making.by_hand,        making.set.texts()};
   for (std::size_t i = 0; i < std::min(done(products), making.records.size()); ++i) {
     const StageRecord& record = making.records[i];
     head.stages.push_back({record.took, record.in, record.out, record.arena_peak_bytes});
@@ -62,6 +62,7 @@ Result<Making> making_of(const storage::Document& document) {
   const storage::DocumentHead& head = document.head();
   Making making{{}, head.whole_view, head.calibration, {}, head.by_hand};
   RELIEVO_TRY_ASSIGN(making.set, pipeline::AlgorithmSet::from_text(head.algorithms));
+  for (const auto& [option, text] : head.texts) making.set.keep_text(option, *text);
   for (std::size_t i = 0; i < head.stages.size(); ++i) {
     const storage::DocumentStage& stage = head.stages[i];
     making.records.push_back(

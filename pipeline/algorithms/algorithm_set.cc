@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "pipeline/algorithms/algorithm_table.h"
 
@@ -107,9 +108,14 @@ Result<void> AlgorithmSet::set(std::string_view key, std::string_view value) {
     if (option.key == key) {
       RELIEVO_TRY(check_value(option, std::string(value)));
       chosen_[std::string(key)] = std::string(value);
+      texts_.erase(std::string(key));
       return {};
     }
   return unknown_key(key, all);
+}
+
+void AlgorithmSet::keep_text(std::string_view key, std::string text) {
+  texts_[std::string(key)] = std::make_shared<const std::string>(std::move(text));
 }
 
 std::string AlgorithmSet::get(std::string_view key) const {

@@ -46,7 +46,9 @@ void describe_options(std::string_view kind, std::string_view section, std::vect
     one.sentence = sentence;
     one.names.assign(range.names.begin(), range.names.end());
     one.range = range;
-    one.text = std::is_same_v<std::remove_reference_t<decltype(value)>, std::string>;
+    using Value = std::remove_reference_t<decltype(value)>;
+    one.file = std::is_same_v<Value, TextFile>;
+    one.text = one.file || std::is_same_v<Value, std::string>;
     one.kind = kind;
     all.push_back(std::move(one));
   });
@@ -61,10 +63,14 @@ class OptionReader {
     Options options;
     describe(options, [&](const char* name, auto& value, const OptionRange& range, const char*) {
       using Value = std::remove_reference_t<decltype(value)>;
-      const auto chosen = set.chosen_.find(std::string(section) + "." + name);
+      const std::string key = std::string(section) + "." + name;
+      const auto chosen = set.chosen_.find(key);
       if (chosen == set.chosen_.end()) return;
       if constexpr (std::is_same_v<Value, std::string>) value = chosen->second;
-      else if constexpr (std::is_enum_v<Value>)
+      else if constexpr (std::is_same_v<Value, TextFile>) {
+        const auto read = set.texts_.find(key);
+        value = {chosen->second, read == set.texts_.end() ? nullptr : read->second};
+      } else if constexpr (std::is_enum_v<Value>)
         value = static_cast<Value>(std::find(range.names.begin(), range.names.end(), chosen->second) -
                                    range.names.begin());
       else value = static_cast<Value>(number(chosen->second));

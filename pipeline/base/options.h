@@ -9,10 +9,11 @@
 //   }
 //
 // from which `--set`, the TOML file, the technician's page, the documentation and check_options() are made.
-// Numbers have a range, enum classes a name for each value, std::string is any text.
+// Numbers have a range, enum classes a name for each value, std::string is any text, a TextFile a path.
 #pragma once
 
 #include <cstdlib>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,10 +39,18 @@ Error out_of_range(const std::string& option, const std::string& value, const Op
 // To ten digits, a float's to six.
 std::string number_text(double value, int digits = 10);
 
+// An option that names a file. No algorithm opens one: who makes the choice reads it
+// (AlgorithmSet::keep_text), so that a saved reconstruction has what it was calculated with.
+struct TextFile {
+  std::string path;
+  std::shared_ptr<const std::string> text = {};  // null: it was not read
+};
+
 // A value as it is shown, and read again.
 template <typename Value>
 std::string option_text(const Value& value, const OptionRange& range) {
   if constexpr (std::is_same_v<Value, std::string>) return value;
+  else if constexpr (std::is_same_v<Value, TextFile>) return value.path;
   else if constexpr (std::is_enum_v<Value>) return range.names[static_cast<std::size_t>(value)];
   else return number_text(static_cast<double>(value), std::is_same_v<Value, float> ? 6 : 10);
 }

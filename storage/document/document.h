@@ -14,6 +14,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <memory_resource>
 #include <optional>
@@ -51,6 +53,8 @@ struct DocumentHead {
   std::int64_t skew_ns = 0;              // as in StereoFrame
   std::vector<DocumentStage> stages;     // those that are done, in their order; kDocumentStages at most
   std::vector<pipeline::Match> by_hand;  // beside the matcher's (pipeline/match/hand); cost is not kept
+  // What was in the files that algorithms read, by the option that names the file.
+  std::map<std::string, std::shared_ptr<const std::string>, std::less<>> texts = {};
 };
 
 // What is saved; borrowed. The products of the stages that head names are there: a mesh only while it is in

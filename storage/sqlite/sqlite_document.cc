@@ -22,7 +22,8 @@ namespace {
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::uint32_t kApplicationId = 0x524C564F;  // "RLVO"
 constexpr std::uint32_t kForm = 3;
-constexpr std::size_t kHeaderBytes = 100;  // of SQLite's file: its file format, section 1.3
+constexpr std::string_view kTextPart{"text "};  // before the option that names its file
+constexpr std::size_t kHeaderBytes = 100;       // of SQLite's file: its file format, section 1.3
 constexpr const char* kSchema =
     "PRAGMA application_id = 1380734543; PRAGMA user_version = 3;"
     "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB "
@@ -135,6 +136,7 @@ std::size_t room_for(const DocumentParts& parts) {
   };
   std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size() +
                       parts.head.by_hand.size() * 16;
+  for (const auto& [option, text] : parts.head.texts) bytes += text->size();
   if (parts.pair != nullptr) bytes += parts.pair->left.grey.size() * 17;
   if (parts.matches != nullptr) bytes += parts.matches->matches.size() * 22;
   if (parts.cloud != nullptr) bytes += parts.cloud->points.size() * 24;
@@ -201,6 +203,8 @@ Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
       explicit_bzero(data.data(), data.size());  // a face
       RELIEVO_TRY(done);
     }
+    for (const auto& [option, text] : parts.head.texts)
+      RELIEVO_TRY(put(database, std::string(kTextPart) + option, bytes_of(*text)));
     RELIEVO_TRY(transaction.commit());
     RELIEVO_TRY_ASSIGN(const std::int64_t pages, database.integer("PRAGMA page_count"));
     RELIEVO_TRY_ASSIGN(const std::int64_t page_bytes, database.integer("PRAGMA page_size"));
@@ -225,6 +229,17 @@ struct Document::Inside {
       if (!std::ranges::equal(digest_of(name, data), find.blob(1))) return damaged();
       return data;
     });
+  }
+  // Those of the parts that hold the text of a file.
+  Result<std::vector<std::string>> text_parts() {
+    std::vector<std::string> names;
+    RELIEVO_TRY_ASSIGN(auto find,
+                       database.prepare("SELECT name FROM part WHERE name GLOB 'text *' ORDER BY name"));
+    while (true) {
+      RELIEVO_TRY_ASSIGN(const bool there, find.step());
+      if (!there) return names;
+      names.emplace_back(find.text(0));
+    }
   }
   // With the one error a reader of bytes can have.
   template <typename Read>
@@ -259,6 +274,15 @@ Result<Document> Document::open(std::span<const std::byte> bytes) {
     const auto whole =
         inside.read(name, [](std::span<const std::byte> data) { return Result<std::size_t>(data.size()); });
     if (!whole) return whole.error();
+  }
+  const auto texts = inside.text_parts();
+  if (!texts) return of_bytes(texts.error());
+  for (const std::string& name : *texts) {
+    RELIEVO_TRY_ASSIGN(document.head_.texts[name.substr(kTextPart.size())],
+                       inside.read(name, [](std::span<const std::byte> data) {
+                         return Result(std::make_shared<const std::string>(
+                             reinterpret_cast<const char*>(data.data()), data.size()));
+                       }));
   }
   return document;
 }

@@ -128,6 +128,18 @@ TEST_F(BadInput, PicturesInTheWrongPlaces) {
   };
   wrong("right.png", "left.png", "left and right are swapped");
   wrong("left.png", "left.png", "the same picture");
+
+  // Sparse points that are alike by chance are as few either way round.
+  std::string points;
+  for (int y = 160; y < 320; y += 3)
+    for (int x = 256; x < 512; x += 3) points += std::to_string(x) + "," + std::to_string(y) + "\n";
+  write_text(here / "points.csv", points);
+  std::vector<std::string> sparse{
+      "reconstruct", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "-o", "out"};
+  for (const char* setting : {"matcher=zmncc", "selector=file-points", "mesher=delaunay", "relief=off",
+                              "file-points.path=points.csv"})
+    sparse.insert(sparse.end(), {"--set", setting});
+  refused(sparse, "face/left.png", "no surface of a face's size");
 }
 
 TEST_F(BadInput, SettingsThatDoNotExist) {

@@ -102,6 +102,46 @@ TEST_F(SavedReconstruction, SaysAgainWhyItIsNotKnownToBeAFace) {
   EXPECT_EQ(why(done({"reconstruct", "--load", "face.relievo", "-o", "loaded"}).out), said);
 }
 
+// Loaded where these files are not, it is calculated again from the first stage on.
+TEST_F(SavedReconstruction, HasTheTextsThatItsAlgorithmsRead) {
+  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  const auto rig = pipeline::read_calibration(here / "face/rig.yml");
+  pipeline::RectifiedPair windows(std::pmr::get_default_resource());
+  ASSERT_TRUE(rig && pipeline::lay_windows(*rig, {}, windows));
+  std::string points;  // a round surface of a face's size
+  const double centre_x = windows.width_px / 2.0, centre_y = windows.height_px / 2.0;
+  for (double y = -85; y <= 85; y += 3)
+    for (double x = -65; x <= 65; x += 3) {
+      const double z_mm = 545 + 40 * (x * x / (65 * 65) + y * y / (85 * 85));
+      points += std::to_string(centre_x + x * windows.focal_px / z_mm) + " " +
+                std::to_string(centre_y + y * windows.focal_px / z_mm) + " " +
+                std::to_string(windows.disparity_px(z_mm)) + " 0.1\n";
+    }
+  write_text(here / "points.csv", "x y disparity sigma\n" + points);
+  std::vector<std::string> face{"reconstruct", "face/left.png", "face/right.png", "--calibration",
+                                "face/rig.yml"};
+  for (const char* setting : {"matcher=file-matches", "constraints=none", "mesher=delaunay", "relief=off",
+                              "file-matches.path=points.csv"})
+    face.insert(face.end(), {"--set", setting});
+  face.emplace_back("-o");
+  auto saving = face;
+  saving.insert(saving.end(), {"first", "--save", "face.relievo"});
+  done(saving);
+  fs::remove(here / "points.csv");
+  done({"reconstruct", "--load", "face.relievo", "--from", "match", "-o", "again"});
+  expect_same_model("first", "again");
+  // The same name with other points in it is another choice, of the first stage.
+  write_text(here / "points.csv", points.substr(0, points.find('\n', 2 * points.size() / 3) + 1));
+  const std::vector<std::string> other{
+      "reconstruct", "--load", "face.relievo", "--set", "file-matches.path=points.csv", "-o", "other"};
+  EXPECT_NE(done(other).out.find("Match"), std::string::npos);
+  EXPECT_LT(fs::file_size(here / "other/model.ply"), fs::file_size(here / "first/model.ply"));
+  fs::remove(here / "points.csv");
+  auto none = face;
+  none.emplace_back("none");
+  refused(none, "points.csv", "");
+}
+
 TEST_F(SavedReconstruction, MatchesByHandFromAFileAreCalculatedWithAndKept) {
   done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
   const auto rig = pipeline::read_calibration(here / "face/rig.yml");
@@ -138,9 +178,9 @@ TEST_F(SavedReconstruction, MatchesByHandFromAFileAreCalculatedWithAndKept) {
   for (const char* bad :
        {"400 200\n", "400 200 x\n", "400 200 1 0\n", "-1 200 1\n", "400 1e9 1\n", "400 200 9000\n"}) {
     write_text(here / "bad.txt", line + bad + line);
-    refused(reconstruct("none", {"--by-hand", "bad.txt"}), "bad.txt line 2");
+    refused(reconstruct("none", {"--by-hand", "bad.txt"}), "bad.txt, line 2");
   }
-  refused(reconstruct("none", {"--by-hand", "missing.txt"}), "missing.txt", "check the name");
+  refused(reconstruct("none", {"--by-hand", "missing.txt"}), "missing.txt", "check its name");
   refused({"reconstruct", "--load", "face.relievo", "--by-hand", "none.txt", "--from", "mesh", "-o", "none"},
           "--from mesh", "before this one");
 }

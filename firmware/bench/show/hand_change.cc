@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "firmware/measure/self_agreement.h"
 
@@ -21,6 +20,13 @@ void wipe(compare::DisparityMap& map) {
   map = {};
 }
 
+compare::DisparityMap depths(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh) {
+  compare::DisparityMap map = compare::model_view(pair, mesh);
+  for (float& d : map.values)
+    if (!std::isnan(d)) d = static_cast<float>(pair.depth_mm(static_cast<double>(d)));
+  return map;
+}
+
 }  // namespace
 
 void HandChange::forget() {
@@ -30,21 +36,22 @@ void HandChange::forget() {
   figures_ = {};
 }
 
+void HandChange::before(const pipeline::AlgorithmSet& set, const pipeline::RectifiedPair& pair,
+                        const pipeline::FaceMesh& mesh) {
+  wipe(before_);
+  before_ = depths(pair, mesh);
+  set_ = set.to_text();
+}
+
 void HandChange::measure(const Making& making, const Products& products) {
   figures_ = {};
   wipe(now_);
   if (!products.pair || !products.model) return;
   const pipeline::RectifiedPair& pair = *products.pair;
-  now_ = compare::model_view(pair, products.model->mesh);
-  for (float& d : now_.values)
-    if (!std::isnan(d)) d = static_cast<float>(pair.depth_mm(static_cast<double>(d)));
-  if (making.by_hand.empty()) {
-    wipe(before_);
-    before_ = std::exchange(now_, {});
-    set_ = making.set.to_text();
-    return;
-  }
-  if (before_.values.size() != now_.values.size() || set_ != making.set.to_text()) return;
+  if (making.by_hand.empty()) return before(making.set, pair, products.model->mesh);
+  if (!has_before(making.set)) return;
+  now_ = depths(pair, products.model->mesh);
+  if (before_.values.size() != now_.values.size()) return;
   figures_.known = true;
   const auto focal = static_cast<float>(pair.focal_px);
   for (int y = 0; y < now_.height_px; ++y)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// HandChange: the surface with the pairs made by hand against the newest one of the same capture and the same
-// algorithms without any, both as the left rectified view sees them. Depths along its z, millimetres.
-// Thread: worker while a job runs, else main. Errors: none; without the other surface nothing is known.
+// HandChange: the surface with the pairs made by hand against that of the same capture and the same
+// algorithms without any, both as the left rectified view sees them. Depths along its z, millimetres. Thread:
+// worker while a job runs, else main. Errors: none; without the other surface nothing is known.
 #pragma once
 
 #include <span>
@@ -19,6 +19,11 @@ namespace relievo::firmware {
 
 class HandChange {
  public:
+  // The surface without pairs is there.
+  bool has_before(const pipeline::AlgorithmSet& set) const { return !set_.empty() && set_ == set.to_text(); }
+  void before(const pipeline::AlgorithmSet& set, const pipeline::RectifiedPair& pair,
+              const pipeline::FaceMesh& mesh);
+  // With pairs; does nothing for a surface without any but keeping it as the one before.
   void measure(const Making& making, const Products& products);
   void forget();
 

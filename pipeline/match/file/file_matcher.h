@@ -1,28 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FileMatcher ("file-matches"): matches made by hand or elsewhere, read from a text file (match_file.h).
+// FileMatcher ("file-matches"): matches made by hand or elsewhere, in a text file (match_text.h).
 // The file says where: keypoints are not asked, and the result is scattered whatever they are.
 // cost is one minus the correlation of 9 x 9 pixels at the match; sigma_px the file's, else the option's.
-// Errors: the file's; TooFewMatches where it holds none; as Matcher.
+// Errors: the text's; NotFound where none is named, or it was not read; TooFewMatches where it holds none;
+// as Matcher.
 #pragma once
 
-#include <string>
-
 #include "pipeline/base/options.h"
-#include "pipeline/match/file/match_file.h"
+#include "pipeline/match/file/match_text.h"
 #include "pipeline/match/matcher.h"
 
 namespace relievo::pipeline {
 
 struct FileMatcherOptions {
-  std::string path;               // none: matching fails and says so
+  TextFile file;                  // none: matching fails and says so
   float sigma_px = kHandSigmaPx;  // where the file has none
 };
 
 template <typename Field>
 void describe(FileMatcherOptions& o, Field&& field) {
-  field("path", o.path, OptionRange{0, 0},
+  field("path", o.file, OptionRange{0, 0},
         "text file, a match a line: x y disparity [sigma], rectified pixels");
   field("sigma_px", o.sigma_px, OptionRange{0.001, 100},
         "standard deviation of matches whose line has none, pixels");

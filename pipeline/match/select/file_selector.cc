@@ -5,38 +5,39 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/file/number_table.h"
+#include "pipeline/match/file/number_lines.h"
 #include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {
-namespace {
-
-constexpr std::size_t kMostPoints = 4'000'000;  // more than a picture has pixels
-
-}  // namespace
-
 Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (options_.path.empty())
-    return Error{Errc::InvalidInput, "no file of keypoints is named: --set file-points.path=FILE"}.at(
+  const TextFile& file = options_.file;
+  if (file.path.empty())
+    return Error{Errc::NotFound, "no file of keypoints is named: --set file-points.path=FILE"}.at(
         "file-points.path");
-  RELIEVO_TRY_ASSIGN(const NumberTable table,
-                     read_number_table(options_.path, 2, kMostPoints, context.scratch));
+  if (file.text == nullptr)
+    return Error{Errc::NotFound, "this file of keypoints could not be read; check its name"}.at(file.path);
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));
   Keypoints keypoints(&context.output);
-  keypoints.points.reserve(table.rows());
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    const double x = table.at(k, 0);
-    const double y = table.at(k, 1);
+  keypoints.points.reserve(lines_of(*file.text));
+  NumberLines lines(*file.text, 2);
+  NumberLine line;
+  bool any = false;
+  while (lines.next(line)) {
+    any = true;
+    const auto refused = [&](Literal what) {
+      return Error{Errc::InvalidInput, what}.at(line_name(file.path, line.number));
+    };
+    if (line.count < 2) return refused("is not a line of numbers with commas or blanks between them");
+    const double x = line.value[0], y = line.value[1];
     if (!(x >= 0 && y >= 0 && x <= pair.width_px - 1 && y <= pair.height_px - 1))
-      return Error{Errc::InvalidInput,
-                   "lies outside of the left rectified view; x and y are its pixels, from 0"}
-          .at(table.place(k));
+      return refused("lies outside of the left rectified view; x and y are its pixels, from 0");
     if (selectable(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)), 0))
       keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
   }
+  if (!any) return Error{Errc::InvalidInput, "holds no line of numbers"}.at(file.path);
   std::sort(keypoints.points.begin(), keypoints.points.end(), [](const Keypoint& a, const Keypoint& b) {
     return a.at_px.y != b.at_px.y ? a.at_px.y < b.at_px.y : a.at_px.x < b.at_px.x;
   });
@@ -46,7 +47,7 @@ Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& 
   keypoints.points.erase(std::unique(keypoints.points.begin(), keypoints.points.end(), same),
                          keypoints.points.end());
   if (keypoints.points.empty())
-    return Error{Errc::NoFace, "no keypoint of the file lies in the face region"}.at(options_.path);
+    return Error{Errc::NoFace, "no keypoint of the file lies in the face region"}.at(file.path);
   return keypoints;
 }
 

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FileSelector ("file-points"): the keypoints of a text file, one a line: x and y in pixels of the left
-// rectified view, apart by a comma, a semicolon or blanks; further columns are not looked at. Empty lines,
-// lines that begin with # and a first line of names (x,y) are passed over. What lies outside of the face
-// region is left out; the same place is taken once; keypoints are in rows from the top. Errors: NotFound,
-// IoFailed (the file); InvalidInput with the line's number: not two numbers, or outside of the view; too
-// long; NoFace (none in the face region); OutOfMemory, Cancelled.
+// FileSelector ("file-points"): the keypoints of a text file, one a line (number_lines.h): x and y in pixels
+// of the left rectified view; further columns are not looked at. What lies outside of the face region is left
+// out; the same place is taken once; keypoints are in rows from the top. Errors: NotFound (none is named, or
+// it was not read); InvalidInput with the line's number: not two numbers, or outside of the view; NoFace
+// (none in the face region); OutOfMemory, Cancelled.
 #pragma once
-
-#include <string>
 
 #include "pipeline/base/options.h"
 #include "pipeline/match/keypoint_selector.h"
@@ -17,12 +14,12 @@
 namespace relievo::pipeline {
 
 struct FileSelectorOptions {
-  std::string path;
+  TextFile file;
 };
 
 template <typename Field>
 void describe(FileSelectorOptions& o, Field&& field) {
-  field("path", o.path, OptionRange{0, 0},
+  field("path", o.file, OptionRange{0, 0},
         "text file of keypoints: x,y in pixels of the left rectified view, one a line");
 }
 

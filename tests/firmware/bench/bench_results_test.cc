@@ -84,9 +84,12 @@ TEST_F(BenchTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded) {
   ASSERT_EQ(rig().now().pairs.size(), 1U) << rig().now().problem.detail;
   EXPECT_EQ(rig().now().pairs[0].disparity_px, moved.disparity_px);
   EXPECT_EQ(model(), mended);
+  EXPECT_FALSE(rig().now().change.known) << "nothing was calculated without the pair here";
   rig().tap("stage 5");
   calculate("run from");
   EXPECT_EQ(model(), mended);
+  EXPECT_NEAR(rig().now().change.farthest_mm, wrong - right, 2.0);
+  EXPECT_NEAR(rig().now().pairs[0].moved_mm, moved.moved_mm, 0.01);
 
   // Either end is dragged; removed, the surface is as if it had never been.
   rig().tap("stage 2");

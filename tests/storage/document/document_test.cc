@@ -32,7 +32,8 @@ struct Sample {
                     test::sample_calibration(),
                     -1234,
                     {{std::chrono::nanoseconds(5), 1, 2, 3}, {{}, 4, 5, 6}, {}, {}, {}},
-                    {{{3.25F, 1e-42F}, -0.1F, 0, 0.5F, 0}, {{7, 8}, 1.0F / 3, 0, 1e9F, 0}}};
+                    {{{3.25F, 1e-42F}, -0.1F, 0, 0.5F, 0}, {{7, 8}, 1.0F / 3, 0, 1e9F, 0}},
+                    {{"file-matches.path", std::make_shared<const std::string>("1 2 3\n\0x", 8)}}};
   pipeline::RectifiedPair pair{std::pmr::get_default_resource()};
   pipeline::MatchSet matches{std::pmr::get_default_resource()};
   pipeline::PointCloud cloud{std::pmr::get_default_resource()};
@@ -97,6 +98,8 @@ TEST(Document, GivesBackEveryBit) {
       document->head().by_hand, sample.head.by_hand, [](const pipeline::Match& a, const pipeline::Match& b) {
         return std::memcmp(&a, &b, offsetof(pipeline::Match, rejected_by)) == 0;  // but for its last bytes
       }));
+  ASSERT_EQ(document->head().texts.size(), 1U);
+  EXPECT_EQ(*document->head().texts.at("file-matches.path"), std::string_view("1 2 3\n\0x", 8));
   const auto left = document->picture(true), right = document->picture(false);
   ASSERT_TRUE(left && right);
   EXPECT_EQ(left->view.format, PixelFormat::Rgb8);

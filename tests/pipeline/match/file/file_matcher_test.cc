@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
 #include "tests/pipeline/match/match_truth.h"
-#include "tests/support/temporary_folder.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -18,15 +17,13 @@ using test::StageBench;
 class FileMatcherTest : public testing::Test {
  protected:
   Result<MatchSet> read(const std::string& text, std::size_t output_bytes = 1 << 22) {
-    const auto file = folder_.path() / "matches.txt";
-    test::write_text(file, text);
-    return read_file(file.string(), output_bytes);
-  }
-  Result<MatchSet> read_file(const std::string& path, std::size_t output_bytes = 1 << 22) {
     bench_ = std::make_unique<StageBench>(output_bytes, 1 << 22, 1);
+    return match({"matches.txt", std::make_shared<const std::string>(text)}, *bench_);
+  }
+  Result<MatchSet> match(TextFile file, StageBench& bench) {
     const Keypoints none(std::pmr::get_default_resource());
-    return run_stage(bench_->context, [&](StageContext& c) {
-      return FileMatcher({.path = path, .sigma_px = 0.4F}).match(pair_, none, c);
+    return run_stage(bench.context, [&](StageContext& c) {
+      return FileMatcher({.file = std::move(file), .sigma_px = 0.4F}).match(pair_, none, c);
     });
   }
   std::string refusal(const std::string& text) {
@@ -36,7 +33,6 @@ class FileMatcherTest : public testing::Test {
     return std::string(matches.error().where());
   }
 
-  test::TemporaryFolder folder_;
   test::BumpScene scene_{.width_px = 160, .height_px = 100};
   std::vector<std::byte> block_ = std::vector<std::byte>(std::size_t{2} << 20);
   Arena memory_{block_};
@@ -67,38 +63,50 @@ TEST_F(FileMatcherTest, SaysHowAlikeTheTwoPlacesAre) {
 }
 
 TEST_F(FileMatcherTest, HostileFilesAreRefusedByTheirLine) {
-  for (const char* line :
-       {"80",          "80 50",        "80 50 20 1 1", "80 50 x",   "80 50 20x",          "80 50 nan",
-        "80 50 inf",   "80 50 1e999",  "80,,50 20",    "80 50 20,", ",80 50 20",          "80 50 0x14",
-        "-1 50 20",    "160 50 20",    "80 100 20",    "80 50 90",  "80 50 -90",          "80 50 20 0",
-        "80 50 20 -1", "80 50 20 1e9", "\x01\x02",     "80;50;20",  "eighty fifty twenty"}) {
+  for (const char* line : {"80",           "80 50",
+                           "80 50 20 1 1", "80 50 x",
+                           "80 50 20x",    "80 50 nan",
+                           "80 50 inf",    "80 50 1e999",
+                           "80,,50 20",    "80 50 20,",
+                           ",80 50 20",    "80 50 0x14",
+                           "-1 50 20",     "160 50 20",
+                           "80 100 20",    "80 50 90",
+                           "80 50 -90",    "80 50 20 0",
+                           "80 50 20 -1",  "80 50 20 1e9",
+                           "\x01\x02",     "eighty fifty twenty"}) {
     const std::string place = refusal(std::string("# one\n80 50 20\n") + line + "\n80 50 20\n");
-    EXPECT_NE(place.find("matches.txt line 3"), std::string::npos) << line << " -> " << place;
+    EXPECT_NE(place.find("matches.txt, line 3"), std::string::npos) << line << " -> " << place;
   }
   EXPECT_NE(refusal(std::string("80 50 20\n80 50\0 20\n", 18)).find("line 2"), std::string::npos);
   EXPECT_NE(refusal(std::string(100000, '7')).find("line 1"), std::string::npos);
 }
 
-TEST_F(FileMatcherTest, FilesThatAreNoneSaySo) {
-  EXPECT_EQ(read_file("").error().code, Errc::NotFound);
-  EXPECT_EQ(read_file((folder_.path() / "absent").string()).error().code, Errc::NotFound);
-  EXPECT_EQ(read_file(folder_.path().string()).error().code, Errc::InvalidInput);
+TEST_F(FileMatcherTest, WhatHoldsNoMatchSaysSo) {
+  StageBench bench(1 << 22, 1 << 22, 1);
+  EXPECT_EQ(match({}, bench).error().where(), "file-matches.path");
+  EXPECT_EQ(match({"gone.txt"}, bench).error().code, Errc::NotFound);
+  EXPECT_EQ(match({"gone.txt"}, bench).error().where(), "gone.txt");
   EXPECT_EQ(read("").error().code, Errc::TooFewMatches);
   EXPECT_EQ(read("# nothing\n\n").error().code, Errc::TooFewMatches);
-  EXPECT_EQ(read(std::string((std::size_t{4} << 20) + 1, '\n')).error().code, Errc::InvalidInput);
+}
+
+TEST_F(FileMatcherTest, AMatchAtEveryPixelIsRead) {
+  std::string text = "x y disparity\n";
+  for (int k = 0; k < 200'000; ++k)
+    text += std::to_string(40 + k % 100) + "." + std::to_string(k % 1000) + " " + std::to_string(k % 99) +
+            " 20.125\n";
+  const auto matches = read(text, std::size_t{16} << 20);
+  ASSERT_TRUE(matches);
+  EXPECT_EQ(matches->matches.size(), 200'000U);
 }
 
 TEST_F(FileMatcherTest, MemoryThatIsUsedUpAndCancellationAreReported) {
   std::string many;
   for (int k = 0; k < 2000; ++k) many += "80 50 20\n";
   EXPECT_EQ(read(many, 1024).error().code, Errc::OutOfMemory);
-  bench_->cancelled = true;
-  const Keypoints none(std::pmr::get_default_resource());
-  bench_->output.reset();
   StageBench roomy(1 << 20, 1 << 20, 1);
   roomy.cancelled = true;
-  const auto matches =
-      FileMatcher({.path = (folder_.path() / "matches.txt").string()}).match(pair_, none, roomy.context);
+  const auto matches = match({"matches.txt", std::make_shared<const std::string>(many)}, roomy);
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }

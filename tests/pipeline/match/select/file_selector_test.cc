@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/stat.h>
-
 #include <cmath>
+#include <vector>
 
-#include "pipeline/match/file/number_table.h"
+#include "pipeline/match/file/number_lines.h"
 #include "tests/pipeline/match/select/selection_bench.h"
 
 namespace relievo::pipeline {
@@ -80,29 +79,33 @@ TEST_F(FilePoints, OnePointOrMoreThanThePictureHasPixels) {
   EXPECT_EQ(many->points.size(), 399U * 160U);  // the last column stands there twice
 }
 
-TEST_F(FilePoints, WhatIsNoFileIsRefused) {
-  EXPECT_EQ(choose("").error().code, Errc::InvalidInput);
-  EXPECT_EQ(choose((here_ / "none.csv").string()).error().code, Errc::NotFound);
-  EXPECT_EQ(choose(here_.path().string()).error().code, Errc::InvalidInput);
-  const std::string pipe = (here_ / "pipe").string();
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(choose(pipe).error().code, Errc::InvalidInput);  // and nobody waits for a writer
+TEST_F(FilePoints, WhatWasNotReadIsNamed) {
+  EXPECT_EQ(choose("").error().where(), "file-points.path");
+  AlgorithmSet set;
+  ASSERT_TRUE(set.set("selector", "file-points") && set.set("file-points.path", "gone.csv"));
+  const auto made = make_selector(set);
+  ASSERT_TRUE(made);
+  const auto chosen = bench_.select(**made, SelectionBench::rendered());
+  ASSERT_FALSE(chosen);
+  EXPECT_EQ(chosen.error().code, Errc::NotFound);
+  EXPECT_EQ(chosen.error().where(), "gone.csv");
 }
 
-TEST(NumberTable, TooManyLinesAndTooLargeFilesAreRefused) {
-  test::StageBench bench(1 << 20, 1 << 20);
-  const auto table = parse_number_table("1 2\n\n3 4\n5 6\n", "t.txt", 2, 2, &bench.scratch);
-  ASSERT_FALSE(table);
-  EXPECT_EQ(table.error().where(), "t.txt, line 4");
-  test::TemporaryFolder here;
-  test::write_text(here / "large.txt", std::string(1000, ' '));
-  const auto large = read_number_table((here / "large.txt").string(), 2, 2, bench.scratch);
-  ASSERT_FALSE(large);
-  EXPECT_EQ(large.error().code, Errc::InvalidInput);
-  const auto fits = parse_number_table("1 2 x\n3 4,9\n", "t.txt", 2, 2, &bench.scratch);
-  ASSERT_TRUE(fits);
-  EXPECT_EQ(fits->at(1, 0), 3);
-  EXPECT_EQ(fits->place(1), "t.txt, line 2");
+TEST(NumberLines, SaysWhatIsLeftOfALine) {
+  NumberLines lines("x,y\n\n1 2 left # eye\n3;+4.5,\n5,,6\n7 8x\n", 4);
+  const struct {
+    std::uint32_t number;
+    std::vector<double> values;
+    std::string_view rest;
+  } expected[] = {{3, {1, 2}, "left"}, {4, {3, 4.5}, ","}, {5, {5}, ",,6"}, {6, {7}, "8x"}};
+  NumberLine line;
+  for (const auto& e : expected) {
+    ASSERT_TRUE(lines.next(line));
+    EXPECT_EQ(line.number, e.number);
+    EXPECT_EQ(std::vector<double>(line.value.begin(), line.value.begin() + line.count), e.values);
+    EXPECT_EQ(line.rest, e.rest);
+  }
+  EXPECT_FALSE(lines.next(line));
 }
 
 }  // namespace

@@ -26,7 +26,10 @@ inline std::unique_ptr<pipeline::KeypointSelector> make_selector(const std::stri
                                                                  const Settings& settings = {}) {
   pipeline::AlgorithmSet set;
   EXPECT_TRUE(set.set("selector", name));
-  for (const auto& [key, value] : settings) EXPECT_TRUE(set.set(key, value)) << key;
+  for (const auto& [key, value] : settings) {
+    EXPECT_TRUE(set.set(key, value)) << key;
+    if (key.ends_with(".path") && !value.empty()) set.keep_text(key, read_text(value));
+  }
   auto made = pipeline::make_selector(set);
   EXPECT_TRUE(made) << name;
   return *std::move(made);
