@@ -6,7 +6,7 @@
 // takes is not called a leak. Everything else about memory is still checked.
 #pragma once
 
-#ifdef RELIEVO_SANITIZED
+#ifdef __SANITIZE_ADDRESS__
 extern "C" void __lsan_disable();
 extern "C" void __lsan_enable();
 #endif
@@ -15,7 +15,7 @@ namespace relievo::ui {
 
 class QuietDriver {
  public:
-#ifdef RELIEVO_SANITIZED
+#ifdef __SANITIZE_ADDRESS__
   QuietDriver() { __lsan_disable(); }
   ~QuietDriver() { __lsan_enable(); }
 #else
