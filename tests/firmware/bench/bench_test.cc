@@ -226,6 +226,21 @@ TEST_F(BenchTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   rig().tap("calibration 1");
   ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem.detail;
   EXPECT_EQ(rig().stages->calibration()->revision, 1U);
+
+  // By stick: what was exported comes back as one more of the history.
+  rig().plug_in();
+  rig().tap("calibration export");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.exported.empty(); }))
+      << rig().now().calibration.problem.detail;
+  const auto exported = rig().stick() / rig().now().calibration.exported;
+  EXPECT_TRUE(std::filesystem::exists(exported)) << exported;
+  rig().plug_in();
+  rig().tap("calibration import");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 3; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().store->active_calibration()->right_from_left.translation_mm.x,
+            rig().store->calibration(1)->right_from_left.translation_mm.x);
+  std::filesystem::remove_all(rig().stick() / "calibrations");
 }
 
 // The last: it leaves.
