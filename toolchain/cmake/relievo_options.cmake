@@ -32,19 +32,23 @@ if(RELIEVO_COVERAGE)
   target_link_options(relievo_options INTERFACE --coverage)
 endif()
 
-# relievo_precompile(TARGET [HEADERS...]): the sanitized build reads the standard library's headers once a target,
-# a tenth of its time. What ships is built without: there every file includes what it uses.
+# relievo_precompile(TARGET [HEADERS...]): reads the standard library's headers, and HEADERS, once a target: parsing
+# them is most of what a small file costs. The presets tidy and arm64 do without: there a file that forgets an include is
+# found.
+option(RELIEVO_PRECOMPILE "read library headers once a target" ON)
 function(relievo_precompile target)
-  if(RELIEVO_SANITIZE)
+  if(RELIEVO_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/toolchain/cmake/standard_headers.h ${ARGN})
   endif()
 endfunction()
 
-# relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [DOORS rooms it may use...])
+# relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [DOORS rooms it may use...]
+#              [PRECOMPILE headers of libraries...])
 # One static library from every .cc below the folders named (default: all of the current folder). READS_BYTES: it takes
-# numbers out of bytes that come from outside, and is sanitized for alignment, too.
+# numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: what many of its files
+# include beside the standard library.
 function(relievo_room name)
-  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;DOORS" ${ARGN})
+  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;DOORS;PRECOMPILE" ${ARGN})
   if(NOT arg_DIRS)
     set(arg_DIRS .)
   endif()
@@ -60,7 +64,7 @@ function(relievo_room name)
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX RELIEVO_READS_BYTES "${arg_READS_BYTES}")
   # Who uses an installed room gets its headers, not our warnings.
   target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_DOORS} PRIVATE ${arg_LIBS})
-  relievo_precompile(relievo_${name})
+  relievo_precompile(relievo_${name} ${arg_PRECOMPILE})
   target_include_directories(relievo_${name} INTERFACE $<INSTALL_INTERFACE:include/relievo>)
   target_compile_features(relievo_${name} PUBLIC cxx_std_20)
 endfunction()

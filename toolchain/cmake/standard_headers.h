@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the sanitized build reads once a target (relievo_precompile); no file includes it.
+// What is read once a target (relievo_precompile); no file includes it.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <memory_resource>
 #include <mutex>
 #include <numeric>
 #include <optional>

@@ -20,6 +20,8 @@ class StaffEraseTest : public StaffHands {
     ASSERT_TRUE(until([this] { return find("erase") != nullptr; }));
     tap("erase");
     ASSERT_NE(find("yes"), nullptr);
+    EXPECT_TRUE(says("Ada Lovelace") && says(code_of(1))) << "who it is";
+    EXPECT_NE(find("face"), nullptr);
   }
   void pass(std::chrono::milliseconds so_long) {
     time.advance(so_long);

@@ -169,7 +169,7 @@ void records_page(StaffFrame& page) {
   if (seen->shown == nullptr) return list(page, *seen);
   if (page.service.mode != kErasing) return record(page, *seen);
   page.grave_question(
-      tr("Erase for ever?"),
+      tr("Erase for ever?"), {seen->shown->name, seen->shown->code, portrait_of},
       tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
       tr("Hold to erase"),
       {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)},

@@ -184,13 +184,20 @@ void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) 
   tree.close();
 }
 
-void StaffFrame::asked(const char* title, const char* words, const char* hint) {
+void StaffFrame::asked(const char* title, const About* about, const char* words, const char* hint) {
+  const bool narrow = portrait || text_share > 1.3F;
+  tree.open(grown(box(Flow::Row, space::kM)));
+  if (about != nullptr && !narrow) about->draw(*this);
   Node room = grown(box(Flow::Column, space::kM));
   room.id = "question";
   room.box.justify = Justify::Centre;
   room.box.scroll = true;
   tree.open(room);
   heading("question title", title, type::kHeading);
+  if (about != nullptr) {
+    heading("question about", filled("{}", about->name), type::kBody);
+    body("question code", filled("{}", about->code));
+  }
   body("question words", words);
   if (hint != nullptr) {
     Node how = text(hint, type::kSmall, Weight::Medium, palette.ink);
@@ -198,22 +205,23 @@ void StaffFrame::asked(const char* title, const char* words, const char* hint) {
     tree.leaf(how);
   }
   tree.close();
-  tree.open(box(portrait || text_share > 1.3F ? Flow::Column : Flow::Row, space::kS));
+  tree.close();
+  tree.open(box(narrow ? Flow::Column : Flow::Row, space::kS));
 }
 
 void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action,
                           const char* no, Action no_action) {
-  asked(title, words, nullptr);
+  asked(title, nullptr, words, nullptr);
   const float grow = portrait || text_share > 1.3F ? 0 : 1;
   button("no", no, nullptr, ButtonLook::Quiet, no_action, grow);
   button("yes", yes, nullptr, ButtonLook::Main, yes_action, grow);
   tree.close();
 }
 
-void StaffFrame::grave_question(const char* title, const char* words, const char* yes, Action yes_action,
-                                const char* no, Action no_action) {
+void StaffFrame::grave_question(const char* title, const About& about, const char* words, const char* yes,
+                                Action yes_action, const char* no, Action no_action) {
   asked(
-      title, words,
+      title, &about, words,
       tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."));
   const float grow = portrait || text_share > 1.3F ? 0 : 1;
   button("no", no, nullptr, ButtonLook::Main, no_action, grow);

@@ -67,10 +67,15 @@ class StaffFrame : public Page {
   // A big question in place of the page: two answers.
   void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no,
                 Action no_action);
+  // What a question is about: it stays in view; drawn beside the words where there is room.
+  struct About {
+    std::string_view name, code;
+    void (*draw)(StaffFrame&);
+  };
   // The same, of what nobody can undo: "yes" is held for three seconds; by a keypad it waits as long, and
   // another key calls it back.
-  void grave_question(const char* title, const char* words, const char* yes, Action yes_action,
-                      const char* no, Action no_action);
+  void grave_question(const char* title, const About& about, const char* words, const char* yes,
+                      Action yes_action, const char* no, Action no_action);
   // Digits to be typed; `done` when the tick is touched.
   void keypad(Action done);
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
@@ -91,7 +96,7 @@ class StaffFrame : public Page {
   void due_rule();
   void begin_card(std::string_view id, bool fit_content);
   void leaving();
-  void asked(const char* title, const char* words, const char* hint);
+  void asked(const char* title, const About* about, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void digit(const char* letter);
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
