@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one file that names implementations: which board, which store, which simulation.
+// The one file that names implementations: which device, which store, which simulation.
 #include <stdlib.h>
 #include <time.h>
 
@@ -18,10 +18,10 @@
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"
 #include "firmware/jobs/pool_size.h"
-#include "hal/linux/board.h"
+#include "hal/linux/device.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "hal/sim/held_board.h"
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/sheet/sheet_photo.h"
@@ -35,28 +35,28 @@ namespace {
 
 constexpr std::string_view kFolder = "folder:";
 constexpr std::string_view kLinux = "linux";
-constexpr std::string_view kBoardFile = "/etc/relievo/board.toml";
+constexpr std::string_view kDeviceFile = "/etc/relievo/board.toml";
 
 // "linux", or "linux:FILE" with another file that says what is wired where.
-Result<std::unique_ptr<hal::Board>> open_linux_board(std::string_view board) {
-  const bool named = board.size() > kLinux.size();
+Result<std::unique_ptr<hal::Device>> open_linux_device(std::string_view device) {
+  const bool named = device.size() > kLinux.size();
   RELIEVO_TRY_ASSIGN(const auto options,
-                     hal::read_linux_board_file(named ? board.substr(kLinux.size() + 1) : kBoardFile));
-  return hal::make_linux_board(options);
+                     hal::read_linux_device_file(named ? device.substr(kLinux.size() + 1) : kDeviceFile));
+  return hal::make_linux_device(options);
 }
 
-Result<std::unique_ptr<hal::Board>> open_board(std::string_view board) {
-  if (board == "sim") {
-    hal::SimBoardOptions options;
+Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
+  if (device == "sim") {
+    hal::SimDeviceOptions options;
     options.threads = pool_size();
-    return hal::make_sim_board(options);
+    return hal::make_sim_device(options);
   }
-  if (board.substr(0, kFolder.size()) == kFolder) return hal::make_folder_board(board.substr(kFolder.size()));
-  if (board == kLinux || (board.starts_with(kLinux) && board[kLinux.size()] == ':'))
-    return open_linux_board(board);
+  if (device.substr(0, kFolder.size()) == kFolder) return hal::make_folder_device(device.substr(kFolder.size()));
+  if (device == kLinux || (device.starts_with(kLinux) && device[kLinux.size()] == ':'))
+    return open_linux_device(device);
   return Error{Errc::InvalidInput,
                "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}
-      .at(board);
+      .at(device);
 }
 
 Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write) {
@@ -208,10 +208,10 @@ Result<void> set_system_clock(std::chrono::system_clock::time_point time) {
   return {};
 }
 
-Result<void> plug_stick(hal::Board& board, const std::string& folder) {
-  auto* const stick = dynamic_cast<hal::FolderMedia*>(&board.media());
+Result<void> plug_stick(hal::Device& device, const std::string& folder) {
+  auto* const stick = dynamic_cast<hal::FolderMedia*>(&device.media());
   if (stick == nullptr)
-    return Error{Errc::Unsupported, "has real sticks: a script cannot plug them"}.at(board.name());
+    return Error{Errc::Unsupported, "has real sticks: a script cannot plug them"}.at(device.name());
   if (folder.empty()) stick->unplug();
   else stick->plug(folder);
   return {};
@@ -224,7 +224,7 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{.open_board = fw::open_board,
+  fw::Services services{.open_device = fw::open_device,
                         .open_store = fw::open_store,
                         .simulate = fw::simulate,
                         .photograph = fw::photograph,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// MonotonicClock: the machine's own time; the clock of every board that runs in real time.
+// MonotonicClock: the machine's own time; the clock of every device that runs in real time.
 // Thread: any.
 #pragma once
 

@@ -23,7 +23,7 @@ class RemovableMedia {
   virtual Result<void> flush_and_eject() = 0;  // safe to pull out afterwards
   // What was ejected last is there once more, to be read only: who reads a file now reads what the stick has
   // kept, whatever the system remembered of it. Eject it again. MediaMissing: it is not there any more, or
-  // none was ejected; Unsupported: the system does not give it back, or this board cannot.
+  // none was ejected; Unsupported: the system does not give it back, or this device cannot.
   virtual Result<void> take_up_again() {
     return Error{Errc::Unsupported, "this board cannot take up a stick again"};
   }

@@ -69,14 +69,14 @@ Event event_of(ui::Intent intent) {
 }  // namespace
 
 Appliance::Appliance(Parts parts)
-    : board_(parts.board),
-      machine_(parts.board.clock().now()),
+    : device_(parts.device),
+      machine_(parts.device.clock().now()),
       session_(parts.memory),
-      grabber_(parts.board),
-      open_cameras_(grabber_, parts.board.preferred_mode(), parts.board.clock()),
-      pose_(grabber_, session_, parts.board, parts.pool, parts.judge),
-      grab_(grabber_, session_, parts.board, pose_),
-      stage_(parts.stages, session_, parts.pool, parts.board.clock()),
+      grabber_(parts.device),
+      open_cameras_(grabber_, parts.device.preferred_mode(), parts.device.clock()),
+      pose_(grabber_, session_, parts.device, parts.pool, parts.judge),
+      grab_(grabber_, session_, parts.device, pose_),
+      stage_(parts.stages, session_, parts.pool, parts.device.clock()),
       keep_(std::move(parts.keep), session_),
       look_up_(std::move(parts.look_up)),
       capture_(reports_),
@@ -91,7 +91,7 @@ Appliance::~Appliance() { stop_job(); }
 float Appliance::progress() const { return running_ != nullptr ? running_->progress() : 0; }
 
 void Appliance::ask(ui::Intent intent) {
-  if (intent == ui::Intent::StillHere) return machine_.renew(board_.clock().now());
+  if (intent == ui::Intent::StillHere) return machine_.renew(device_.clock().now());
   if (intent == ui::Intent::LookUp) {
     if (machine_.state() == State::Idle && running_ == nullptr) start(keeper_, look_up_);
     return;
@@ -106,17 +106,17 @@ void Appliance::forget_subject() {
 
 void Appliance::step(std::chrono::milliseconds wait) {
   if (const auto report = reports_.take_for(wait)) heard(*report);
-  if (const auto change = machine_.tick(board_.clock().now())) {
+  if (const auto change = machine_.tick(device_.clock().now())) {
     if (change->to == State::Idle || change->to == State::Fault) {
       note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
     }
     entered(*change);
   }
-  board_.watchdog().kick();
+  device_.watchdog().kick();
 }
 
 void Appliance::handle(Event event) {
-  if (const auto change = machine_.handle(event, board_.clock().now())) entered(*change);
+  if (const auto change = machine_.handle(event, device_.clock().now())) entered(*change);
 }
 
 void Appliance::note(const Error& error) { problem_ = error; }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Appliance: the state machine with everything it sets in motion. It owns the machine, the session
-// and the three threads; board, stages and store are handed in. One step() is one turn of the main
+// and the three threads; device, stages and store are handed in. One step() is one turn of the main
 // loop: it hears one report, looks at the clock, kicks the watchdog.
 //
 //   ask(Intent), reports of the threads, time --> Machine --> what entering the new state starts
@@ -22,7 +22,7 @@
 #include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
 #include "firmware/work/jobs.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "ui/view/intent.h"
 
 namespace relievo::firmware {
@@ -34,7 +34,7 @@ inline constexpr std::size_t kJobPlaces = 3;
 class Appliance {
  public:
   struct Parts {
-    hal::Board& board;
+    hal::Device& device;
     StageRunner& stages;
     const BootMemory& memory;
     ThreadPool& pool;
@@ -113,7 +113,7 @@ class Appliance {
   void note(const Error& error);
   void note(const pipeline::DriftJudgement& drift);
 
-  hal::Board& board_;
+  hal::Device& device_;
   Machine machine_;
   EnrolmentSession session_;
   StereoGrabber grabber_;

@@ -93,7 +93,7 @@ CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
       command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
   command
       .add_option("--board", args.cameras,
-                  "of --live; before sim a hand follows the advice; " + std::string(kBoards))
+                  "of --live; before sim a hand follows the advice; " + std::string(kDevices))
       ->type_name("BOARD")
       ->needs(live);
   command
@@ -230,7 +230,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
 
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
-  command->add_option("--board", args.board, kBoards)->required()->type_name("BOARD");
+  command->add_option("--board", args.device, kDevices)->required()->type_name("BOARD");
   command->add_option("--subject", args.subject, "who it is")->required()->type_name("NAME");
   command
       ->add_option("--calibration", args.calibration,

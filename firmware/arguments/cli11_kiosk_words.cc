@@ -23,7 +23,7 @@ bool window_size(const std::string& text, int& width, int& height) {
 }  // namespace
 
 void add_kiosk(CLI::App& app, KioskArgs& args) {
-  app.add_option("--board", args.board, "the kiosk's cameras: " + std::string(kBoards))
+  app.add_option("--board", args.device, "the kiosk's cameras: " + std::string(kDevices))
       ->type_name("BOARD")
       ->capture_default_str();
   app.add_option("--calibration", args.calibration,

@@ -39,7 +39,7 @@ struct CalibrateArgs {
 // calibrate --live
 struct CalibrateLiveArgs {
   BoardArgs board;
-  std::string cameras;  // "sim", before which a hand holds the board, or what Services::open_board takes
+  std::string cameras;  // "sim", before which a hand holds the board, or what Services::open_device takes
   unsigned seed = 1;    // of rig and hand
   double goal_mm = 0.1;
   std::optional<double> baseline_mm{};  // as in CalibrateArgs
@@ -107,7 +107,7 @@ struct CompareArgs {
 };
 
 struct EnrolArgs {
-  std::string board;
+  std::string device;
   std::string subject;
   Path calibration;  // empty: the one in the store
   Path store;
@@ -173,7 +173,7 @@ struct SelfTestArgs {
 };
 // Without a command: the kiosk.
 struct KioskArgs {
-  std::string board = "sim";
+  std::string device = "sim";
   Path calibration;  // empty: the one in the store; of the simulated rig, its own
   Path store;
   int width_px = 0, height_px = 0;  // of the window; 0: the whole screen

@@ -13,8 +13,9 @@ class App;
 
 namespace relievo::firmware {
 
-// What --board may be.
-inline constexpr const char* kBoards =
+// What --board may be. The word on the command line and the file board.toml name the device (hal/device.h):
+// they are kept because people type them and services name them.
+inline constexpr const char* kDevices =
     "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
 
 void add_store(CLI::App& command, Path& store);

@@ -30,14 +30,14 @@ Share place_of(std::int64_t argument) {
 Bench::Bench(Parts parts)
     : parts_(std::move(parts)),
       session_(parts_.appliance.session()),
-      shot_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool),
-      run_(session_, parts_.pool, parts_.board.clock()),
-      watch_(parts_.appliance.grabber(), session_, parts_.board),
-      calibrate_(parts_.appliance.grabber(), session_, parts_.board, parts_.pool,
+      shot_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool),
+      run_(session_, parts_.pool, parts_.device.clock()),
+      watch_(parts_.appliance.grabber(), session_, parts_.device),
+      calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
                  std::move(parts_.show_boards)),
-      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, parts_.board.media(),
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.errands, parts_.device.media(),
                      std::move(parts_.in_use)}),
-      recording_(parts_.errands, parts_.board) {
+      recording_(parts_.errands, parts_.device) {
   algorithms_.begin(parts_.stages.algorithms());
 }
 
@@ -184,7 +184,7 @@ void Bench::record() {
   if (made == nullptr || !made->frame) return;
   const bool set_by_hand = !parts_.errands.busy(JobPlace::Capture) && watch_.light().time.count() > 0;
   const hal::Exposure light =
-      set_by_hand ? watch_.light() : hal::Exposure{parts_.board.preferred_mode().exposure, 1};
+      set_by_hand ? watch_.light() : hal::Exposure{parts_.device.preferred_mode().exposure, 1};
   hal::RecordedPair as_taken;
   as_taken.exposure_us = light.time.count();
   as_taken.gain = light.gain;

@@ -38,7 +38,7 @@ class Bench {
   struct Parts {
     Appliance& appliance;
     Errands& errands;
-    hal::Board& board;
+    hal::Device& device;
     PipelineStages& stages;
     ThreadPool& pool;
     storage::Store& store;

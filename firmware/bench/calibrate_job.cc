@@ -13,18 +13,18 @@ namespace {
 // The kiosk's own cameras.
 class GrabbedPairs final : public LivePairs {
  public:
-  GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Board& board,
+  GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Device& device,
                const std::atomic<bool>& cancelled)
-      : grabber_(grabber), slot_(slot), board_(board), cancelled_(cancelled) {}
+      : grabber_(grabber), slot_(slot), device_(device), cancelled_(cancelled) {}
   Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(slot_, cancelled_));
-    return std::optional<LivePair>({frame.left, frame.right, board_.clock().now().time_since_epoch()});
+    return std::optional<LivePair>({frame.left, frame.right, device_.clock().now().time_since_epoch()});
   }
 
  private:
   StereoGrabber& grabber_;
   StereoSlot& slot_;
-  hal::Board& board_;
+  hal::Device& device_;
   const std::atomic<bool>& cancelled_;
 };
 
@@ -101,8 +101,8 @@ Result<void> CalibrateJob::calibrate(JobControl& control) {
   if (show_) {
     RELIEVO_TRY_ASSIGN(pairs, show_(order_.board));
   } else {
-    RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
-    pairs = std::make_unique<GrabbedPairs>(grabber_, session_.slot(), board_, control.cancelled);
+    RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+    pairs = std::make_unique<GrabbedPairs>(grabber_, session_.slot(), device_, control.cancelled);
   }
   while (!live.state().done() && !finish_.load(std::memory_order_relaxed)) {
     if (control.cancelled.load(std::memory_order_relaxed))

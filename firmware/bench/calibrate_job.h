@@ -34,9 +34,9 @@ class CalibrateJob final : public Job {
     std::optional<pipeline::StereoCalibration> in_use;
     double goal_mm = pipeline::LiveOptions{}.goal_mm;
   };
-  CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool,
+  CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
                ShowBoards show)
-      : grabber_(grabber), session_(session), board_(board), pool_(pool), show_(std::move(show)) {}
+      : grabber_(grabber), session_(session), device_(device), pool_(pool), show_(std::move(show)) {}
   void order(const Order& order);
   Result<void> run(JobControl& control) override;
   void finish() { finish_.store(true, std::memory_order_relaxed); }
@@ -53,7 +53,7 @@ class CalibrateJob final : public Job {
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::Board& board_;
+  hal::Device& device_;
   ThreadPool& pool_;
   ShowBoards show_;
   Order order_;

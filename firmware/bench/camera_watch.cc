@@ -38,8 +38,8 @@ Result<void> CameraWatchJob::run(JobControl& control) {
 }
 
 Result<void> CameraWatchJob::watch(JobControl& control) {
-  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
-  light_ = {board_.preferred_mode().exposure, 1};
+  RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+  light_ = {device_.preferred_mode().exposure, 1};
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     if (steps_.load(std::memory_order_relaxed) != 0) set_light();
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
@@ -53,13 +53,13 @@ Result<void> CameraWatchJob::watch(JobControl& control) {
 // What cannot be set stays; the page says so.
 void CameraWatchJob::set_light() {
   const int steps = steps_.exchange(0, std::memory_order_relaxed);
-  const auto left = board_.left().exposure_limits(), right = board_.right().exposure_limits();
+  const auto left = device_.left().exposure_limits(), right = device_.right().exposure_limits();
   if (!left || !right) return;
   const hal::ExposureLimits limits = common_limits(*left, *right);
   const auto wanted = std::chrono::microseconds(
       std::lround(static_cast<double>(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
   const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), light_.gain};
-  if (board_.left().set_exposure(next) && board_.right().set_exposure(next)) light_ = next;
+  if (device_.left().set_exposure(next) && device_.right().set_exposure(next)) light_ = next;
 }
 
 // Pictures of another size than the calibrated one have no relief; they are watched all the same.
@@ -94,8 +94,8 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   now.exposure_us = static_cast<float>(light_.time.count());
   now.gain = static_cast<float>(light_.gain);
   now.can_be_set =
-      board_.left().exposure_limits().has_value() && board_.right().exposure_limits().has_value();
-  const hal::Instant at = board_.clock().now();
+      device_.left().exposure_limits().has_value() && device_.right().exposure_limits().has_value();
+  const hal::Instant at = device_.clock().now();
   if (last_pair_ && at > *last_pair_)
     now.pairs_per_second = 1 / std::chrono::duration<float>(at - *last_pair_).count();
   last_pair_ = at;

@@ -21,8 +21,8 @@ namespace relievo::firmware {
 
 class CameraWatchJob final : public Job {
  public:
-  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board)
-      : grabber_(grabber), session_(session), board_(board) {}
+  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device)
+      : grabber_(grabber), session_(session), device_(device) {}
   // With the calibration in use; null: there is none, and no relief. While the job does not run.
   void prepare(const pipeline::StereoCalibration* calibration);
   // With every pair its relief, from the next one on.
@@ -46,7 +46,7 @@ class CameraWatchJob final : public Job {
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::Board& board_;
+  hal::Device& device_;
   std::array<LiveFeed, 3> feeds_;  // left, right, relief
   std::array<FocusHelp, 2> focus_;
   ReliefWatch relief_;

@@ -36,7 +36,7 @@ void RecordingDesk::ended(const std::optional<Error>& error, const ExportTrace& 
   if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
 }
 
-std::string RecordingDesk::name_now() const { return name_at(board_.clock().wall_now()); }
+std::string RecordingDesk::name_now() const { return name_at(device_.clock().wall_now()); }
 
 std::string RecordingDesk::saved_name(std::size_t row) const {
   if (!names_ || row >= names_->size()) return {};
@@ -54,7 +54,7 @@ void RecordingDesk::record(const pipeline::StereoFrame& frame, hal::RecordedPair
   errands_.send(
       JobPlace::Keeper,
       [this, copy, trace, name](JobControl& control) {
-        return record_capture(copy->pair(), name, board_.media(), control, *trace);
+        return record_capture(copy->pair(), name, device_.media(), control, *trace);
       },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
@@ -84,7 +84,7 @@ void RecordingDesk::write(std::shared_ptr<const SavedBytes> document) {
   errands_.send(
       JobPlace::Keeper,
       [this, document = std::move(document), trace, name](JobControl& control) {
-        return save_reconstruction(*document, name, board_.media(), control, *trace);
+        return save_reconstruction(*document, name, device_.media(), control, *trace);
       },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
@@ -97,7 +97,7 @@ void RecordingDesk::list() {
   errands_.send(
       JobPlace::Keeper,
       [this, names](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(board_.media(), ui::kSavedRows));
+        RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(device_.media(), ui::kSavedRows));
         return {};
       },
       [this, names, visit = visit_](const std::optional<Error>& error) {
@@ -118,7 +118,7 @@ void RecordingDesk::load(std::size_t row, std::function<void(std::shared_ptr<con
   errands_.send(
       JobPlace::Keeper,
       [this, name, saved](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*saved, read_saved(name, board_.media(), control));
+        RELIEVO_TRY_ASSIGN(*saved, read_saved(name, device_.media(), control));
         return {};
       },
       [this, saved, read = std::move(read), refused = std::move(refused),

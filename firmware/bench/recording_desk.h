@@ -22,7 +22,7 @@ namespace relievo::firmware {
 
 class RecordingDesk {
  public:
-  RecordingDesk(Errands& errands, hal::Board& board) : errands_(errands), board_(board) {}
+  RecordingDesk(Errands& errands, hal::Device& device) : errands_(errands), device_(device) {}
   // `as_taken`: exposure and serial numbers.
   void record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken);
   // `make` runs on the worker: the document of what is in the session.
@@ -51,7 +51,7 @@ class RecordingDesk {
   void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
 
   Errands& errands_;
-  hal::Board& board_;
+  hal::Device& device_;
   std::string where_;
   ui::Outcome outcome_ = ui::Outcome::None;
   bool running_ = false, reading_ = false;

@@ -72,14 +72,14 @@ class RunJob final : public Job {
 
 class TestShotJob final : public Job {
  public:
-  TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool)
-      : board_(board),
-        nobody_(grabber, session, board, pool, nullptr),
-        grab_(grabber, session, board, nobody_) {}
+  TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool)
+      : device_(device),
+        nobody_(grabber, session, device, pool, nullptr),
+        grab_(grabber, session, device, nobody_) {}
   Result<void> run(JobControl& control) override {
     outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
     outcome_ = grab_.run(control);
-    serials_ = {std::string(board_.left().serial()), std::string(board_.right().serial())};
+    serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
     return outcome_;
   }
   const Result<void>& outcome() const { return outcome_; }
@@ -89,7 +89,7 @@ class TestShotJob final : public Job {
   const Serials& serials() const { return serials_; }
 
  private:
-  hal::Board& board_;
+  hal::Device& device_;
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
   Result<void> outcome_;

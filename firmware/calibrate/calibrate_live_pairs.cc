@@ -19,32 +19,32 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod{100};  // of a folder's pairs
 constexpr std::string_view kFolder = "folder:";
 
-class BoardPairs final : public LivePairs {
+class DevicePairs final : public LivePairs {
  public:
   // most: pairs; shown: how often each is.
-  BoardPairs(std::unique_ptr<hal::Board> board, int most, int shown, bool timed)
-      : board_(std::move(board)),
+  DevicePairs(std::unique_ptr<hal::Device> device, int most, int shown, bool timed)
+      : device_(std::move(device)),
         memory_(budget::kStereoSlotBytes),
         slot_(memory_),
-        grabber_(*board_),
+        grabber_(*device_),
         most_(most),
         shown_(shown),
         timed_(timed) {}
 
   Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
-    if (count_ == 0) RELIEVO_TRY(grabber_.start(board_->preferred_mode()));
+    if (count_ == 0) RELIEVO_TRY(grabber_.start(device_->preferred_mode()));
     if (count_ / shown_ == most_) return std::optional<LivePair>();
     if (count_ % shown_ == 0) {
       RELIEVO_TRY_ASSIGN(frame_, grabber_.grab(slot_, interrupted()));
     }
     ++count_;
-    const std::chrono::nanoseconds at = timed_ ? board_->clock().now().time_since_epoch() : count_ * kPeriod;
+    const std::chrono::nanoseconds at = timed_ ? device_->clock().now().time_since_epoch() : count_ * kPeriod;
     return std::optional<LivePair>({frame_.left, frame_.right, at});
   }
   pipeline::RigCameras cameras() const override { return grabber_.cameras(); }
 
  private:
-  std::unique_ptr<hal::Board> board_;
+  std::unique_ptr<hal::Device> device_;
   std::vector<std::byte> memory_;
   StereoSlot slot_;
   StereoGrabber grabber_;
@@ -57,7 +57,7 @@ class BoardPairs final : public LivePairs {
 
 }  // namespace
 
-Result<std::unique_ptr<LivePairs>> make_board_pairs(std::unique_ptr<hal::Board> board,
+Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device,
                                                     std::string_view name) {
   int most = std::numeric_limits<int>::max();
   int shown = 1;
@@ -69,7 +69,7 @@ Result<std::unique_ptr<LivePairs>> make_board_pairs(std::unique_ptr<hal::Board> 
     std::error_code error;
     if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;
   }
-  return std::unique_ptr<LivePairs>(std::make_unique<BoardPairs>(std::move(board), most, shown, !folder));
+  return std::unique_ptr<LivePairs>(std::make_unique<DevicePairs>(std::move(device), most, shown, !folder));
 }
 
 }  // namespace relievo::firmware

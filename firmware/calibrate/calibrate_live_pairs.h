@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where a live calibration without a screen gets its pairs from: a board held before the simulated rig
-// by a hand that follows the advice, or the cameras of a board (hal/board.h). Of a folder every pair is
+// by a hand that follows the advice, or the cameras of a device (hal/device.h). Of a folder every pair is
 // shown once, or, where no capture.json says that it is a recording, twice: a photograph is a board that
 // is held still.
 // Thread: main.
@@ -15,7 +15,7 @@
 
 #include "firmware/arguments/command_line.h"
 #include "hal/base/image_view.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "pipeline/calibrate/live/live_state.h"
 #include "pipeline/model/calibration.h"
 
@@ -37,6 +37,6 @@ class LivePairs {
 };
 
 // Errors: the folder's own (of "folder:DIR").
-Result<std::unique_ptr<LivePairs>> make_board_pairs(std::unique_ptr<hal::Board> board, std::string_view name);
+Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device, std::string_view name);
 
 }  // namespace relievo::firmware

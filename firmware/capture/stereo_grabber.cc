@@ -11,9 +11,9 @@ namespace relievo::firmware {
 
 using pipeline::StereoFrame;
 
-GrabberOptions grabber_options(const hal::Board& board) {
+GrabberOptions grabber_options(const hal::Device& device) {
   GrabberOptions options;
-  options.together = board.exposes_together();
+  options.together = device.exposes_together();
   if (!options.together) options.max_skew = budget::kMaxFreeSkew;
   return options;
 }

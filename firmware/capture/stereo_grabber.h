@@ -27,7 +27,7 @@
 #include "firmware/capture/camera_link.h"
 #include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/trigger_line.h"
@@ -45,8 +45,8 @@ struct GrabberOptions {
   // Between the two exposures of a pair.
   std::chrono::microseconds max_skew = budget::kMaxSkew;
 };
-// The limit a board's cameras can keep: kMaxSkew at one trigger, kMaxFreeSkew without.
-GrabberOptions grabber_options(const hal::Board& board);
+// The limit a device's cameras can keep: kMaxSkew at one trigger, kMaxFreeSkew without.
+GrabberOptions grabber_options(const hal::Device& device);
 
 class StereoGrabber {
  public:
@@ -59,8 +59,8 @@ class StereoGrabber {
         options_(options),
         left_(left, clock, counts_.left),
         right_(right, clock, counts_.right) {}
-  explicit StereoGrabber(hal::Board& board)
-      : StereoGrabber(board.left(), board.right(), board.trigger(), board.clock(), grabber_options(board)) {}
+  explicit StereoGrabber(hal::Device& device)
+      : StereoGrabber(device.left(), device.right(), device.trigger(), device.clock(), grabber_options(device)) {}
   ~StereoGrabber() { stop(); }
   StereoGrabber(const StereoGrabber&) = delete;
   StereoGrabber& operator=(const StereoGrabber&) = delete;

@@ -101,8 +101,8 @@ Result<void> calibrate_and_store(const Task& task, Services& services, const Cal
 
 Result<std::unique_ptr<LivePairs>> open_pairs(const CalibrateLiveArgs& args, Services& services) {
   if (args.cameras == "sim") return services.hold_board(args);
-  RELIEVO_TRY_ASSIGN(auto board, services.open_board(args.cameras));
-  return make_board_pairs(std::move(board), args.cameras);
+  RELIEVO_TRY_ASSIGN(auto device, services.open_device(args.cameras));
+  return make_device_pairs(std::move(device), args.cameras);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     return found;
   }
   if (kept.error().code != Errc::NotCalibrated) return kept.error();
-  if (args.board != "sim")
+  if (args.device != "sim")
     return Error{
         Errc::NotCalibrated,
         "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}
@@ -142,8 +142,8 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
 
 Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY(check_subject(args.subject));
-  RELIEVO_TRY_ASSIGN(const auto board, services.open_board(args.board));
-  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, board->preferred_mode(), services));
+  RELIEVO_TRY_ASSIGN(const auto device, services.open_device(args.device));
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, device->preferred_mode(), services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
   RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
@@ -155,7 +155,7 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   storage::EnrolmentId enrolment{};
   // Runs on the keeper while this thread only waits for it.
   const Keep keep = [&](std::string_view, const pipeline::FaceModel& model) -> Result<void> {
-    const auto now = std::chrono::floor<std::chrono::milliseconds>(board->clock().wall_now());
+    const auto now = std::chrono::floor<std::chrono::milliseconds>(device->clock().wall_now());
     const std::string report = report_of(*records, stages, calibrated, model);
     const std::string algorithms = stages.algorithms().to_text();
     // What a model was measured with must be found again, also when the file is gone.
@@ -169,14 +169,14 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
         store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
     return {};
   };
-  Appliance appliance({*board, stages, memory, pool, keep});
+  Appliance appliance({*device, stages, memory, pool, keep});
   records = &appliance;
   appliance.grabber().expect(calibrated.calibration.cameras);
   appliance.set_subject(args.subject);
   appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
   const Result<void> done = drive(appliance, services.console);
   const Result<void> logged = log_drift(appliance, calibrated, *store);
-  if (!done) return done.error().where().empty() ? done.error().at(args.board) : done.error();
+  if (!done) return done.error().where().empty() ? done.error().at(args.device) : done.error();
   services.console.say("stored: " + args.subject + ", enrolment " +
                        std::to_string(static_cast<std::int64_t>(enrolment)));
   return logged;

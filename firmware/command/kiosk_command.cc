@@ -108,7 +108,7 @@ Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAc
   ScriptPlayer::Hands hands{[&display](const ui::Input& finger) { display.push(finger); }, {}};
   if (services.plug_stick)
     hands.plug = [&kiosk, &services](const std::string& folder) {
-      return services.plug_stick(kiosk.board(), folder);
+      return services.plug_stick(kiosk.device(), folder);
     };
   Scripted scripted{ScriptPlayer(std::move(script), std::move(hands)), VisitFigures(services.allocations),
                     pictures};

@@ -44,14 +44,14 @@ Kiosk::~Kiosk() {
 // None: nobody has calibrated this device yet.
 Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args,
                                                                            Services& services) {
-  const hal::CaptureMode mode = board_->preferred_mode();
+  const hal::CaptureMode mode = device_->preferred_mode();
   std::string named;
   Result<pipeline::StereoCalibration> found = Error{Errc::NotCalibrated, "none was named"};
   if (!args.calibration.empty()) {
     found = pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
     named = args.calibration.filename().string();
   } else if (found = store_->active_calibration(); !found && found.error().code == Errc::NotCalibrated) {
-    if (args.board != "sim" || !services.simulated_calibration)
+    if (args.device != "sim" || !services.simulated_calibration)
       return std::optional<pipeline::StereoCalibration>();
     found = services.simulated_calibration();
     named = "of the simulated rig";
@@ -81,7 +81,7 @@ Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) 
                      find_calibration(args, services));
   RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms(args));
   RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px
-                                                             : board_->preferred_mode().width_px));
+                                                             : device_->preferred_mode().width_px));
   judge_ = std::make_unique<LiveJudge>(std::move(judge));
   stages_ = std::make_unique<PipelineStages>(set);
   if (!calibration) return {};
@@ -101,7 +101,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   restarted_ = run_mark_->ended_early();
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
-  RELIEVO_TRY_ASSIGN(board_, services.open_board(args.board));
+  RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
   RELIEVO_TRY(set_up_measuring(args, services));
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
@@ -111,7 +111,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     return keep(subject, model);
   };
   appliance_ = std::make_unique<Appliance>(
-      Appliance::Parts{*board_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
+      Appliance::Parts{*device_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
                          Result<void> asked = look_up();
                          // Whom the records cannot answer for is somebody new; a code they cannot answer for
                          // is none.
@@ -123,12 +123,12 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
   camera_look_ =
-      std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), board_->preferred_mode());
+      std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), device_->preferred_mode());
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
-  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *board_, *store_, store_folder(args.store), revision_,
+  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *device_, *store_, store_folder(args.store), revision_,
                                         services.set_clock}));
   desk_->set_bench(make_bench(args, services));
-  code_sight_ = std::make_unique<CodeSight>(*appliance_, *board_);
+  code_sight_ = std::make_unique<CodeSight>(*appliance_, *device_);
   look();
   return {};
 }
@@ -136,14 +136,14 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
 // Before the simulated rig somebody holds a board when it is calibrated.
 std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& services) {
   ShowBoards show;
-  if (args.board == "sim" && services.hold_board) {
+  if (args.device == "sim" && services.hold_board) {
     show = [hold = services.hold_board](const BoardArgs& board) -> Result<std::unique_ptr<LivePairs>> {
       CalibrateLiveArgs held;
       held.board = board;
       return hold(held);
     };
   }
-  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *board_, *stages_, *pool_,
+  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *device_, *stages_, *pool_,
                                               *store_, std::move(show),
                                               [this](const pipeline::StereoCalibration& calibration) {
                                                 revision_ = calibration.revision;
@@ -188,7 +188,7 @@ Result<void> Kiosk::look_up() {
   ui::Known said = ui::Known::Nobody;
   if (!quoted_.empty()) {
     said = ui::Known::NoSuchCode;
-    CodeGuard guard(*store_, board_->clock());
+    CodeGuard guard(*store_, device_->clock());
     RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
     const Result<storage::Subject> subject =
         listens ? find_by_receipt(*store_, quoted_)
@@ -213,7 +213,7 @@ Result<void> Kiosk::look_up() {
 ui::Trouble Kiosk::out_of_order() const {
   using namespace std::chrono_literals;
   constexpr std::chrono::sys_days kNoEarlier{std::chrono::year{2026} / 1 / 1};
-  const auto now = board_->clock().wall_now();
+  const auto now = device_->clock().wall_now();
   if (now < kNoEarlier || now < newest_record_ - 24h) return ui::Trouble::Clock;
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
   if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces)
@@ -223,8 +223,8 @@ ui::Trouble Kiosk::out_of_order() const {
 
 void Kiosk::look() {
   view_ = view_of(*appliance_);
-  view_.now = board_->clock().now();
-  view_.wall_now = board_->clock().wall_now();
+  view_.now = device_->clock().now();
+  view_.wall_now = device_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) desk_->consent().adopt();
   view_.consent = desk_->consent().now();

@@ -8,7 +8,7 @@
 //
 // Thread: main; the jobs have threads of their own and turn() never waits for them.
 // Without a calibration it starts, and serves the staff alone until they have made one.
-// Errors of open(): those of board, store, fonts, words and algorithms.
+// Errors of open(): those of device, store, fonts, words and algorithms.
 #pragma once
 
 #include <atomic>
@@ -45,7 +45,7 @@ class Kiosk {
   ui::Ui& ui() { return *ui_; }
   const ui::Ui& ui() const { return *ui_; }
   const ui::ViewState& view() const { return view_; }
-  hal::Board& board() { return *board_; }
+  hal::Device& device() { return *device_; }
   const Appliance& appliance() const { return *appliance_; }
   const Desk& desk() const { return *desk_; }
   const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
@@ -71,7 +71,7 @@ class Kiosk {
   void look();
   void ask(ui::Intent intent);
 
-  std::unique_ptr<hal::Board> board_;
+  std::unique_ptr<hal::Device> device_;
   std::unique_ptr<storage::Store> store_;
   std::unique_ptr<BootMemory> memory_;
   std::unique_ptr<ThreadPool> pool_;

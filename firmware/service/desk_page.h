@@ -22,7 +22,7 @@
 #include "firmware/service/retention.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "storage/store.h"
 #include "ui/view/service.h"
 #include "ui/view/view_state.h"
@@ -32,7 +32,7 @@ namespace relievo::firmware {
 // What a page may use. Borrowed; everything outlives the pages.
 struct DeskTools {
   Appliance& appliance;
-  hal::Board& board;
+  hal::Device& device;
   storage::Store& store;  // on the keeper only
   Errands& errands;
   EventLog& log;

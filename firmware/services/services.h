@@ -13,7 +13,7 @@
 #include "firmware/base/console.h"
 #include "firmware/calibrate/calibrate_live_pairs.h"
 #include "firmware/checks/optical_target.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/clock.h"
 #include "storage/store.h"
 #include "ui/display.h"
@@ -23,8 +23,8 @@ namespace relievo::firmware {
 class Kiosk;
 
 struct Services {
-  // "sim", "folder:DIR", "linux" or "linux:FILE". Errors: InvalidInput (no such board), the board's own.
-  std::function<Result<std::unique_ptr<hal::Board>>(std::string_view board)> open_board{};
+  // "sim", "folder:DIR", "linux" or "linux:FILE". Errors: InvalidInput (no such device), the device's own.
+  std::function<Result<std::unique_ptr<hal::Device>>(std::string_view device)> open_device{};
   // Errors: the store's own. To write makes the folder; to read needs it.
   std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store{};
   // Photographs with the simulated rig, into the folder. Errors: the rig's and the disk's.
@@ -33,7 +33,7 @@ struct Services {
   Photograph photograph{};
   // Pairs of a board in a hand before the simulated rig; may be empty. Errors: InvalidInput (no such board).
   std::function<Result<std::unique_ptr<LivePairs>>(const CalibrateLiveArgs& args)> hold_board{};
-  // The calibration of the simulated rig of open_board("sim"), as exactly known as it is; may be empty: it
+  // The calibration of the simulated rig of open_device("sim"), as exactly known as it is; may be empty: it
   // has to be calibrated.
   std::function<Result<pipeline::StereoCalibration>()> simulated_calibration{};
   // Window, device, or nothing to be seen: as the environment says. Errors: LibraryFailed.
@@ -42,9 +42,9 @@ struct Services {
   const hal::Clock& clock;
   // Sets the system's clock; may be empty. Errors: Unsupported (it may not).
   std::function<Result<void>(std::chrono::system_clock::time_point)> set_clock{};
-  // For scripted visits. Plugs a folder that plays a USB stick into a board without hardware; no name pulls
-  // it. Errors: Unsupported (a board with hardware).
-  std::function<Result<void>(hal::Board& board, const std::string& folder)> plug_stick{};
+  // For scripted visits. Plugs a folder that plays a USB stick into a device without hardware; no name pulls
+  // it. Errors: Unsupported (a device with hardware).
+  std::function<Result<void>(hal::Device& device, const std::string& folder)> plug_stick{};
   // Pictures of every page, for people to look at (firmware/demo/screenshots.h); may be empty.
   std::function<Result<void>(const KioskArgs& args, Kiosk& kiosk, Console& console)> take_screenshots{};
   // How often this thread has taken memory from the heap; may be empty.

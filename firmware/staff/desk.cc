@@ -57,16 +57,16 @@ ui::Outcome outcome_of(const Error& error) {
 
 Desk::Desk(Parts parts)
     : parts_(std::move(parts)),
-      log_(parts_.board.clock(), parts_.folder / kLogFile),
+      log_(parts_.device.clock(), parts_.folder / kLogFile),
       errands_(parts_.appliance),
-      settings_(parts_.store, errands_, log_, parts_.board.clock()),
-      retention_(parts_.store, errands_, log_, parts_.board.clock()),
-      touch_(parts_.store, errands_, log_, parts_.board.clock()),
-      consent_(parts_.folder, parts_.board.media(), errands_, log_),
-      tools_{parts_.appliance, parts_.board, parts_.store, errands_, log_,          statistics_,
+      settings_(parts_.store, errands_, log_, parts_.device.clock()),
+      retention_(parts_.store, errands_, log_, parts_.device.clock()),
+      touch_(parts_.store, errands_, log_, parts_.device.clock()),
+      consent_(parts_.folder, parts_.device.media(), errands_, log_),
+      tools_{parts_.appliance, parts_.device, parts_.store, errands_, log_,          statistics_,
              settings_,        retention_,   touch_,       consent_, parts_.folder, parts_.calibration},
-      door_({parts_.store, parts_.board.clock(), errands_, log_, parts_.set_clock, consent_,
-             parts_.board.is_live()}) {
+      door_({parts_.store, parts_.device.clock(), errands_, log_, parts_.set_clock, consent_,
+             parts_.device.is_live()}) {
   fill_desk_pages(tools_, pages_);
   parts_.appliance.on_change([this](const Change& change) { noted(change); });
 }
@@ -88,7 +88,7 @@ Result<std::unique_ptr<Desk>> Desk::open(Parts parts) {
   if (!kept && kept.error().code != Errc::NotFound) return kept.error();
   if (!kept || !desk->statistics_.read(*kept))
     desk->statistics_.begin(
-        text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.board.clock().wall_now()))
+        text_of(std::chrono::floor<std::chrono::milliseconds>(desk->parts_.device.clock().wall_now()))
             .substr(0, 10));
   desk->log_.say(ui::LogEvent::Started);
   return desk;
@@ -111,7 +111,7 @@ void Desk::noted(const Change& change) {
 
 bool Desk::inside() const { return role_ != StaffRole::None; }
 
-void Desk::touched() { last_touch_ = parts_.board.clock().now(); }
+void Desk::touched() { last_touch_ = parts_.device.clock().now(); }
 
 void Desk::ask(const ui::StaffWish& wish) {
   touched();
@@ -156,7 +156,7 @@ void Desk::leave() {
 int Desk::seconds_left() const {
   const auto left = std::chrono::ceil<std::chrono::seconds>(
       last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) -
-      parts_.board.clock().now());
+      parts_.device.clock().now());
   return static_cast<int>(std::max<std::int64_t>(0, left.count()));
 }
 

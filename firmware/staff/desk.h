@@ -30,7 +30,7 @@ class Desk {
  public:
   struct Parts {
     Appliance& appliance;
-    hal::Board& board;
+    hal::Device& device;
     storage::Store& store;
     std::filesystem::path folder;      // of the store: for the log's file and the disk's room
     const std::uint32_t& calibration;  // the revision that is measured with, 0 for none

@@ -34,7 +34,7 @@ Result<void> OpenCamerasJob::run(JobControl& control) {
 }
 
 Result<void> PoseJob::run(JobControl& control) {
-  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));
+  RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
   RELIEVO_TRY(grabber_.check_cameras());
   const hal::Exposure known = exposure_.exposure();
   RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
@@ -61,7 +61,7 @@ Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& 
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
-  RELIEVO_TRY_ASSIGN(LiveSight sight, judge_->look(frame, board_.clock().now(), context));
+  RELIEVO_TRY_ASSIGN(LiveSight sight, judge_->look(frame, device_.clock().now(), context));
   session_.live().fill_relief(sight.relief);
   face_ = sight.face;
   RELIEVO_TRY(meter(frame, sight.guidance));
@@ -79,11 +79,11 @@ Result<void> PoseJob::meter(const pipeline::StereoFrame& frame, Guidance& guidan
 }
 
 Result<void> GrabJob::run(JobControl& control) {
-  RELIEVO_TRY(grabber_.start(board_.preferred_mode()));  // nothing where the streams run already
+  RELIEVO_TRY(grabber_.start(device_.preferred_mode()));  // nothing where the streams run already
   RELIEVO_TRY(grabber_.check_cameras());                 // others than the calibrated ones measure nothing
   BurstOptions options;
-  options.light = board_.shot_light();
-  if (!board_.is_live()) {
+  options.light = device_.shot_light();
+  if (!device_.is_live()) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
     session_.took(frame);
     return {};

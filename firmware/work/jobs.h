@@ -15,7 +15,7 @@
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
 #include "hal/base/thread_pool.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/clock.h"
 
 namespace relievo::firmware {
@@ -37,14 +37,14 @@ class OpenCamerasJob final : public Job {
 // Meanwhile both cameras are set to the light on the face.
 class PoseJob final : public Job {
  public:
-  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, ThreadPool& pool,
+  PoseJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
           LiveJudge* judge)
       : grabber_(grabber),
         session_(session),
-        board_(board),
+        device_(device),
         pool_(pool),
         judge_(judge),
-        exposure_(board.left(), board.right()) {}
+        exposure_(device.left(), device.right()) {}
   Result<void> run(JobControl& control) override;
   // For the shot that follows on the same thread: where the face was last, and the exposure, to be locked.
   const std::optional<FaceBoxes>& face() const { return face_; }
@@ -56,7 +56,7 @@ class PoseJob final : public Job {
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::Board& board_;
+  hal::Device& device_;
   ThreadPool& pool_;
   LiveJudge* judge_;
   ExposureControl exposure_;
@@ -65,21 +65,21 @@ class PoseJob final : public Job {
   int pairs_ = 0;
 };
 
-// Before a live board a burst at one exposure, else the next pair.
+// Before a live device a burst at one exposure, else the next pair.
 class GrabJob final : public Job {
  public:
-  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Board& board, PoseJob& pose)
+  GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose)
       : grabber_(grabber),
         session_(session),
-        board_(board),
+        device_(device),
         pose_(pose),
-        burst_(grabber, board.trigger(), board.clock()) {}
+        burst_(grabber, device.trigger(), device.clock()) {}
   Result<void> run(JobControl& control) override;
 
  private:
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
-  hal::Board& board_;
+  hal::Device& device_;
   PoseJob& pose_;
   Burst burst_;
 };

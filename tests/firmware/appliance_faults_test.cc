@@ -33,7 +33,7 @@ TEST_F(ApplianceTest, AStoreThatIsBrokenIsAFault) {
 
 TEST_F(ApplianceTest, APulledCameraIsAFaultAndForgets) {
   ASSERT_TRUE(reach(State::Idle));
-  board.right_camera.errors = {Errc::Disconnected};
+  device.right_camera.errors = {Errc::Disconnected};
   appliance.ask(ui::Intent::Begin);
   ASSERT_TRUE(reach(State::Fault));
   EXPECT_EQ(appliance.problem()->code, Errc::Disconnected);
@@ -87,12 +87,12 @@ TEST_F(ApplianceTest, ANameThatIsTooLongIsToldAndNothingBegins) {
 
 TEST(ApplianceSelfTest, ACameraThatDoesNotOpenIsAFault) {
   const test::PlayedWorld world;
-  test::PlayedBoard board(world, 4, 4);
-  board.left_camera.on_start = Error{Errc::IoFailed, "as the test says"};
+  test::PlayedDevice device(world, 4, 4);
+  device.left_camera.on_start = Error{Errc::IoFailed, "as the test says"};
   TestStages stages;
   const BootMemory memory(2 * 7 * 16, 1 << 16, 1 << 16);
   ThreadPool pool(1);
-  Appliance appliance({board, stages, memory, pool,
+  Appliance appliance({device, stages, memory, pool,
                        [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
   while (appliance.state() == State::SelfTest) appliance.step(milliseconds(1));
   EXPECT_EQ(appliance.state(), State::Fault);

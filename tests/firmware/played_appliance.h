@@ -13,7 +13,7 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/appliance/view_of.h"
 #include "firmware/base/budget.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 
 namespace relievo::firmware {
 
@@ -69,7 +69,7 @@ class ApplianceTest : public testing::Test {
   }
 
   test::PlayedWorld world;
-  test::PlayedBoard board{world, 4, 4};
+  test::PlayedDevice device{world, 4, 4};
   TestStages stages;
   BootMemory memory = zeroed();
   ThreadPool pool{1};
@@ -77,7 +77,7 @@ class ApplianceTest : public testing::Test {
   std::string kept;
   std::string path;
   Appliance appliance{
-      {board, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
+      {device, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
          if (!keep_errors.empty()) {
            const Errc code = keep_errors.front();
            keep_errors.pop_front();

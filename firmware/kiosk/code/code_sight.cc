@@ -23,8 +23,8 @@ bool wanted(const ui::Visit& visit, const Appliance& appliance) {
 
 }  // namespace
 
-CodeSight::CodeSight(Appliance& appliance, hal::Board& board)
-    : appliance_(appliance), look_(appliance, board) {}
+CodeSight::CodeSight(Appliance& appliance, hal::Device& device)
+    : appliance_(appliance), look_(appliance, device) {}
 
 CodeSight::~CodeSight() {
   if (running_) appliance_.end_side_job(JobPlace::Capture);
@@ -66,7 +66,7 @@ Result<void> CodeSight::Look::run(JobControl& control) {
 
 // Left and right by turns: a code may lie in one camera's mirror image of a lamp.
 Result<void> CodeSight::Look::look(JobControl& control) {
-  RELIEVO_TRY(appliance_.grabber().start(board_.preferred_mode()));
+  RELIEVO_TRY(appliance_.grabber().start(device_.preferred_mode()));
   for (int pair = 0; !control.cancelled.load(std::memory_order_relaxed); ++pair) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
                        appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));

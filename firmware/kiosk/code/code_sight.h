@@ -21,7 +21,7 @@ namespace relievo::firmware {
 
 class CodeSight {
  public:
-  CodeSight(Appliance& appliance, hal::Board& board);
+  CodeSight(Appliance& appliance, hal::Device& device);
   ~CodeSight();
   CodeSight(const CodeSight&) = delete;
   CodeSight& operator=(const CodeSight&) = delete;
@@ -32,8 +32,8 @@ class CodeSight {
  private:
   class Look final : public Job {
    public:
-    Look(Appliance& appliance, hal::Board& board)
-        : appliance_(appliance), board_(board), reader_(CodeReader::make()) {}
+    Look(Appliance& appliance, hal::Device& device)
+        : appliance_(appliance), device_(device), reader_(CodeReader::make()) {}
     Result<void> run(JobControl& control) override;
     std::optional<std::string> take();
     std::atomic<bool> ended{true};
@@ -41,7 +41,7 @@ class CodeSight {
    private:
     Result<void> look(JobControl& control);
     Appliance& appliance_;
-    hal::Board& board_;
+    hal::Device& device_;
     std::unique_ptr<CodeReader> reader_;
     std::mutex mutex_;
     std::optional<std::string> text_;

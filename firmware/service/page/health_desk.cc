@@ -63,7 +63,7 @@ void HealthDesk::look() {
       },
       [this, seen](const std::optional<Error>& error) {
         looking_ = false;
-        next_look_ = tools().board.clock().now() + kEvery;
+        next_look_ = tools().device.clock().now() + kEvery;
         if (error) return tools().log.fault(*error);
         seen_ = std::move(*seen);
         ready_ = true;
@@ -96,7 +96,7 @@ void HealthDesk::add_seen() {
 }
 
 void HealthDesk::show(ui::ServiceView& view) {
-  if (!looking_ && tools().board.clock().now() >= next_look_) look();
+  if (!looking_ && tools().device.clock().now() >= next_look_) look();
   if (!ready_) return;
   rows_.clear();
   add_memory();

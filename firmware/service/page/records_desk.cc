@@ -204,7 +204,7 @@ void RecordsDesk::take_out(std::int64_t number) {
   tools().errands.send(
       JobPlace::Keeper,
       [this, subjects = std::move(subjects), trace](JobControl& control) {
-        return export_records(tools().store, tools().board.media(), subjects, control, *trace);
+        return export_records(tools().store, tools().device.media(), subjects, control, *trace);
       },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (trace->whole > 0) tools().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});

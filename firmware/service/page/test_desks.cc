@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kBetweenPulses{100};
 // One pair, looked at by nobody and wiped; beside the last test capture, which stays.
 Result<pipeline::StereoFrame> one_pair(DeskTools& tools, JobControl& control) {
   StereoGrabber& grabber = tools.appliance.grabber();
-  RELIEVO_TRY(grabber.start(tools.board.preferred_mode()));
+  RELIEVO_TRY(grabber.start(tools.device.preferred_mode()));
   StereoSlot& slot = tools.appliance.session().free_slot();
   const auto pair = grabber.grab(slot, control.cancelled);
   slot.wipe();
@@ -104,9 +104,9 @@ void TriggerDesk::ask(const ui::StaffWish& wish) {
         const GrabCounts before = t.appliance.grabber().counts();
         std::optional<Error> last;
         for (; seen->pulses < kPulses && !control.cancelled.load(); ++seen->pulses) {
-          const hal::Instant asked = t.board.clock().now();
+          const hal::Instant asked = t.device.clock().now();
           const auto pair = one_pair(t, control);
-          const std::chrono::duration<double, std::milli> took = t.board.clock().now() - asked;
+          const std::chrono::duration<double, std::milli> took = t.device.clock().now() - asked;
           if (pair) {
             ++seen->pairs;
             seen->delay_ms = std::max(seen->delay_ms, took.count());

@@ -16,7 +16,7 @@
 #include "firmware/bench/bench.h"
 #include "firmware/work/pipeline_stages.h"
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "hal/sim/replay/folder_media.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -37,11 +37,11 @@ class BenchRig {
  public:
   BenchRig() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
-    hal::SimBoardOptions options;
+    hal::SimDeviceOptions options;
     options.simulation.rig = test::small_rig(kScale);
     std::filesystem::create_directory(stick());
     options.media_folder = stick();
-    board = *hal::make_sim_board(options);
+    device = *hal::make_sim_device(options);
     const auto file = folder.path() / "rig.yml";
     EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(test::small_rig(kScale))).has_value());
     const auto calibration = pipeline::read_calibration(file);
@@ -50,11 +50,11 @@ class BenchRig {
     stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
     screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
     appliance = std::make_unique<Appliance>(
-        Appliance::Parts{*board, *stages, memory, pool,
+        Appliance::Parts{*device, *stages, memory, pool,
                          [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
     errands = std::make_unique<Errands>(*appliance);
     bench = std::make_unique<Bench>(
-        Bench::Parts{*appliance, *errands, *board, *stages, pool, *store, show_boards,
+        Bench::Parts{*appliance, *errands, *device, *stages, pool, *store, show_boards,
                      [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenStaff);
@@ -125,7 +125,7 @@ class BenchRig {
     feed(ui::Input::Kind::Up, to_x, to_y);
   }
   // After what was written the stick was let go.
-  void plug_in() { dynamic_cast<hal::FolderMedia&>(board->media()).plug(stick()); }
+  void plug_in() { dynamic_cast<hal::FolderMedia&>(device->media()).plug(stick()); }
   bool shows(std::string_view id) const { return screen->tree().find(id) != nullptr; }
   std::string_view focused() const { return screen->focus(); }
   const ui::BenchView& now() { return bench->view(); }
@@ -136,7 +136,7 @@ class BenchRig {
   hal::MonotonicClock clock;
   BootMemory memory;
   ThreadPool pool{2};
-  std::unique_ptr<hal::Board> board;
+  std::unique_ptr<hal::Device> device;
   std::unique_ptr<storage::Store> store;
   std::unique_ptr<PipelineStages> stages;
   std::unique_ptr<ui::Ui> screen;

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 
 namespace relievo::firmware {
 namespace {
@@ -35,12 +35,12 @@ class GreyPairs final : public LivePairs {
 };
 
 TEST(CalibrateJob, LeftAndRightAreOfTheSameInstantWheneverTheyAreRead) {
-  auto board = *hal::make_sim_board({});
+  auto device = *hal::make_sim_device({});
   const BootMemory memory;
   EnrolmentSession session(memory);
-  StereoGrabber grabber(*board);
+  StereoGrabber grabber(*device);
   ThreadPool pool(1);
-  CalibrateJob job(grabber, session, *board, pool,
+  CalibrateJob job(grabber, session, *device, pool,
                    [](const BoardArgs&) -> Result<std::unique_ptr<LivePairs>> {
                      return std::unique_ptr<LivePairs>(std::make_unique<GreyPairs>());
                    });

@@ -197,9 +197,9 @@ TEST_F(BurstTest, AllocatesNothing) {
 
 // What the appliance does: the best pair into the session, every one of them wiped with it.
 TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
-  class LiveBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
+  class LiveDevice final : public hal::Device, hal::RemovableMedia, hal::Watchdog {
    public:
-    explicit LiveBoard(BurstTest& test) : test_(test) {}
+    explicit LiveDevice(BurstTest& test) : test_(test) {}
     std::string_view name() const override { return "test"; }
     hal::CaptureMode preferred_mode() const override { return kMode; }
     hal::Camera& left() override { return test_.left; }
@@ -214,15 +214,15 @@ TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
     Result<void> flush_and_eject() override { return {}; }
     void kick() override {}
     BurstTest& test_;
-  } board(*this);
+  } device(*this);
   const BootMemory boot(std::size_t{2} * 7 * kSide * kSide, 1 << 16, 1 << 16);
   std::fill(boot.frames().begin(), boot.frames().end(), std::byte{0});
   EnrolmentSession session(boot);
   ASSERT_TRUE(session.open("Ada"));
   show({{3, 0, {}}, {3, 0, {}}, {1, 0, {}}, {3, 0, {}}, {3, 0, {}}});
   ThreadPool pool(1);
-  PoseJob pose(grabber, session, board, pool, nullptr);
-  GrabJob job(grabber, session, board, pose);
+  PoseJob pose(grabber, session, device, pool, nullptr);
+  GrabJob job(grabber, session, device, pose);
   pipeline::Progress progress;
   JobControl control{cancelled, progress};
   ASSERT_TRUE(job.run(control));

@@ -11,7 +11,7 @@
 #include "hal/linux/side_by_side.h"
 #include "hal/linux/v4l2_camera.h"
 #include "tests/support/kernel/v4l2_fake_kernel.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 
 namespace relievo::firmware {
 namespace {
@@ -94,13 +94,13 @@ TEST(RigCameras, OfWhatNobodyKnowsNothingIsSaid) {
 // At the start, and each time a camera is opened again.
 TEST(RigCameras, TheGrabberRecognisesThemAndGrabsAllTheSame) {
   test::PlayedWorld world;
-  test::PlayedBoard board(world, 64, 48);
-  board.left_camera.number = "A1";
-  board.right_camera.number = "B2";
-  StereoGrabber grabber(board);
+  test::PlayedDevice device(world, 64, 48);
+  device.left_camera.number = "A1";
+  device.right_camera.number = "B2";
+  StereoGrabber grabber(device);
   grabber.expect({"serial A1", "serial B2"});
   EXPECT_TRUE(grabber.check_cameras()) << "nobody knows yet";
-  ASSERT_TRUE(grabber.start(board.preferred_mode()));
+  ASSERT_TRUE(grabber.start(device.preferred_mode()));
   EXPECT_EQ(grabber.cameras(), (RigCameras{"serial A1", "serial B2"}));
   EXPECT_TRUE(grabber.check_cameras());
   std::vector<std::byte> memory(std::size_t{2} << 20);
@@ -110,10 +110,10 @@ TEST(RigCameras, TheGrabberRecognisesThemAndGrabsAllTheSame) {
 
   world.pulled = true;
   EXPECT_EQ(grabber.grab(slot, never).error().code, Errc::Disconnected);
-  board.right_camera.number = "Y8";
+  device.right_camera.number = "Y8";
   world.pulled = false;
   world.ahead_s = 60;  // whatever is waited before it is tried again
-  ASSERT_TRUE(grabber.start(board.preferred_mode()));
+  ASSERT_TRUE(grabber.start(device.preferred_mode()));
   const Result<void> checked = grabber.check_cameras();
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().where(), "serial B2 → serial Y8");

@@ -16,10 +16,10 @@ const hal::sim::RigOptions kRig = test::small_rig(0.5);
 class KioskCalibrationTest : public StaffHands {
  protected:
   KioskCalibrationTest() {
-    services.open_board = [](std::string_view) {
-      hal::SimBoardOptions options;
+    services.open_device = [](std::string_view) {
+      hal::SimDeviceOptions options;
       options.simulation.rig = kRig;
-      return hal::make_sim_board(options);
+      return hal::make_sim_device(options);
     };
     services.simulated_calibration = {};
     services.hold_board = [](const CalibrateLiveArgs& held) -> Result<std::unique_ptr<LivePairs>> {
@@ -169,10 +169,10 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
 TEST_F(KioskCalibrationTest, NothingBeginsACaptureBefore) {
   hal::ManualClock time;
   changes.clock = &time;
-  args.board = "folder";
-  services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
-    RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
-    return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+  args.device = "folder";
+  services.open_device = [this](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+    RELIEVO_TRY_ASSIGN(auto device, hal::make_folder_device(folder.path() / "pairs"));
+    return std::unique_ptr<hal::Device>(std::make_unique<ChangedDevice>(std::move(device), changes));
   };
   open();
   ASSERT_TRUE(reach(ui::Step::Trouble));

@@ -5,7 +5,7 @@
 // and while it runs. What visitors are told, what the technician reads, and that it serves again with the
 // right camera, or the right calibration.
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 #include "tests/support/rig_calibration.h"
 
 namespace relievo::firmware {
@@ -14,12 +14,12 @@ namespace {
 class KioskExchangedTest : public StaffHands {
  protected:
   KioskExchangedTest() {
-    services.open_board = [this](std::string_view) {
-      auto board = std::make_unique<test::PlayedBoard>(world, tiny_rig().width_px, tiny_rig().height_px);
-      played = board.get();
+    services.open_device = [this](std::string_view) {
+      auto device = std::make_unique<test::PlayedDevice>(world, tiny_rig().width_px, tiny_rig().height_px);
+      played = device.get();
       played->left_camera.number = "L1";
       played->right_camera.number = right;
-      return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+      return std::unique_ptr<hal::Device>(std::make_unique<ChangedDevice>(std::move(device), changes));
     };
     services.simulated_calibration = {};
     auto store = storage::open_sqlite_store(args.store, clock, {});
@@ -63,7 +63,7 @@ class KioskExchangedTest : public StaffHands {
   }
 
   test::PlayedWorld world;
-  test::PlayedBoard* played = nullptr;
+  test::PlayedDevice* played = nullptr;
   std::string right = "R1";
 };
 

@@ -16,11 +16,11 @@
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -34,8 +34,8 @@ class KioskMomentsTest : public KioskHands {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     args.store = folder.path() / "store";
     std::filesystem::create_directories(args.store);
-    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
-      return std::unique_ptr<hal::Board>(std::make_unique<test::PlayedBoard>(world, kWidthPx, kHeightPx));
+    services.open_device = [this](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+      return std::unique_ptr<hal::Device>(std::make_unique<test::PlayedDevice>(world, kWidthPx, kHeightPx));
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The real kiosk whose camera is pulled in the middle of a capture, on a desk and as a device has it (bursts
-// of a live board): the visitor's words and way on, what stays of the capture, and that the next visitor is
+// of a live device): the visitor's words and way on, what stays of the capture, and that the next visitor is
 // served.
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 
 namespace relievo::firmware {
 namespace {
@@ -14,10 +14,10 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
  protected:
   KioskPulledTest() {
     changes.live = GetParam();
-    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
-      auto board = std::make_unique<test::PlayedBoard>(world, tiny_rig().width_px, tiny_rig().height_px);
-      played = board.get();
-      return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+    services.open_device = [this](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+      auto device = std::make_unique<test::PlayedDevice>(world, tiny_rig().width_px, tiny_rig().height_px);
+      played = device.get();
+      return std::unique_ptr<hal::Device>(std::make_unique<ChangedDevice>(std::move(device), changes));
     };
   }
   void begin() {
@@ -79,7 +79,7 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
   }
 
   test::PlayedWorld world;
-  test::PlayedBoard* played = nullptr;
+  test::PlayedDevice* played = nullptr;
 };
 
 TEST_P(KioskPulledTest, BetweenTheShotAndTheHandOver) {
@@ -102,7 +102,7 @@ TEST_P(KioskPulledTest, WhileThePicturesAreWorkedOn) {
   the_next_one_is_served();
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, KioskPulledTest, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Devices, KioskPulledTest, testing::Bool(),
                          [](const auto& of) { return of.param ? "Live" : "Recorded"; });
 
 }  // namespace

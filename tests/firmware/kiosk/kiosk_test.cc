@@ -16,7 +16,7 @@
 
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -34,10 +34,10 @@ class KioskTest : public KioskHands {
   KioskTest() {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     args.store = folder.path() / "store";
-    services.open_board = [](std::string_view) {
-      hal::SimBoardOptions options;
+    services.open_device = [](std::string_view) {
+      hal::SimDeviceOptions options;
       options.simulation.rig = kRig;
-      return hal::make_sim_board(options);
+      return hal::make_sim_device(options);
     };
     services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
       RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));

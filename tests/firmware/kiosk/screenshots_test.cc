@@ -12,10 +12,10 @@
 #include <fstream>
 
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,10 +33,10 @@ class ScreenshotsTest : public testing::Test {
     args.write_showpiece = true;
     std::filesystem::create_directories(args.store);
     std::filesystem::create_directories(args.screenshots);
-    services.open_board = [](std::string_view) {
-      hal::SimBoardOptions options;
+    services.open_device = [](std::string_view) {
+      hal::SimDeviceOptions options;
       options.simulation.rig = kRig;
-      return hal::make_sim_board(options);
+      return hal::make_sim_device(options);
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
@@ -67,9 +67,9 @@ TEST_F(ScreenshotsTest, ARunThatEndedInTheMiddleDoesNotEndTheNextOne) {
 TEST_F(ScreenshotsTest, AClockThatIsWrongIsToldAsSuch) {
   test::PlayedWorld world;
   world.wall_shift_s = -40LL * 365 * 86'400;
-  services.open_board = [&world](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
-    return std::unique_ptr<hal::Board>(
-        std::make_unique<test::PlayedBoard>(world, kRig.width_px, kRig.height_px));
+  services.open_device = [&world](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+    return std::unique_ptr<hal::Device>(
+        std::make_unique<test::PlayedDevice>(world, kRig.width_px, kRig.height_px));
   };
   const Result<void> taken = take();
   ASSERT_FALSE(taken.has_value());

@@ -65,7 +65,7 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   EXPECT_FALSE(kiosk->appliance().session().is_open());
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, StaffCaptureTest, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Devices, StaffCaptureTest, testing::Bool(),
                          [](const auto& of) { return of.param ? "Live" : "Recorded"; });
 
 }  // namespace

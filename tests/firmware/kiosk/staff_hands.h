@@ -17,9 +17,9 @@
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "hal/sim/replay/manual_clock.h"
-#include "hal/sim/replay/replay_board.h"
+#include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -34,32 +34,32 @@ using ui::StaffRole;
 
 inline hal::sim::RigOptions tiny_rig() { return test::small_rig(0.125); }
 
-// Another board with what a test changes: people stand before its cameras, its time moves by hand, its stick
+// Another device with what a test changes: people stand before its cameras, its time moves by hand, its stick
 // has faults.
-class ChangedBoard final : public hal::Board {
+class ChangedDevice final : public hal::Device {
  public:
   struct Changes {
     bool live = false;
-    hal::Clock* clock = nullptr;  // none: the board's own
+    hal::Clock* clock = nullptr;  // none: the device's own
     hal::RemovableMedia* media = nullptr;
   };
-  ChangedBoard(std::unique_ptr<hal::Board> board, const Changes& changes)
-      : board_(std::move(board)), changes_(changes) {}
-  std::string_view name() const override { return board_->name(); }
-  hal::CaptureMode preferred_mode() const override { return board_->preferred_mode(); }
-  hal::Camera& left() override { return board_->left(); }
-  hal::Camera& right() override { return board_->right(); }
-  hal::TriggerLine& trigger() override { return board_->trigger(); }
+  ChangedDevice(std::unique_ptr<hal::Device> device, const Changes& changes)
+      : device_(std::move(device)), changes_(changes) {}
+  std::string_view name() const override { return device_->name(); }
+  hal::CaptureMode preferred_mode() const override { return device_->preferred_mode(); }
+  hal::Camera& left() override { return device_->left(); }
+  hal::Camera& right() override { return device_->right(); }
+  hal::TriggerLine& trigger() override { return device_->trigger(); }
   hal::RemovableMedia& media() override {
-    return changes_.media != nullptr ? *changes_.media : board_->media();
+    return changes_.media != nullptr ? *changes_.media : device_->media();
   }
-  hal::Clock& clock() override { return changes_.clock != nullptr ? *changes_.clock : board_->clock(); }
-  hal::Watchdog& watchdog() override { return board_->watchdog(); }
+  hal::Clock& clock() override { return changes_.clock != nullptr ? *changes_.clock : device_->clock(); }
+  hal::Watchdog& watchdog() override { return device_->watchdog(); }
   bool is_live() const override { return changes_.live; }
-  bool exposes_together() const override { return board_->exposes_together(); }
+  bool exposes_together() const override { return device_->exposes_together(); }
 
  private:
-  std::unique_ptr<hal::Board> board_;
+  std::unique_ptr<hal::Device> device_;
   Changes changes_;
 };
 
@@ -69,7 +69,7 @@ class StaffHands : public KioskHands {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     std::filesystem::create_directories(stick());
     args.store = folder.path() / "store";
-    args.board = "sim";  // its calibration
+    args.device = "sim";  // its calibration
     // Two empty pictures and a folder that is the stick: nobody is photographed here.
     hal::Picture grey;
     grey.width_px = tiny_rig().width_px;
@@ -80,11 +80,11 @@ class StaffHands : public KioskHands {
     std::filesystem::create_directories(folder.path() / "pairs");
     for (const char* name : {"left_000000.png", "right_000000.png"})
       EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
-    services.open_board = [this](std::string_view) -> Result<std::unique_ptr<hal::Board>> {
-      RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(folder.path() / "pairs"));
-      media = &dynamic_cast<hal::ReplayBoard&>(*board).folder_media();
+    services.open_device = [this](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+      RELIEVO_TRY_ASSIGN(auto device, hal::make_folder_device(folder.path() / "pairs"));
+      media = &dynamic_cast<hal::ReplayDevice&>(*device).folder_media();
       media->plug(stick());
-      return std::unique_ptr<hal::Board>(std::make_unique<ChangedBoard>(std::move(board), changes));
+      return std::unique_ptr<hal::Device>(std::make_unique<ChangedDevice>(std::move(device), changes));
     };
     services.open_store = [this](const Path& at, bool to_write) {
       return storage::open_sqlite_store(
@@ -202,7 +202,7 @@ class StaffHands : public KioskHands {
     EXPECT_TRUE(kiosk->take_forgotten());
   }
 
-  ChangedBoard::Changes changes;  // before start()
+  ChangedDevice::Changes changes;  // before start()
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;

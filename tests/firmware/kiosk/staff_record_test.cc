@@ -60,16 +60,16 @@ class StaffRecordTest : public StaffHands {
       names.push_back(entry.path().filename().string());
     return names;
   }
-  // By the board that folder:DIR is.
+  // By the device that folder:DIR is.
   void is_replayed_bit_for_bit(const Path& recording) {
-    auto made = hal::make_folder_board(recording);
+    auto made = hal::make_folder_device(recording);
     ASSERT_TRUE(made.has_value()) << made.error().what.view();
-    hal::Board& board = **made;
-    hal::Camera* const cameras[] = {&board.left(), &board.right()};
-    for (hal::Camera* camera : cameras) ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
-    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)).has_value());
+    hal::Device& device = **made;
+    hal::Camera* const cameras[] = {&device.left(), &device.right()};
+    for (hal::Camera* camera : cameras) ASSERT_TRUE(camera->open(device.preferred_mode()) && camera->start());
+    ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)).has_value());
     for (std::size_t side = 0; side < 2; ++side) {
-      const auto frame = cameras[side]->next_frame(board.clock().now() + std::chrono::seconds(5));
+      const auto frame = cameras[side]->next_frame(device.clock().now() + std::chrono::seconds(5));
       ASSERT_TRUE(frame.has_value());
       const ImageView& seen = frame->image();
       const ImageView wanted = taken[side].view();

@@ -12,7 +12,7 @@
 
 #include "firmware/work/jobs.h"
 #include "hal/monotonic_clock.h"
-#include "tests/firmware/work/lit_board.h"
+#include "tests/firmware/work/lit_device.h"
 
 namespace relievo::firmware {
 namespace {
@@ -45,33 +45,33 @@ class PoseExposure : public testing::Test {
     auto made = LiveJudge::open(calibration());
     EXPECT_TRUE(made);
     judge.emplace(*std::move(made));
-    pose.emplace(grabber, session, board, pool, &*judge);
-    grab.emplace(grabber, session, board, *pose);
+    pose.emplace(grabber, session, device, pool, &*judge);
+    grab.emplace(grabber, session, device, *pose);
     EXPECT_TRUE(session.open("Ada"));
   }
   // Somebody poses for so many pictures; `at` says what happens with each.
   void pose_for(int pictures, const std::function<void(int)>& at = {}) {
     std::atomic<bool> cancelled{false};
     pipeline::Progress progress{};
-    const int first = board.right_camera.pictures;
-    board.right_camera.on_picture = [&, first] {
-      const int here = board.right_camera.pictures - first;
+    const int first = device.right_camera.pictures;
+    device.right_camera.on_picture = [&, first] {
+      const int here = device.right_camera.pictures - first;
       if (at) at(here);
       if (here >= pictures) cancelled = true;
     };
     JobControl control{cancelled, progress};
     const auto ended = pose->run(control);
-    board.right_camera.on_picture = {};
+    device.right_camera.on_picture = {};
     ASSERT_FALSE(ended);
     EXPECT_EQ(ended.error().code, Errc::Cancelled) << ended.error().what.view();
   }
   // How bright the brighter of both cameras now shows the brightest grains.
-  double shown() const { return 0.6 * board.right_camera.factor(); }
+  double shown() const { return 0.6 * device.right_camera.factor(); }
 
-  test::LitBoard board{{grains(), grains(), kWidth}};
+  test::LitDevice device{{grains(), grains(), kWidth}};
   BootMemory memory{std::size_t{14} * kWidth * kHeight, std::size_t{4} << 20, std::size_t{16} << 20};
   EnrolmentSession session{memory};
-  StereoGrabber grabber{board};
+  StereoGrabber grabber{device};
   ThreadPool pool{1};
   std::optional<LiveJudge> judge;
   std::optional<PoseJob> pose;
@@ -81,37 +81,37 @@ class PoseExposure : public testing::Test {
 TEST_F(PoseExposure, FindsOneExposureForBothAndFollowsTheLight) {
   pose_for(20);
   EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Settled);
-  EXPECT_EQ(board.left_camera.set.time, board.right_camera.set.time);
-  EXPECT_EQ(board.left_camera.set.gain, board.right_camera.set.gain);
+  EXPECT_EQ(device.left_camera.set.time, device.right_camera.set.time);
+  EXPECT_EQ(device.left_camera.set.gain, device.right_camera.set.gain);
   EXPECT_NEAR(shown(), kBrightTarget, 1.5 * kLightTolerance * kBrightTarget);
-  const auto before = board.left_camera.set;
-  pose_for(20, [&](int) { board.left_camera.lamp = board.right_camera.lamp = 2; });
-  EXPECT_LT(static_cast<double>(board.left_camera.set.time.count()) * board.left_camera.set.gain,
+  const auto before = device.left_camera.set;
+  pose_for(20, [&](int) { device.left_camera.lamp = device.right_camera.lamp = 2; });
+  EXPECT_LT(static_cast<double>(device.left_camera.set.time.count()) * device.left_camera.set.gain,
             0.7 * static_cast<double>(before.time.count()) * before.gain);
   EXPECT_NEAR(shown(), kBrightTarget, 1.5 * kLightTolerance * kBrightTarget);
 }
 
 TEST_F(PoseExposure, TheBurstIsTakenAtTheExposureThatWasFound) {
   pose_for(20);
-  const hal::Exposure found = board.left_camera.set;
-  const int sets = board.left_camera.sets + board.right_camera.sets;
-  board.left_camera.exposed.clear();
-  board.right_camera.exposed.clear();
-  board.right_camera.on_picture = [&] {
+  const hal::Exposure found = device.left_camera.set;
+  const int sets = device.left_camera.sets + device.right_camera.sets;
+  device.left_camera.exposed.clear();
+  device.right_camera.exposed.clear();
+  device.right_camera.on_picture = [&] {
     EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Locked);
-    board.left_camera.lamp = board.right_camera.lamp = 0.3;  // somebody steps before the lamp
+    device.left_camera.lamp = device.right_camera.lamp = 0.3;  // somebody steps before the lamp
   };
   const std::atomic<bool> cancelled{false};
   pipeline::Progress progress{};
   JobControl control{cancelled, progress};
   const auto shot = grab->run(control);
-  board.right_camera.on_picture = {};
+  device.right_camera.on_picture = {};
   ASSERT_TRUE(shot) << shot.error().what.view();
-  EXPECT_GE(board.left_camera.exposed.size(), static_cast<std::size_t>(budget::kBurstPairs));
-  for (const test::LitCamera* camera : {&board.left_camera, &board.right_camera})
+  EXPECT_GE(device.left_camera.exposed.size(), static_cast<std::size_t>(budget::kBurstPairs));
+  for (const test::LitCamera* camera : {&device.left_camera, &device.right_camera})
     for (const hal::Exposure& exposure : camera->exposed)
       EXPECT_TRUE(exposure.time == found.time && exposure.gain == found.gain);
-  EXPECT_EQ(board.left_camera.sets + board.right_camera.sets, sets);
+  EXPECT_EQ(device.left_camera.sets + device.right_camera.sets, sets);
   EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Settled);
   ASSERT_TRUE(session.products().frame);
 }

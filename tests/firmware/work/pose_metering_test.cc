@@ -14,7 +14,7 @@
 
 #include "firmware/work/jobs.h"
 #include "hal/base/statistics.h"
-#include "tests/firmware/work/lit_board.h"
+#include "tests/firmware/work/lit_device.h"
 #include "tests/support/head_album.h"
 
 namespace relievo::firmware {
@@ -38,7 +38,7 @@ std::vector<double> before_window(const std::vector<std::uint16_t>& shot,
   return light;
 }
 
-test::LitBoard::Scene scene(const hal::sim::HeadPose& pose, double shade) {
+test::LitDevice::Scene scene(const hal::sim::HeadPose& pose, double shade) {
   const test::Shot& room = test::shared_album().shoot(0, {0, 0, 0, 0, 0, 0});
   const test::Shot& shot = test::shared_album().shoot(kPerson, pose);
   return {before_window(shot.left, room.left, shade), before_window(shot.right, room.right, shade), kWidth};
@@ -50,7 +50,7 @@ class PoseMetering : public testing::Test {
     auto made = LiveJudge::open(test::shared_album().calibration());
     EXPECT_TRUE(made);
     judge.emplace(*std::move(made));
-    pose.emplace(grabber, session, board, pool, &*judge);
+    pose.emplace(grabber, session, device, pool, &*judge);
     EXPECT_TRUE(session.open("Ada"));
   }
   // `at` says what happens before each picture of the right camera.
@@ -58,13 +58,13 @@ class PoseMetering : public testing::Test {
     std::atomic<bool> cancelled{false};
     pipeline::Progress progress{};
     int here = 0;
-    board.right_camera.on_picture = [&] {
+    device.right_camera.on_picture = [&] {
       if (at) at(here);
       if (++here >= pictures) cancelled = true;
     };
     JobControl control{cancelled, progress};
     const auto ended = pose->run(control);
-    board.right_camera.on_picture = {};
+    device.right_camera.on_picture = {};
     ASSERT_FALSE(ended);
     EXPECT_EQ(ended.error().code, Errc::Cancelled) << ended.error().what.view();
   }
@@ -81,15 +81,15 @@ class PoseMetering : public testing::Test {
     for (int v = static_cast<int>(y - 45 * a_mm); v < static_cast<int>(y + 35 * a_mm); ++v)
       for (int u = static_cast<int>(x - 45 * a_mm); u < static_cast<int>(x + 45 * a_mm); ++u)
         values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kWidth + u)) *
-                         board.right_camera.factor());
+                         device.right_camera.factor());
     return percentile(values, 0.95);
   }
 
   hal::sim::HeadPose standing = test::standing(640, -45, 20);  // not quite in the middle
-  test::LitBoard board{scene(standing, kShade), 1};
+  test::LitDevice device{scene(standing, kShade), 1};
   BootMemory memory{std::size_t{20} * kWidth * 300, std::size_t{8} << 20, std::size_t{64} << 20};
   EnrolmentSession session{memory};
-  StereoGrabber grabber{board};
+  StereoGrabber grabber{device};
   ThreadPool pool{1};
   std::optional<LiveJudge> judge;
   std::optional<PoseJob> pose;
@@ -100,23 +100,23 @@ TEST_F(PoseMetering, AFaceDarkInABrightRoomIsLitForAndFollowed) {
   ASSERT_TRUE(pose->face());
   EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Settled);
   EXPECT_NEAR(face_shown(kShade), kBrightTarget, 0.2 * kBrightTarget);
-  EXPECT_GT(kWindow * board.right_camera.factor(), 1) << "the window burns out, and may";
+  EXPECT_GT(kWindow * device.right_camera.factor(), 1) << "the window burns out, and may";
   // The shade grows deeper: the exposure follows the face.
-  const double before = board.right_camera.factor();
-  test::LitBoard::Scene deeper = scene(standing, kShade / 2);
-  board.left_camera.show(deeper.left);
-  board.right_camera.show(deeper.right);
+  const double before = device.right_camera.factor();
+  test::LitDevice::Scene deeper = scene(standing, kShade / 2);
+  device.left_camera.show(deeper.left);
+  device.right_camera.show(deeper.right);
   pose_for(24);
-  EXPECT_GT(board.right_camera.factor(), 1.5 * before);
+  EXPECT_GT(device.right_camera.factor(), 1.5 * before);
   EXPECT_NEAR(face_shown(kShade / 2), kBrightTarget, 0.2 * kBrightTarget);
   // They leave: the room is lit for again.
-  const std::vector<double> window(board.left_camera.exposed.empty() ? 0 : std::size_t{kWidth} * 300,
+  const std::vector<double> window(device.left_camera.exposed.empty() ? 0 : std::size_t{kWidth} * 300,
                                    kWindow);
-  board.left_camera.show(window);
-  board.right_camera.show(window);
+  device.left_camera.show(window);
+  device.right_camera.show(window);
   pose_for(24);
   EXPECT_FALSE(pose->face());
-  EXPECT_LT(kWindow * board.right_camera.factor(), 1);
+  EXPECT_LT(kWindow * device.right_camera.factor(), 1);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "tests/hal/temporary_folder.h"
 
 namespace relievo::hal {
@@ -48,18 +48,18 @@ TEST(Recording, IsReplayedBitForBit) {
       ASSERT_TRUE(number) << number.error().what.view();
       EXPECT_EQ(*number, static_cast<std::int64_t>(i / 2 + 1));
     }
-    auto made = make_folder_board(folder / "taken");
+    auto made = make_folder_device(folder / "taken");
     ASSERT_TRUE(made) << made.error().what.view();
-    Board& board = **made;
-    EXPECT_EQ(board.preferred_mode().exposure, std::chrono::microseconds(3100));
-    for (Camera* camera : {&board.left(), &board.right()}) {
-      ASSERT_TRUE(camera->open(board.preferred_mode()));
+    Device& device = **made;
+    EXPECT_EQ(device.preferred_mode().exposure, std::chrono::microseconds(3100));
+    for (Camera* camera : {&device.left(), &device.right()}) {
+      ASSERT_TRUE(camera->open(device.preferred_mode()));
       ASSERT_TRUE(camera->start());
     }
     for (std::size_t i = 0; i < 4; i += 2) {
-      ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
-      const auto left = board.left().next_frame(board.clock().now() + std::chrono::seconds(5));
-      const auto right = board.right().next_frame(board.clock().now() + std::chrono::seconds(5));
+      ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+      const auto left = device.left().next_frame(device.clock().now() + std::chrono::seconds(5));
+      const auto right = device.right().next_frame(device.clock().now() + std::chrono::seconds(5));
       ASSERT_TRUE(left && right);
       expect_same(left->image(), views[i].view);
       expect_same(right->image(), views[i + 1].view);

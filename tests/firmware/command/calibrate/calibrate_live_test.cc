@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/picture_file.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/pipeline/calibrate/live/held_board_pictures.h"
 #include "tests/support/proof.h"
@@ -113,9 +113,9 @@ class CalibrateLive : public ::testing::Test {
     }
   }
   Result<pipeline::CalibratorOutput> replay() {
-    RELIEVO_TRY_ASSIGN(auto board, hal::make_folder_board(pictures()));
+    RELIEVO_TRY_ASSIGN(auto device, hal::make_folder_device(pictures()));
     RELIEVO_TRY_ASSIGN(const auto pairs,
-                       firmware::make_board_pairs(std::move(board), "folder:" + pictures().string()));
+                       firmware::make_device_pairs(std::move(device), "folder:" + pictures().string()));
     return firmware::run_calibrate_live(args(), *pairs, out_);
   }
   fs::path pictures() const { return folder_.path() / "in"; }
@@ -193,10 +193,10 @@ TEST_F(CalibrateLive, SaysWhatIsWrong) {
   auto where = args();
   where.output = folder_.path() / "no" / "rig.yml";
   auto pairs =
-      *firmware::make_board_pairs(*hal::make_folder_board(pictures()), "folder:" + pictures().string());
+      *firmware::make_device_pairs(*hal::make_folder_device(pictures()), "folder:" + pictures().string());
   EXPECT_EQ(firmware::run_calibrate_live(where, *pairs, out_).error().code, Errc::NotFound);
   EXPECT_TRUE(out_.str().empty()) << "asked before anything is looked at";
-  pairs = *firmware::make_board_pairs(*hal::make_folder_board(pictures()), "folder:" + pictures().string());
+  pairs = *firmware::make_device_pairs(*hal::make_folder_device(pictures()), "folder:" + pictures().string());
   auto tiny = args();
   tiny.board = {2, 2, 20};
   EXPECT_EQ(firmware::run_calibrate_live(tiny, *pairs, out_).error().code, Errc::InvalidInput);

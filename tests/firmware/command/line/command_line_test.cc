@@ -232,7 +232,7 @@ TEST(CommandLine, WithoutACommandItIsTheKiosk) {
       {"--board", "folder:pairs", "--calibration", "rig.yml", "--windowed", "1280x800", "--store", "st"});
   ASSERT_TRUE(std::holds_alternative<KioskArgs>(named.command));
   const auto& args = std::get<KioskArgs>(named.command);
-  EXPECT_EQ(args.board, "folder:pairs");
+  EXPECT_EQ(args.device, "folder:pairs");
   EXPECT_EQ(args.calibration, "rig.yml");
   EXPECT_EQ(args.store, "st");
   EXPECT_EQ(args.width_px, 1280);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "storage/sqlite/sqlite_store.h"
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {

@@ -10,7 +10,7 @@
 
 #include "firmware/kiosk/code/code_reader.h"
 #include "hal/monotonic_clock.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -81,7 +81,7 @@ class CodeSightTest : public KioskHands {
   void show(const hal::Picture& sheet) {
     ASSERT_TRUE(hal::sim::photograph_sheet(sheet, held(180, {0, 0, 8, 560, 0, 0}), folder.path() / "held")
                     .has_value());
-    services.open_board = [this](std::string_view) { return hal::make_folder_board(folder.path() / "held"); };
+    services.open_device = [this](std::string_view) { return hal::make_folder_device(folder.path() / "held"); };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     args.store = folder.path() / "store";
     args.calibration = folder.path() / "held" / "rig.yml";

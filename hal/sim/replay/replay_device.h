@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ReplayBoard: a whole appliance around one PairSource. The boards of board.h differ only in theirs.
+// ReplayDevice: a whole appliance around one PairSource. The devices of device.h differ only in theirs.
 #pragma once
 
 #include <memory>
 #include <optional>
 
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/replay/null_watchdog.h"
@@ -16,10 +16,10 @@
 
 namespace relievo::hal {
 
-class ReplayBoard final : public Board {
+class ReplayDevice final : public Device {
  public:
   // together: the pairs were exposed by one trigger.
-  ReplayBoard(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode,
+  ReplayDevice(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode,
               bool together)
       : name_(name), source_(std::move(source)), mode_(mode), together_(together) {}
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boards that need no hardware: a folder of recorded pictures, and a simulated rig. A frame is
+// The devices that need no hardware: a folder of recorded pictures, and a simulated rig. A frame is
 // made when the trigger line pulses; without a pulse next_frame() meets its deadline.
-// Thread: making: main; cameras: capture; the rest as hal/board.h says.
+// Thread: making: main; cameras: capture; the rest as hal/device.h says.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "hal/base/result.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/sim/render.h"
 
 namespace relievo::hal {
@@ -21,9 +21,9 @@ namespace relievo::hal {
 // right* pictures. The frames repeat for ever, in name order. Pictures are read when asked for.
 // Errors: NotFound (no folder, no picture), InvalidInput (a name without its partner, a bad
 // capture.json, pictures that differ in size).
-Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& folder);
+Result<std::unique_ptr<Device>> make_folder_device(const std::filesystem::path& folder);
 
-struct SimBoardOptions {
+struct SimDeviceOptions {
   sim::SimulationOptions simulation;
   // Where an inserted stick is shown as a folder; none: no stick.
   std::optional<std::filesystem::path> media_folder;
@@ -31,6 +31,6 @@ struct SimBoardOptions {
 };
 
 // Renders at the first frame (seconds); later frames of the same scene only differ in noise.
-Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options);
+Result<std::unique_ptr<Device>> make_sim_device(const SimDeviceOptions& options);
 
 }  // namespace relievo::hal

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "hal/recording/capture_file.h"
-#include "hal/sim/board.h"
+#include "hal/sim/device.h"
 #include "hal/sim/replay/picture_pairs.h"
-#include "hal/sim/replay/replay_board.h"
+#include "hal/sim/replay/replay_device.h"
 
 namespace relievo::hal {
 namespace {
@@ -47,7 +47,7 @@ Result<CaptureFile> optional_capture_file(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& folder) {
+Result<std::unique_ptr<Device>> make_folder_device(const std::filesystem::path& folder) {
   RELIEVO_TRY_ASSIGN(std::vector<PicturePairFiles> pairs, find_picture_pairs(folder));
   RELIEVO_TRY_ASSIGN(CaptureFile capture, optional_capture_file(folder));
   RELIEVO_TRY_ASSIGN(const Picture left, read_picture(pairs.front().left));
@@ -57,7 +57,7 @@ Result<std::unique_ptr<Board>> make_folder_board(const std::filesystem::path& fo
         pairs.front().right.native());
   const auto exposure = capture.frames.empty() ? 0 : capture.frames.front().exposure_us;
   const CaptureMode mode{left.width_px, left.height_px, std::chrono::microseconds(exposure)};
-  return std::unique_ptr<Board>(std::make_unique<ReplayBoard>(
+  return std::unique_ptr<Device>(std::make_unique<ReplayDevice>(
       "folder", std::make_unique<FolderSource>(std::move(pairs), std::move(capture)), mode, false));
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/linux/board.h"
+#include "hal/linux/device.h"
 #include "hal/raw/raw_image.h"
 #include "hal/whole_file.h"
 
@@ -91,7 +91,7 @@ void read_mode(Words& words, CaptureMode& mode) {
   mode.exposure = std::chrono::microseconds(words.number(*table, "exposure_us", 1, 100'000, 0));
 }
 
-void read_wires(Words& words, LinuxBoardOptions& options) {
+void read_wires(Words& words, LinuxDeviceOptions& options) {
   const std::int64_t longest = TriggerLine::kLongestPulse.count();
   const toml::table* trigger = words.table("trigger", {"chip", "line", "active_low", "delay_us"});
   const toml::table* lamp = words.table("lamp", {"line", "lead_us", "time_us", "on_trigger_wire"});
@@ -112,7 +112,7 @@ void read_wires(Words& words, LinuxBoardOptions& options) {
   options.trigger = gpio;
 }
 
-void read_machine(Words& words, LinuxBoardOptions& options) {
+void read_machine(Words& words, LinuxDeviceOptions& options) {
   if (const toml::table* stick = words.table("stick", {"folder"})) {
     options.stick_folder = words.get<std::string>(*stick, "folder", {}, true);
     if (!options.stick_folder.starts_with('/'))
@@ -127,10 +127,10 @@ void read_machine(Words& words, LinuxBoardOptions& options) {
   }
 }
 
-Result<LinuxBoardOptions> options_of(const toml::table& root, const std::string& file) {
+Result<LinuxDeviceOptions> options_of(const toml::table& root, const std::string& file) {
   Words words(root, file);
   words.only_tables({"mode", "left", "right", "both", "trigger", "lamp", "stick", "watchdog"});
-  LinuxBoardOptions options;
+  LinuxDeviceOptions options;
   read_mode(words, options.mode);
   read_wires(words, options);
   read_machine(words, options);
@@ -153,7 +153,7 @@ Result<LinuxBoardOptions> options_of(const toml::table& root, const std::string&
 
 }  // namespace
 
-Result<LinuxBoardOptions> read_linux_board_file(const std::filesystem::path& file) {
+Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, read_whole_file(file, kMostBytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   try {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// PlayedBoard: two cameras that show one flat picture, with faults and a clock as the test says. Both
-// expose when they are pulsed. The PlayedWorld is the test's and outlives the board.
+// PlayedDevice: two cameras that show one flat picture, with faults and a clock as the test says. Both
+// expose when they are pulsed. The PlayedWorld is the test's and outlives the device.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/monotonic_clock.h"
 
 namespace relievo::test {
@@ -92,9 +92,9 @@ class PlayedCamera final : public hal::Camera {
   std::uint32_t sequence_ = 0;
 };
 
-class PlayedBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
+class PlayedDevice final : public hal::Device, hal::RemovableMedia, hal::Watchdog {
  public:
-  PlayedBoard(const PlayedWorld& world, int width_px, int height_px)
+  PlayedDevice(const PlayedWorld& world, int width_px, int height_px)
       : time(world),
         left_camera(world, line.pulsed_at, width_px, height_px),
         right_camera(world, line.pulsed_at, width_px, height_px),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A board of two cameras that add up light as sensors do: what a camera shows is its scene's light, times the
+// A device of two cameras that add up light as sensors do: what a camera shows is its scene's light, times the
 // lamp, the time and the gain it was set to. Thread: one caller. Errors: none.
 #pragma once
 
@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/support/played_board.h"
+#include "tests/support/played_device.h"
 
 namespace relievo::test {
 
@@ -62,13 +62,13 @@ class LitCamera final : public hal::Camera {
   std::uint32_t sequence_ = 0;
 };
 
-class LitBoard final : public hal::Board, hal::RemovableMedia, hal::Watchdog {
+class LitDevice final : public hal::Device, hal::RemovableMedia, hal::Watchdog {
  public:
   struct Scene {
     std::vector<double> left, right;
     int width;
   };
-  explicit LitBoard(const Scene& scene, double right_gain = 1.2)
+  explicit LitDevice(const Scene& scene, double right_gain = 1.2)
       : left_camera(line.pulsed_at, 1, scene.left, scene.width),
         right_camera(line.pulsed_at, right_gain, scene.right, scene.width),
         width_(scene.width),

@@ -23,7 +23,7 @@
 #include <string>
 
 #include "hal/base/result.h"
-#include "hal/board.h"
+#include "hal/device.h"
 #include "hal/linux/hardware_watchdog.h"
 #include "hal/linux/kernel.h"
 #include "hal/linux/v4l2_camera.h"
@@ -32,7 +32,7 @@
 
 namespace relievo::hal {
 
-struct LinuxBoardOptions {
+struct LinuxDeviceOptions {
   CaptureMode mode;
   V4l2CameraOptions left;                  // or both views
   std::optional<V4l2CameraOptions> right;  // none: the left device gives both views
@@ -44,11 +44,11 @@ struct LinuxBoardOptions {
 
 // Errors: NotFound (no file), InvalidInput (a word, a number or a table that cannot be used, named by its
 // line), IoFailed.
-Result<LinuxBoardOptions> read_linux_board_file(const std::filesystem::path& file);
+Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& file);
 
 // Requests the GPIO lines and arms the watchdog; the cameras open when the appliance asks. Errors: the
 // lines', the watchdog's.
-Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options,
+Result<std::unique_ptr<Device>> make_linux_device(const LinuxDeviceOptions& options,
                                                 Kernel& kernel = real_kernel());
 
 }  // namespace relievo::hal

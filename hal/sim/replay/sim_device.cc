@@ -3,8 +3,8 @@
 #include <map>
 #include <mutex>
 
-#include "hal/sim/board.h"
-#include "hal/sim/replay/replay_board.h"
+#include "hal/sim/device.h"
+#include "hal/sim/replay/replay_device.h"
 
 namespace relievo::hal {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 // head a few rolls are made at the start and come by turns: a camera does not take a second for a picture.
 class RenderedSource final : public PairSource {
  public:
-  RenderedSource(const SimBoardOptions& options, std::vector<sim::BoardPose> poses)
+  RenderedSource(const SimDeviceOptions& options, std::vector<sim::BoardPose> poses)
       : o_(options.simulation),
         rig_(sim::make_rig(o_.rig)),
         pool_(options.threads),
@@ -73,7 +73,7 @@ class RenderedSource final : public PairSource {
 
 }  // namespace
 
-Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options) {
+Result<std::unique_ptr<Device>> make_sim_device(const SimDeviceOptions& options) {
   const sim::SimulationOptions& o = options.simulation;
   RELIEVO_TRY(o.check());
   std::vector<sim::BoardPose> poses;
@@ -82,10 +82,10 @@ Result<std::unique_ptr<Board>> make_sim_board(const SimBoardOptions& options) {
                                                     o.pose.distance_mm));
   }
   const CaptureMode mode{o.rig.width_px, o.rig.height_px, std::chrono::microseconds(4000)};
-  auto board = std::make_unique<ReplayBoard>(
+  auto device = std::make_unique<ReplayDevice>(
       "sim", std::make_unique<RenderedSource>(options, std::move(poses)), mode, true);
-  if (options.media_folder) board->folder_media().plug(*options.media_folder);
-  return std::unique_ptr<Board>(std::move(board));
+  if (options.media_folder) device->folder_media().plug(*options.media_folder);
+  return std::unique_ptr<Device>(std::move(device));
 }
 
 }  // namespace relievo::hal

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/board.h"
+#include "hal/linux/device.h"
 
 #include "hal/linux/mounted_stick.h"
 #include "hal/linux/side_by_side.h"
@@ -33,9 +33,9 @@ class NoWatchdog final : public Watchdog {
   void kick() override {}
 };
 
-class LinuxBoard final : public Board {
+class LinuxDevice final : public Device {
  public:
-  LinuxBoard(const LinuxBoardOptions& options, std::unique_ptr<OutputLines> lines, Kernel& kernel)
+  LinuxDevice(const LinuxDeviceOptions& options, std::unique_ptr<OutputLines> lines, Kernel& kernel)
       : mode_(options.mode), first_(options.left, kernel, clock_) {
     if (options.right) second_.emplace(*options.right, kernel, clock_);
     else halves_.emplace(first_);
@@ -79,15 +79,15 @@ class LinuxBoard final : public Board {
 
 }  // namespace
 
-Result<std::unique_ptr<Board>> make_linux_board(const LinuxBoardOptions& options, Kernel& kernel) {
+Result<std::unique_ptr<Device>> make_linux_device(const LinuxDeviceOptions& options, Kernel& kernel) {
   RELIEVO_TRY(options.timing.check());
   std::unique_ptr<OutputLines> lines;
   if (options.trigger) {
     RELIEVO_TRY_ASSIGN(lines, request_gpiod_lines(*options.trigger));
   }
-  auto board = std::make_unique<LinuxBoard>(options, std::move(lines), kernel);
-  if (options.watchdog) RELIEVO_TRY(board->arm(*options.watchdog, kernel));
-  return std::unique_ptr<Board>(std::move(board));
+  auto device = std::make_unique<LinuxDevice>(options, std::move(lines), kernel);
+  if (options.watchdog) RELIEVO_TRY(device->arm(*options.watchdog, kernel));
+  return std::unique_ptr<Device>(std::move(device));
 }
 
 }  // namespace relievo::hal

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Board: the hardware of one appliance, opened and closed as a whole. The chosen board owns every
-// device; the references stay valid as long as it lives. Which board it is, firmware/main.cc says.
+// Device: the hardware of one appliance, opened and closed as a whole. The chosen device owns every
+// device; the references stay valid as long as it lives. Which device it is, firmware/main.cc says.
 #pragma once
 
 #include <string_view>
@@ -15,11 +15,11 @@
 
 namespace relievo::hal {
 
-class Board {
+class Device {
  public:
-  virtual ~Board() = default;
+  virtual ~Device() = default;
   virtual std::string_view name() const = 0;  // "sim", "folder", "linux"
-  // The mode in which this board's cameras give their best picture.
+  // The mode in which this device's cameras give their best picture.
   virtual CaptureMode preferred_mode() const = 0;
   virtual Camera& left() = 0;  // left as the cameras see it: the image's left half of the pair
   virtual Camera& right() = 0;

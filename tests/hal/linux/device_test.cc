@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/board.h"
+#include "hal/linux/device.h"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@ constexpr const char* kTwo =
 constexpr const char* kWires =
     "[trigger]\nchip = \"/dev/gpiochip0\"\nline = 17\ndelay_us = 20\n[lamp]\nline = 18\nlead_us = 200\n";
 
-Result<LinuxBoardOptions> read(const std::string& text) {
+Result<LinuxDeviceOptions> read(const std::string& text) {
   const TemporaryFolder folder;
   std::ofstream(folder / "board.toml") << text;
-  return read_linux_board_file(folder / "board.toml");
+  return read_linux_device_file(folder / "board.toml");
 }
 
-TEST(LinuxBoardFile, SaysWhatIsWiredWhere) {
+TEST(LinuxDeviceFile, SaysWhatIsWiredWhere) {
   const auto options = read(std::string(kMode) + kTwo + kWires);
   ASSERT_TRUE(options) << options.error().where();
   EXPECT_EQ(options->mode.width_px, 32);
@@ -41,7 +41,7 @@ TEST(LinuxBoardFile, SaysWhatIsWiredWhere) {
   EXPECT_EQ(options->timing.lamp_lead, std::chrono::microseconds(200));
 }
 
-TEST(LinuxBoardFile, StickAndWatchdogMayBeLeftOut) {
+TEST(LinuxDeviceFile, StickAndWatchdogMayBeLeftOut) {
   const auto bare = read(std::string(kMode) + kTwo);
   ASSERT_TRUE(bare);
   EXPECT_TRUE(bare->stick_folder.empty() && !bare->watchdog);
@@ -52,14 +52,14 @@ TEST(LinuxBoardFile, StickAndWatchdogMayBeLeftOut) {
   EXPECT_EQ(options->watchdog.value_or(WatchdogOptions{}).timeout, std::chrono::seconds(30));
 }
 
-TEST(LinuxBoardFile, WithoutATriggerTheCamerasRunFree) {
+TEST(LinuxDeviceFile, WithoutATriggerTheCamerasRunFree) {
   const auto options = read(std::string(kMode) + kTwo);
   ASSERT_TRUE(options);
   EXPECT_FALSE(options->trigger);
   EXPECT_FALSE(options->left.triggered);
 }
 
-TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
+TEST(LinuxDeviceFile, WhatIsWrongIsNamedByItsLine) {
   const std::string good = std::string(kMode) + kTwo;
   const std::pair<std::string, const char*> cases[] = {
       {"[mode\n", "line 1"},
@@ -90,42 +90,42 @@ TEST(LinuxBoardFile, WhatIsWrongIsNamedByItsLine) {
     EXPECT_NE(options.error().where().find(word), std::string_view::npos)
         << options.error().where() << " | " << word;
   }
-  EXPECT_EQ(read_linux_board_file("/nowhere/board.toml").error().code, Errc::NotFound);
+  EXPECT_EQ(read_linux_device_file("/nowhere/board.toml").error().code, Errc::NotFound);
 }
 
-TEST(LinuxBoard, ATriggerThatIsNotThereIsToldBeforeACameraOpens) {
+TEST(LinuxDevice, ATriggerThatIsNotThereIsToldBeforeACameraOpens) {
   FakeKernel kernel;
   auto options = read(std::string(kMode) + kTwo + kWires);
   ASSERT_TRUE(options);
   options->trigger->chip = "/nowhere/gpiochip9";
-  EXPECT_EQ(make_linux_board(*options, kernel).error().code, Errc::NotFound);
+  EXPECT_EQ(make_linux_device(*options, kernel).error().code, Errc::NotFound);
   EXPECT_EQ(kernel.calls(KernelCall::Open), 0);
 }
 
-TEST(LinuxBoard, OneDeviceGivesBothViewsTogetherWithoutAWire) {
+TEST(LinuxDevice, OneDeviceGivesBothViewsTogetherWithoutAWire) {
   FakeKernel kernel;
   const auto options = read(std::string(kMode) + "[both]\ndevice = \"/dev/c\"\n");
   ASSERT_TRUE(options) << options.error().where();
-  const auto made = make_linux_board(*options, kernel);
+  const auto made = make_linux_device(*options, kernel);
   ASSERT_TRUE(made);
-  Board& board = **made;
-  EXPECT_EQ(board.name(), "linux");
-  EXPECT_TRUE(board.exposes_together());
-  EXPECT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
-  for (Camera* camera : {&board.left(), &board.right()})
-    ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  Device& device = **made;
+  EXPECT_EQ(device.name(), "linux");
+  EXPECT_TRUE(device.exposes_together());
+  EXPECT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+  for (Camera* camera : {&device.left(), &device.right()})
+    ASSERT_TRUE(camera->open(device.preferred_mode()) && camera->start());
   EXPECT_EQ(kernel.open_files, 1);
   kernel.expose({3});
-  const Instant soon = board.clock().now() + std::chrono::seconds(5);
-  const auto left = board.left().next_frame(soon);
-  const auto right = board.right().next_frame(soon);
+  const Instant soon = device.clock().now() + std::chrono::seconds(5);
+  const auto left = device.left().next_frame(soon);
+  const auto right = device.right().next_frame(soon);
   ASSERT_TRUE(left && right);
   EXPECT_EQ(left->image().width_px, 32);
 }
 
-TEST(LinuxBoard, TwoCamerasWithoutAWireDoNotExposeTogether) {
+TEST(LinuxDevice, TwoCamerasWithoutAWireDoNotExposeTogether) {
   FakeKernel kernel;
-  const auto made = make_linux_board(*read(std::string(kMode) + kTwo), kernel);
+  const auto made = make_linux_device(*read(std::string(kMode) + kTwo), kernel);
   ASSERT_TRUE(made);
   EXPECT_FALSE((*made)->exposes_together());
   EXPECT_NE(&(*made)->left(), &(*made)->right());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boards without hardware: pairing, turn-taking of the camera's states, time, sticks.
-#include "hal/sim/board.h"
+// Devices without hardware: pairing, turn-taking of the camera's states, time, sticks.
+#include "hal/sim/device.h"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ void put_picture(const std::filesystem::path& file, int value, int width = 16) {
 }
 
 int first_pixel(const Frame& frame) { return frame.image().row(0)[0]; }
-Instant soon(Board& board) { return board.clock().now() + std::chrono::seconds(5); }
+Instant soon(Device& device) { return device.clock().now() + std::chrono::seconds(5); }
 
-TEST(FolderBoard, ReplaysPairsInNameOrderForEver) {
+TEST(FolderDevice, ReplaysPairsInNameOrderForEver) {
   const TemporaryFolder folder;
   put_picture(folder / "left_000002.png", 2);
   put_picture(folder / "right_000002.png", 12);
@@ -35,19 +35,19 @@ TEST(FolderBoard, ReplaysPairsInNameOrderForEver) {
   put_picture(folder / "right_000001.png", 11);
   ASSERT_TRUE(write_capture_file(folder / "capture.json",
                                  {"A", "B", {{1, 1000, 181000, 4000, 1.0}, {2, 5000, 5000, 4000, 1.0}}}));
-  auto made = make_folder_board(folder.path());
+  auto made = make_folder_device(folder.path());
   ASSERT_TRUE(made) << made.error().what.view();
-  Board& board = **made;
-  EXPECT_EQ(board.name(), "folder");
-  EXPECT_EQ(board.preferred_mode().exposure, std::chrono::microseconds(4000));
-  for (Camera* camera : {&board.left(), &board.right()}) {
-    ASSERT_TRUE(camera->open(board.preferred_mode()));
+  Device& device = **made;
+  EXPECT_EQ(device.name(), "folder");
+  EXPECT_EQ(device.preferred_mode().exposure, std::chrono::microseconds(4000));
+  for (Camera* camera : {&device.left(), &device.right()}) {
+    ASSERT_TRUE(camera->open(device.preferred_mode()));
     ASSERT_TRUE(camera->start());
   }
   for (const int expected : {1, 2, 1}) {
-    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
-    const auto left = board.left().next_frame(soon(board));
-    const auto right = board.right().next_frame(soon(board));
+    ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+    const auto left = device.left().next_frame(soon(device));
+    const auto right = device.right().next_frame(soon(device));
     ASSERT_TRUE(left && right);
     EXPECT_EQ(first_pixel(*left), expected);
     EXPECT_EQ(first_pixel(*right), expected + 10);
@@ -57,36 +57,36 @@ TEST(FolderBoard, ReplaysPairsInNameOrderForEver) {
   }
 }
 
-TEST(FolderBoard, PlainNamesWorkToo) {
+TEST(FolderDevice, PlainNamesWorkToo) {
   const TemporaryFolder folder;
   put_picture(folder / "left.png", 1);
   put_picture(folder / "right.jpg", 2);
-  EXPECT_TRUE(make_folder_board(folder.path()));
+  EXPECT_TRUE(make_folder_device(folder.path()));
 }
 
-TEST(FolderBoard, ANameWithoutItsPartnerIsNamed) {
+TEST(FolderDevice, ANameWithoutItsPartnerIsNamed) {
   const TemporaryFolder folder;
   put_picture(folder / "left_01.png", 1);
   put_picture(folder / "right_01.png", 1);
   put_picture(folder / "right_02.png", 1);
-  const auto made = make_folder_board(folder.path());
+  const auto made = make_folder_device(folder.path());
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, Errc::InvalidInput);
   EXPECT_NE(made.error().where().find("right_02.png"), std::string_view::npos);
   EXPECT_NE(made.error().what.view().find("partner"), std::string_view::npos);
 }
 
-TEST(FolderBoard, MissingEmptyAndBrokenFoldersAreErrors) {
+TEST(FolderDevice, MissingEmptyAndBrokenFoldersAreErrors) {
   const TemporaryFolder folder;
-  EXPECT_EQ(make_folder_board(folder / "none").error().code, Errc::NotFound);
-  EXPECT_EQ(make_folder_board(folder.path()).error().code, Errc::NotFound);
+  EXPECT_EQ(make_folder_device(folder / "none").error().code, Errc::NotFound);
+  EXPECT_EQ(make_folder_device(folder.path()).error().code, Errc::NotFound);
   put_picture(folder / "left_1.png", 1);
   put_picture(folder / "right_1.png", 1, 20);
-  EXPECT_EQ(make_folder_board(folder.path()).error().code, Errc::InvalidInput);
+  EXPECT_EQ(make_folder_device(folder.path()).error().code, Errc::InvalidInput);
   put_picture(folder / "right_1.png", 1);
   for (const char* bad : {"{", "[]", "{\"frames\": 3}", "{\"frames\": [{\"number\": \"x\"}]}"}) {
     std::ofstream(folder / "capture.json") << bad;
-    const auto made = make_folder_board(folder.path());
+    const auto made = make_folder_device(folder.path());
     ASSERT_FALSE(made) << bad;
     EXPECT_EQ(made.error().code, Errc::InvalidInput) << bad;
     EXPECT_NE(made.error().where().find("capture.json"), std::string_view::npos);
@@ -97,7 +97,7 @@ TEST(Camera, ACallOutOfTurnNamesTheStateItNeeds) {
   const TemporaryFolder folder;
   put_picture(folder / "left_1.png", 1);
   put_picture(folder / "right_1.png", 1);
-  auto made = make_folder_board(folder.path());
+  auto made = make_folder_device(folder.path());
   ASSERT_TRUE(made);
   Camera& camera = (*made)->left();
   const Instant now = (*made)->clock().now();
@@ -121,39 +121,39 @@ TEST(Camera, AClosedCameraOpensAgain) {
   const TemporaryFolder folder;
   put_picture(folder / "left_1.png", 1);
   put_picture(folder / "right_1.png", 1);
-  auto made = make_folder_board(folder.path());
+  auto made = make_folder_device(folder.path());
   ASSERT_TRUE(made);
-  Board& board = **made;
-  EXPECT_FALSE(board.exposes_together()) << "recordings are as they are";
-  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
-  board.left().close();
-  EXPECT_EQ(board.left().state(), Camera::State::Closed);
-  EXPECT_EQ(board.left().set_exposure({}).error().code, Errc::InvalidState);
-  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
-  EXPECT_EQ(board.left().set_exposure({}).error().code, Errc::Unsupported);
-  ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
-  EXPECT_TRUE(board.left().next_frame(soon(board)));
+  Device& device = **made;
+  EXPECT_FALSE(device.exposes_together()) << "recordings are as they are";
+  ASSERT_TRUE(device.left().open(device.preferred_mode()) && device.left().start());
+  device.left().close();
+  EXPECT_EQ(device.left().state(), Camera::State::Closed);
+  EXPECT_EQ(device.left().set_exposure({}).error().code, Errc::InvalidState);
+  ASSERT_TRUE(device.left().open(device.preferred_mode()) && device.left().start());
+  EXPECT_EQ(device.left().set_exposure({}).error().code, Errc::Unsupported);
+  ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(10)));
+  EXPECT_TRUE(device.left().next_frame(soon(device)));
 }
 
 TEST(Camera, HoldingEveryFrameStopsItUntilOneIsGivenBack) {
   const TemporaryFolder folder;
   put_picture(folder / "left_1.png", 1);
   put_picture(folder / "right_1.png", 1);
-  auto made = make_folder_board(folder.path());
+  auto made = make_folder_device(folder.path());
   ASSERT_TRUE(made);
-  Board& board = **made;
-  ASSERT_TRUE(board.left().open(board.preferred_mode()) && board.left().start());
+  Device& device = **made;
+  ASSERT_TRUE(device.left().open(device.preferred_mode()) && device.left().start());
   std::vector<Frame> held;
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
-    auto frame = board.left().next_frame(soon(board));
+    ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(10)));
+    auto frame = device.left().next_frame(soon(device));
     ASSERT_TRUE(frame);
     held.push_back(*std::move(frame));
   }
-  ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(10)));
-  EXPECT_EQ(board.left().next_frame(soon(board)).error().code, Errc::Timeout);
+  ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(10)));
+  EXPECT_EQ(device.left().next_frame(soon(device)).error().code, Errc::Timeout);
   held.pop_back();
-  EXPECT_TRUE(board.left().next_frame(soon(board)));
+  EXPECT_TRUE(device.left().next_frame(soon(device)));
 }
 
 TEST(SilentTrigger, ADeadlineComesByTheGivenClock) {
@@ -182,39 +182,39 @@ TEST(FolderMedia, ComesAndGoes) {
   EXPECT_FALSE(media.current());
 }
 
-TEST(SimBoard, ShowsCalibrationBoardsOneAfterAnother) {
-  SimBoardOptions options;
+TEST(SimDevice, ShowsCalibrationBoardsOneAfterAnother) {
+  SimDeviceOptions options;
   options.simulation.scene = sim::SceneKind::Board;
   options.simulation.rig.width_px = 240;
   options.simulation.rig.height_px = 150;
   options.simulation.board_poses = 3;
-  auto made = make_sim_board(options);
+  auto made = make_sim_device(options);
   ASSERT_TRUE(made) << made.error().what.view();
-  Board& board = **made;
-  for (Camera* camera : {&board.left(), &board.right()})
-    ASSERT_TRUE(camera->open(board.preferred_mode()) && camera->start());
+  Device& device = **made;
+  for (Camera* camera : {&device.left(), &device.right()})
+    ASSERT_TRUE(camera->open(device.preferred_mode()) && camera->start());
   std::vector<std::vector<std::uint8_t>> rows;
   for (int i = 0; i < 2; ++i) {
-    ASSERT_TRUE(board.trigger().pulse(std::chrono::microseconds(100)));
-    const auto left = board.left().next_frame(soon(board));
-    const auto right = board.right().next_frame(soon(board));
+    ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+    const auto left = device.left().next_frame(soon(device));
+    const auto right = device.right().next_frame(soon(device));
     ASSERT_TRUE(left && right);
     rows.emplace_back(left->image().row(75), left->image().row(75) + 240);
   }
   EXPECT_NE(rows[0], rows[1]);
 }
 
-TEST(SimBoard, RefusesNonsense) {
-  SimBoardOptions options;
+TEST(SimDevice, RefusesNonsense) {
+  SimDeviceOptions options;
   options.simulation.pose.yaw_deg = 170;
-  EXPECT_EQ(make_sim_board(options).error().code, Errc::InvalidInput);
+  EXPECT_EQ(make_sim_device(options).error().code, Errc::InvalidInput);
   options = {};
   options.simulation.rig.width_px = 3;
-  EXPECT_EQ(make_sim_board(options).error().code, Errc::InvalidInput);
+  EXPECT_EQ(make_sim_device(options).error().code, Errc::InvalidInput);
   options = {};
   options.simulation.scene = sim::SceneKind::Board;
   options.simulation.board.square_mm = 200;
-  EXPECT_EQ(make_sim_board(options).error().code, Errc::PoorGeometry);
+  EXPECT_EQ(make_sim_device(options).error().code, Errc::PoorGeometry);
 }
 
 }  // namespace
