@@ -51,7 +51,8 @@ Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
     options.threads = pool_size();
     return hal::make_sim_device(options);
   }
-  if (device.substr(0, kFolder.size()) == kFolder) return hal::make_folder_device(device.substr(kFolder.size()));
+  if (device.substr(0, kFolder.size()) == kFolder)
+    return hal::make_folder_device(device.substr(kFolder.size()));
   if (device == kLinux || (device.starts_with(kLinux) && device[kLinux.size()] == ':'))
     return open_linux_device(device);
   return Error{Errc::InvalidInput,

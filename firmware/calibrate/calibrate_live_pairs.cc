@@ -58,7 +58,7 @@ class DevicePairs final : public LivePairs {
 }  // namespace
 
 Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device,
-                                                    std::string_view name) {
+                                                     std::string_view name) {
   int most = std::numeric_limits<int>::max();
   int shown = 1;
   const bool folder = name.starts_with(kFolder);

@@ -37,6 +37,7 @@ class LivePairs {
 };
 
 // Errors: the folder's own (of "folder:DIR").
-Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device, std::string_view name);
+Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device,
+                                                     std::string_view name);
 
 }  // namespace relievo::firmware

@@ -27,9 +27,9 @@
 #include "firmware/capture/camera_link.h"
 #include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"
-#include "hal/device.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
+#include "hal/device.h"
 #include "hal/trigger_line.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
@@ -60,7 +60,8 @@ class StereoGrabber {
         left_(left, clock, counts_.left),
         right_(right, clock, counts_.right) {}
   explicit StereoGrabber(hal::Device& device)
-      : StereoGrabber(device.left(), device.right(), device.trigger(), device.clock(), grabber_options(device)) {}
+      : StereoGrabber(device.left(), device.right(), device.trigger(), device.clock(),
+                      grabber_options(device)) {}
   ~StereoGrabber() { stop(); }
   StereoGrabber(const StereoGrabber&) = delete;
   StereoGrabber& operator=(const StereoGrabber&) = delete;

@@ -13,8 +13,8 @@
 #include "firmware/base/console.h"
 #include "firmware/calibrate/calibrate_live_pairs.h"
 #include "firmware/checks/optical_target.h"
-#include "hal/device.h"
 #include "hal/clock.h"
+#include "hal/device.h"
 #include "storage/store.h"
 #include "ui/display.h"
 

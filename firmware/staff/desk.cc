@@ -64,7 +64,7 @@ Desk::Desk(Parts parts)
       touch_(parts_.store, errands_, log_, parts_.device.clock()),
       consent_(parts_.folder, parts_.device.media(), errands_, log_),
       tools_{parts_.appliance, parts_.device, parts_.store, errands_, log_,          statistics_,
-             settings_,        retention_,   touch_,       consent_, parts_.folder, parts_.calibration},
+             settings_,        retention_,    touch_,       consent_, parts_.folder, parts_.calibration},
       door_({parts_.store, parts_.device.clock(), errands_, log_, parts_.set_clock, consent_,
              parts_.device.is_live()}) {
   fill_desk_pages(tools_, pages_);

@@ -80,7 +80,7 @@ Result<void> PoseJob::meter(const pipeline::StereoFrame& frame, Guidance& guidan
 
 Result<void> GrabJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(device_.preferred_mode()));  // nothing where the streams run already
-  RELIEVO_TRY(grabber_.check_cameras());                 // others than the calibrated ones measure nothing
+  RELIEVO_TRY(grabber_.check_cameras());                  // others than the calibrated ones measure nothing
   BurstOptions options;
   options.light = device_.shot_light();
   if (!device_.is_live()) {

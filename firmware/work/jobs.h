@@ -15,8 +15,8 @@
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
 #include "hal/base/thread_pool.h"
-#include "hal/device.h"
 #include "hal/clock.h"
+#include "hal/device.h"
 
 namespace relievo::firmware {
 

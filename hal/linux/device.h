@@ -49,6 +49,6 @@ Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& f
 // Requests the GPIO lines and arms the watchdog; the cameras open when the appliance asks. Errors: the
 // lines', the watchdog's.
 Result<std::unique_ptr<Device>> make_linux_device(const LinuxDeviceOptions& options,
-                                                Kernel& kernel = real_kernel());
+                                                  Kernel& kernel = real_kernel());
 
 }  // namespace relievo::hal

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// record_pair(): puts one captured pair behind those that a folder holds already; make_folder_device() replays
-// it bit for bit, with its skew, exposure and serial numbers. The pictures are written before capture.json
-// names them: a pair whose writing was cut short is written over by the next. Thread: keeper, one writer a
-// folder. Errors: InvalidInput (a picture without pixels, views of different sizes or formats, a folder whose
-// capture.json cannot be read), IoFailed.
+// record_pair(): puts one captured pair behind those that a folder holds already; make_folder_device()
+// replays it bit for bit, with its skew, exposure and serial numbers. The pictures are written before
+// capture.json names them: a pair whose writing was cut short is written over by the next. Thread: keeper,
+// one writer a folder. Errors: InvalidInput (a picture without pixels, views of different sizes or formats, a
+// folder whose capture.json cannot be read), IoFailed.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ class ReplayDevice final : public Device {
  public:
   // together: the pairs were exposed by one trigger.
   ReplayDevice(std::string_view name, std::unique_ptr<PairSource> source, const CaptureMode& mode,
-              bool together)
+               bool together)
       : name_(name), source_(std::move(source)), mode_(mode), together_(together) {}
 
   std::string_view name() const override { return name_; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A device of two cameras that add up light as sensors do: what a camera shows is its scene's light, times the
-// lamp, the time and the gain it was set to. Thread: one caller. Errors: none.
+// A device of two cameras that add up light as sensors do: what a camera shows is its scene's light, times
+// the lamp, the time and the gain it was set to. Thread: one caller. Errors: none.
 #pragma once
 
 #include <algorithm>

@@ -81,7 +81,9 @@ class CodeSightTest : public KioskHands {
   void show(const hal::Picture& sheet) {
     ASSERT_TRUE(hal::sim::photograph_sheet(sheet, held(180, {0, 0, 8, 560, 0, 0}), folder.path() / "held")
                     .has_value());
-    services.open_device = [this](std::string_view) { return hal::make_folder_device(folder.path() / "held"); };
+    services.open_device = [this](std::string_view) {
+      return hal::make_folder_device(folder.path() / "held");
+    };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     args.store = folder.path() / "store";
     args.calibration = folder.path() / "held" / "rig.yml";
