@@ -24,7 +24,7 @@ TEST_F(ApplianceTest, OneEnrolmentFromBeginToStored) {
   EXPECT_EQ(stages.ran, "MaReMeTeAs");
   EXPECT_EQ(appliance.records().size(), kStages.size());
   EXPECT_FALSE(appliance.problem());
-  EXPECT_GT(board.kicks, 0);
+  EXPECT_GT(device.kicks, 0);
   EXPECT_TRUE(memory_is_wiped());
   EXPECT_EQ(view_of(appliance).model, nullptr);
 }
