@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Device: the hardware of one appliance, opened and closed as a whole. The chosen device owns every
-// device; the references stay valid as long as it lives. Which device it is, firmware/main.cc says.
+// Device: the hardware of one appliance, opened and closed as a whole. It owns its cameras, wires, sticks and
+// clock; the references stay valid as long as it lives. Which device it is, firmware/main.cc says.
 #pragma once
 
 #include <string_view>
