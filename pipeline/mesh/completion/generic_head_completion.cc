@@ -24,6 +24,7 @@ namespace {
 constexpr double kFitCellMm = 2;
 constexpr int kFiner = 2;        // how often the generic head's globe is quartered
 constexpr double kStepMm = 2.1;  // then from node to node, at 105 mm from the centre
+constexpr double kFairedMm = 10;
 constexpr double kPlaneMm = 320, kPlaneCellMm = 2;
 
 // Seen from the globe's centre, on a plane: a sphere from its pole behind the head (stereographic, so that
@@ -120,7 +121,7 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   std::pmr::vector<Vec2f> plane(&scratch);
   plane.reserve(flat.vertices_mm.size());
   for (const Vec3f& v : flat.vertices_mm) plane.push_back({v.x, v.y});
-  return sew(mesh, plane, added, {std::numeric_limits<float>::max(), addition(0)}, context);
+  return sew(mesh, plane, added, {std::numeric_limits<float>::max(), addition(0), kFairedMm}, context);
 }
 
 }  // namespace relievo::pipeline

@@ -19,6 +19,11 @@ double neighbour_share(int neighbours) {
   return (0.625 - c * c) / neighbours;
 }
 
+double sum(double a, double share, double b) { return a + share * b; }
+Vec3d sum(const Vec3d& a, double share, const Vec3d& b) {
+  return {a.x + share * b.x, a.y + share * b.y, a.z + share * b.z};
+}
+
 }  // namespace
 
 Globe::Globe(int times, std::pmr::memory_resource* memory) : direction(memory), triangles(memory) {
@@ -54,26 +59,33 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
   };
   std::pmr::vector<int> neighbours(before, 0, memory);
   for (const Edge& e : edges) ++neighbours[e[0]], ++neighbours[e[1]];
-  for (auto& field : fields) {
-    std::pmr::vector<double> fine(before + edges.size(), 0.0, memory);
-    for (std::size_t v = 0; v < before; ++v)
-      fine[v] = (1 - neighbours[v] * neighbour_share(neighbours[v])) * field[v];
+  const auto smoothed = [&](const auto& field, auto fine) {
+    fine.resize(before + edges.size());
+    const auto add = [&fine](std::uint32_t to, double share, const auto& value) {
+      fine[to] = sum(fine[to], share, value);
+    };
+    for (std::uint32_t v = 0; v < before; ++v)
+      add(v, 1 - neighbours[v] * neighbour_share(neighbours[v]), field[v]);
     for (const Edge& e : edges) {
-      fine[e[0]] += neighbour_share(neighbours[e[0]]) * field[e[1]];
-      fine[e[1]] += neighbour_share(neighbours[e[1]]) * field[e[0]];
+      add(e[0], neighbour_share(neighbours[e[0]]), field[e[1]]);
+      add(e[1], neighbour_share(neighbours[e[1]]), field[e[0]]);
     }
     for (const auto& t : triangles)  // an edge has two of them
-      for (std::size_t k = 0; k < 3; ++k)
-        fine[middle(t[k], t[(k + 1) % 3])] +=
-            (3 * (field[t[k]] + field[t[(k + 1) % 3]]) + 2 * field[t[(k + 2) % 3]]) / 16;
-    field = std::move(fine);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3], at = middle(a, b);
+        add(at, 3.0 / 16, field[a]), add(at, 3.0 / 16, field[b]), add(at, 2.0 / 16, field[t[(k + 2) % 3]]);
+      }
+    return fine;
+  };
+  for (auto& field : fields) field = smoothed(field, std::pmr::vector<double>(memory));
+  if (fields.empty()) {
+    direction.resize(before + edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      direction[before + k] = sum(direction[edges[k][0]], 1, direction[edges[k][1]]);
+  } else {
+    direction = smoothed(direction, std::pmr::vector<Vec3d>(memory));
   }
-  for (const auto& [a, b] : edges) {
-    const Vec3d &p = direction[a], &q = direction[b];
-    const Vec3d sum{p.x + q.x, p.y + q.y, p.z + q.z};
-    const double length = std::hypot(sum.x, sum.y, sum.z);
-    direction.push_back({sum.x / length, sum.y / length, sum.z / length});
-  }
+  for (Vec3d& d : direction) d = sum({}, 1 / std::hypot(d.x, d.y, d.z), d);
   std::pmr::vector<std::array<std::uint32_t, 3>> fine(memory);
   fine.reserve(4 * triangles.size());
   for (const auto& [a, b, c] : triangles) {

@@ -20,8 +20,9 @@ struct Globe {
   // Quartered `times` times: 10 * 4^times + 2 nodes.
   Globe(int times, std::pmr::memory_resource* memory);
 
-  // Quarters every triangle. Nodes keep their places; new ones follow. Each of `fields` has one value a node
-  // and gets as many as there are then.
+  // Quarters every triangle; new nodes follow. Each of `fields` has one value a node and gets as many as
+  // there are then. The directions are smoothed as the fields are, or these would show the icosahedron's
+  // edges as folds; without fields the nodes keep their places.
   void quarter(std::span<std::pmr::vector<double>> fields);
 
   std::pmr::vector<Vec3d> direction;                         // unit length; the first looks along -z

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
+
+#include "pipeline/mesh/completion/mesh_laplacian.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -16,27 +19,29 @@ constexpr double kReturnMm = 40;  // to zero
 constexpr double kNearMm = 1;     // over which the plate smooths what is known
 constexpr double kBentMm = 50;    // from the known part the shape bends as its own does, not on the way there
 
-using Neighbours = std::vector<std::vector<int>>;
-
-Neighbours neighbours_of(const Globe& globe) {
-  Neighbours all(globe.direction.size());
-  for (const auto& t : globe.triangles)  // each edge runs once in either direction
-    for (std::size_t k = 0; k < 3; ++k) all[t[k]].push_back(static_cast<int>(t[(k + 1) % 3]));
-  return all;
+// Sharing one sphere, all nodes count alike: h h / 4 times the Laplacian, which in a lattice of equal
+// triangles with sides of h is what a node's neighbours' mean is off.
+MeshLaplacian bends_of(const Globe& globe) {
+  std::vector<Eigen::Vector3d> at;
+  for (const Vec3d& d : globe.direction) at.emplace_back(d.x, d.y, d.z);
+  MeshLaplacian laplacian = laplacian_of(at, globe.triangles);
+  const double share = 4 * std::numbers::pi / static_cast<double>(at.size()) / (2 * std::sqrt(3.0));
+  for (auto& its : laplacian.neighbours)
+    for (auto& n : its) n.weight *= share;
+  return laplacian;
 }
 
 // How many steps a node lies from those whose value is known, or from those whose is not; at most `most`.
-std::vector<int> steps_from(bool known, const Neighbours& neighbours, std::span<const double> value,
-                            int most) {
+std::vector<int> steps_from(bool known, const MeshLaplacian& bends, std::span<const double> value, int most) {
   std::vector<int> steps(value.size(), most);
   std::vector<int> front;
   for (std::size_t v = 0; v < value.size(); ++v)
     if (std::isnan(value[v]) != known) steps[v] = 0, front.push_back(static_cast<int>(v));
   for (std::size_t next = 0; next < front.size(); ++next) {
     const auto v = static_cast<std::size_t>(front[next]);
-    for (const int n : neighbours[v])
-      if (steps[static_cast<std::size_t>(n)] > steps[v] + 1)
-        steps[static_cast<std::size_t>(n)] = steps[v] + 1, front.push_back(n);
+    for (const auto& n : bends.neighbours[v])
+      if (steps[n.vertex] > steps[v] + 1)
+        steps[n.vertex] = steps[v] + 1, front.push_back(static_cast<int>(n.vertex));
   }
   return steps;
 }
@@ -51,11 +56,11 @@ double weight_of(double step_mm, double length_mm) { return std::pow(step_mm / (
 
 void continue_over_globe(const Globe& globe, double step_mm, std::span<const double> shape,
                          std::span<double> value) {
-  const Neighbours neighbours = neighbours_of(globe);
+  const MeshLaplacian laplacian = bends_of(globe);
   const int band = std::max(2, static_cast<int>(std::lround(kBandMm / step_mm)));
-  const std::vector<int> depth = steps_from(false, neighbours, value, band + 1);
+  const std::vector<int> depth = steps_from(false, laplacian, value, band + 1);
   const int bent = std::max(1, static_cast<int>(kBentMm / step_mm));
-  const std::vector<int> away = steps_from(true, neighbours, value, bent);
+  const std::vector<int> away = steps_from(true, laplacian, value, bent);
   std::vector<int> place(value.size(), -1);
   int count = 0;
   for (std::size_t v = 0; v < value.size(); ++v)
@@ -68,12 +73,11 @@ void continue_over_globe(const Globe& globe, double step_mm, std::span<const dou
     weights.emplace_back(place[v], place[v], weight);
     if (depth[v] > 0) right[place[v]] = weight * value[v];
     if (depth[v] == band) continue;  // some of its neighbours take no part
-    bends.emplace_back(place[v], place[v], -1);
-    double its_bend = -shape[v];
-    for (const int n : neighbours[v]) {
-      const double share = 1.0 / static_cast<double>(neighbours[v].size());
-      bends.emplace_back(place[v], place[static_cast<std::size_t>(n)], share);
-      its_bend += share * shape[static_cast<std::size_t>(n)];
+    double its_bend = 0;
+    for (const auto& [n, share] : laplacian.neighbours[v]) {
+      bends.emplace_back(place[v], place[v], -share);
+      bends.emplace_back(place[v], place[n], share);
+      its_bend += share * (shape[n] - shape[v]);
     }
     own_bend[place[v]] = (1 - risen(static_cast<double>(away[v]) / bent)) * its_bend;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/mesh/completion/gap_triangulation.h"
+#include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
@@ -90,6 +91,34 @@ void close_holes(FaceMesh& mesh, Arena& scratch) {
   }
 }
 
+// What was added goes on from what was there without a crease: the plate over the globe knows nothing of skin
+// that stands upright on it.
+void fair_seam(FaceMesh& mesh, std::size_t own, double width_mm) {
+  std::vector<Eigen::Vector3d> at;
+  for (const Vec3f& v : mesh.vertices_mm) at.push_back(Eigen::Vector3f(v.x, v.y, v.z).cast<double>());
+  std::vector<double> away(at.size(), width_mm);
+  for (std::size_t v = 0; v < own; ++v) away[v] = 0;
+  for (bool nearer = true; nearer;) {
+    nearer = false;
+    for (const auto& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        if (a < own && b < own) continue;
+        const double step = (at[a] - at[b]).norm();
+        if (away[a] > away[b] + step) away[a] = away[b] + step, nearer = true;
+        if (away[b] > away[a] + step) away[b] = away[a] + step, nearer = true;
+      }
+  }
+  std::vector<char> free(at.size());
+  for (std::size_t v = own; v < at.size(); ++v) free[v] = away[v] < width_mm ? 1 : 0;
+  fair(at, mesh.triangles, free);
+  for (std::size_t v = own; v < at.size(); ++v)
+    if (free[v] != 0) {
+      const Eigen::Vector3f p = at[v].cast<float>();
+      mesh.vertices_mm[v] = {p.x(), p.y(), p.z()};
+    }
+}
+
 // Vertices that no triangle uses go; the order of the rest stays.
 FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
   std::pmr::vector<std::uint32_t> place(mesh.vertices_mm.size(), 0, &scratch);
@@ -143,6 +172,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
     if (fits(whole, own, t, rules.longest_edge_mm)) whole.triangles.push_back(t);
   keep_one_surface(whole.vertices_mm, whole.triangles, {0}, &context.scratch);
   if (far_point) close_holes(whole, context.scratch);
+  if (rules.faired_mm > 0) fair_seam(whole, mesh.vertices_mm.size(), rules.faired_mm);
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)
     if (mesh.measured[v] != 0) whole.normals[v] = mesh.normals[v];

@@ -24,6 +24,7 @@ struct Addition {
 struct SewingRules {
   double longest_edge_mm;               // wider gaps stay open
   std::optional<Addition> far_point{};  // of a whole head: what all of the plane's far edge runs to
+  double faired_mm = 0;  // so far from the seam what was added is laid anew, to go on without a crease
 };
 
 // `plane`: where each vertex of `mesh` lies when laid flat, seen from outside. No addition may lie where the

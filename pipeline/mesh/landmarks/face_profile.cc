@@ -20,6 +20,8 @@ constexpr double kLipFoot = 38;                     // the upper lip ends above 
 constexpr double kSubnasaleDepth = 2.0;
 constexpr double kChinFrom = -48, kChinTo = -98;  // sublabiale to the lowest chins, from the tip
 constexpr double kChinRise = 0.3;                 // of the chin out of the fold above it
+constexpr double kSecondRise = 0.5;  // as much lies a second fold behind what stands above and below it
+constexpr double kLipBeforeChin = 8;
 
 using Profile = std::span<const ProfilePoint>;
 
@@ -104,13 +106,29 @@ std::optional<ProfilePoint> find_nasion(Profile profile, const ProfilePoint& tip
   return lowest ? *lowest : root.at;
 }
 
+// In an open mouth the first fold is the mouth, and what stands below it is the lower lip: then there is
+// another fold further down, and the chin is what stands below that.
+std::optional<ProfilePoint> below_lip(Profile profile, double from_mm, const ProfilePoint& lip) {
+  const Profile below = part(profile, from_mm, lip.y_mm);
+  double deepest = lip.z_mm;
+  for (std::size_t k = below.size(); k-- > 0;) {
+    deepest = std::min(deepest, below[k].z_mm);
+    if (below[k].z_mm < deepest + kSecondRise || lip.z_mm < deepest + kSecondRise) continue;
+    const auto chin = extreme(profile, from_mm, below[k].y_mm + kSecondRise, 1);
+    if (chin && chin->z_mm > lip.z_mm - kLipBeforeChin) return chin;
+    break;
+  }
+  return std::nullopt;
+}
+
 std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) {
   const auto fold = extreme(profile, tip.y_mm + kChinTo + 20, tip.y_mm + kChinFrom + 10, -1);
   const double from = tip.y_mm + kChinTo;
   const double to = fold ? fold->y_mm : tip.y_mm + kChinFrom;
   const auto chin = extreme(profile, from, to, 1);
   if (!chin || (fold && chin->z_mm < fold->z_mm + kChinRise)) return std::nullopt;
-  return chin;
+  const auto lower = below_lip(profile, from, *chin);
+  return lower ? lower : chin;
 }
 
 }  // namespace

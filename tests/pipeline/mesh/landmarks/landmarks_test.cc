@@ -4,8 +4,11 @@
 // Frames and landmarks of simulated heads against what the heads know of themselves.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <numbers>
+#include <vector>
 
+#include "pipeline/mesh/landmarks/face_profile.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
@@ -123,6 +126,49 @@ TEST(Landmarks, AreNotFoundWhereNothingWasMeasured) {
   for (const Landmark& l : *landmarks) EXPECT_FALSE(l.found);
   room.cancelled = true;
   EXPECT_FALSE(room.run([&](StageContext& c) { return find_landmarks(nothing, {}, {}, c); }));
+}
+
+// Heights above the tip of the nose and depths of a profile, as polylines.
+std::vector<ProfilePoint> profile_through(std::initializer_list<ProfilePoint> knots) {
+  std::vector<ProfilePoint> profile;
+  for (auto k = knots.begin(); k + 1 != knots.end(); ++k)
+    for (double y = k->y_mm; y < (k + 1)->y_mm; y += 0.75) {
+      const double t = (y - k->y_mm) / ((k + 1)->y_mm - k->y_mm);
+      const double eased = t * t * (3 - 2 * t);
+      profile.push_back({y, k->z_mm + eased * ((k + 1)->z_mm - k->z_mm)});
+    }
+  return profile;
+}
+
+TEST(Landmarks, TheLowerLipOfAnOpenMouthIsNoChin) {
+  const auto shut = find_profile_marks(profile_through(
+      {{-100, -60}, {-84, -36}, {-62, -40}, {-45, -28}, {-25, -22}, {0, 0}, {40, -25}, {80, -20}}));
+  ASSERT_TRUE(shut.chin);
+  EXPECT_NEAR(shut.chin->y_mm, -84, 2);
+  const auto open = find_profile_marks(profile_through({{-103, -60},
+                                                        {-90, -40.5},
+                                                        {-75, -41.5},
+                                                        {-60, -39},
+                                                        {-48, -43},
+                                                        {-30, -22},
+                                                        {0, 0},
+                                                        {40, -25},
+                                                        {80, -20}}));
+  ASSERT_TRUE(open.chin);
+  EXPECT_NEAR(open.chin->y_mm, -90, 2);
+  // What stands far behind the lip is the throat.
+  const auto throat = find_profile_marks(profile_through({{-103, -58},
+                                                          {-96, -55},
+                                                          {-90, -60},
+                                                          {-80, -36},
+                                                          {-60, -40},
+                                                          {-42, -28},
+                                                          {-25, -22},
+                                                          {0, 0},
+                                                          {40, -25},
+                                                          {80, -20}}));
+  ASSERT_TRUE(throat.chin);
+  EXPECT_NEAR(throat.chin->y_mm, -80, 2);
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/completion/mesh_laplacian.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kMostCotangent = 20;
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+}  // namespace
+
+MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
+                           std::span<const std::array<std::uint32_t, 3>> triangles) {
+  MeshLaplacian laplacian{std::vector<std::vector<MeshLaplacian::Neighbour>>(at.size()),
+                          std::vector<double>(at.size(), 0.0)};
+  const auto add = [&](std::uint32_t from, std::uint32_t to, double weight) {
+    auto& its = laplacian.neighbours[from];
+    const auto found = std::find_if(its.begin(), its.end(), [to](const auto& n) { return n.vertex == to; });
+    if (found == its.end()) its.push_back({to, weight});
+    else found->weight += weight;
+  };
+  for (const auto& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+      const Eigen::Vector3d u = at[a] - at[c], v = at[b] - at[c];
+      const double twice = u.cross(v).norm();
+      const double cotangent = std::min(u.dot(v) / std::max(twice, 1e-12), kMostCotangent);
+      laplacian.area[c] += twice / 6;
+      add(a, b, cotangent / 2), add(b, a, cotangent / 2);
+    }
+  for (std::size_t v = 0; v < at.size(); ++v)
+    for (auto& n : laplacian.neighbours[v]) n.weight /= std::max(laplacian.area[v], 1e-12);
+  return laplacian;
+}
+
+void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
+          std::span<const char> free) {
+  const MeshLaplacian laplacian = laplacian_of(at, triangles);
+  std::vector<int> place(at.size(), -1);
+  int count = 0;
+  for (std::size_t v = 0; v < at.size(); ++v)
+    if (free[v] != 0) place[v] = count++;
+  if (count == 0) return;
+  // A row a vertex that is free or beside one that is: its bend, from what is free and from what stays.
+  std::vector<Eigen::Triplet<double>> bends;
+  std::vector<Eigen::RowVector3d> stays;
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    const auto& its = laplacian.neighbours[v];
+    const auto moves = [&](const auto& n) { return free[n.vertex] != 0; };
+    if (free[v] == 0 && std::none_of(its.begin(), its.end(), moves)) continue;
+    const double weight = std::sqrt(laplacian.area[v]);
+    Eigen::RowVector3d known = Eigen::RowVector3d::Zero();
+    const auto add = [&](std::size_t to, double share) {
+      if (place[to] >= 0) bends.emplace_back(static_cast<int>(stays.size()), place[to], share);
+      else known += share * at[to].transpose();
+    };
+    for (const auto& n : its) add(n.vertex, weight * n.weight), add(v, -weight * n.weight);
+    stays.push_back(known);
+  }
+  Sparse bend(static_cast<Eigen::Index>(stays.size()), count);
+  bend.setFromTriplets(bends.begin(), bends.end());
+  Eigen::MatrixX3d right(bend.rows(), 3);
+  for (Eigen::Index r = 0; r < right.rows(); ++r) right.row(r) = -stays[static_cast<std::size_t>(r)];
+  const Eigen::SimplicialLDLT<Sparse> solver(Sparse(bend.transpose() * bend));
+  const Eigen::MatrixX3d solved = solver.solve(bend.transpose() * right);
+  if (solver.info() != Eigen::Success || !solved.allFinite()) return;
+  for (std::size_t v = 0; v < at.size(); ++v)
+    if (place[v] >= 0) at[v] = solved.row(place[v]).transpose();
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How a value at the vertices of a mesh bends: the Laplacian by cotangents (Pinkall, Polthier, Computing
+// discrete minimal surfaces and their conjugates, 1993), per area, so that triangles of uneven size and shape
+// are no bend. Thread: any. Throws std::bad_alloc.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace relievo::pipeline {
+
+struct MeshLaplacian {
+  struct Neighbour {
+    std::uint32_t vertex;
+    double weight;  // of its value less the vertex' own
+  };
+  std::vector<std::vector<Neighbour>> neighbours;
+  std::vector<double> area;  // a third of the triangles around a vertex
+};
+
+// `at`: where the vertices lie, any unit. Needles count as if their angles were at least 3 degrees.
+MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
+                           std::span<const std::array<std::uint32_t, 3>> triangles);
+
+// Lays the vertices with `free` 1 anew so that the surface bends as little as it can (a thin plate) and goes
+// on from the others, which stay, without a crease.
+void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
+          std::span<const char> free);
+
+}  // namespace relievo::pipeline
