@@ -300,7 +300,7 @@ void Appliance::entered(const Change& change) {
     case State::Review:
       if (change.from == State::Assemble) problem_.reset();  // an attempt before it failed; this one did not
       break;
-    case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
+    case State::Calibrate:  // what they were entered for runs beside, as a side task of the staff's page
     case State::Export:
     case State::Staff:
     case State::Count:

@@ -27,7 +27,7 @@
 
 namespace relievo::firmware {
 
-// The three threads, as a place for work that belongs to no visitor's state.
+// The three threads, for work that belongs to no visitor's state.
 enum class JobLane : std::uint8_t { Capture, Worker, Keeper };
 inline constexpr std::size_t kJobLanes = 3;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The halves behind the staff's pages, one line each. Pages on which PINs are typed are the SignIn's.
+// The controllers of the staff's pages, one line each. Pages on which PINs are typed belong to SignIn.
 // Thread: main. Errors: none.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace relievo::firmware {
 
-// pages[page]: none where the SignIn answers, or nobody.
+// pages[page]: none where SignIn answers, or nobody.
 void fill_page_controllers(PageServices& services, std::span<std::unique_ptr<PageController>> pages);
 bool may_open(ui::StaffRole role, ui::StaffPage page);
 

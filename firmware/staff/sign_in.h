@@ -3,7 +3,7 @@
 //
 // SignIn: behind the pages on which PINs are typed: the way in, the first start, a new PIN of one's own.
 // A PIN that was typed is kept only until its twin has been typed, and wiped when the page is left.
-// Thread: main; what takes time runs as an errand on the keeper.
+// Thread: main; what takes time runs as a side task on the keeper.
 #pragma once
 
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StaffController: the appliance's half of the staff's side. It opens the door to who has a PIN, keeps the
-// pages' halves (PageController), and closes everything when they go, or when nobody has touched the screen
+// StaffController: the appliance's half of the staff's side. It signs in who has a PIN, keeps the pages'
+// controllers, and closes everything when they go, or when nobody has touched the screen
 // for long.
 //
 //   ask(StaffRequest), touched(), turn() --> view()

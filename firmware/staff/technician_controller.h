@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TechnicianController: the workbench behind one page of the staff's side; all seven share it. Thread: main.
+// TechnicianController: behind one of the technician's seven picture pages, which share one TestCapture.
+// Thread: main.
 #pragma once
 
 #include "firmware/service/page_controller.h"
@@ -31,7 +32,7 @@ class TechnicianController final : public PageController {
   ui::TechnicianPage page_;
 };
 
-// One for every page on the workbench; StaffPage::Stages and those after it, in TechnicianPage's order.
+// One for every picture page: StaffPage::Stages and those after it, in TechnicianPage's order.
 template <typename Pages>
 void fill_technician_pages(PageServices& services, TestCapture& test_capture, Pages& pages) {
   for (int i = 0; i <= static_cast<int>(ui::TechnicianPage::Calibrate); ++i)

@@ -34,7 +34,7 @@ class CalibrationController {
   };
   explicit CalibrationController(Parts parts) : parts_(std::move(parts)) {}
 
-  // The board, the stored ones; beginning and stopping are the workbench's, since the machine takes part.
+  // The board, the stored ones; beginning and stopping are the test capture's, since the machine takes part.
   void act(ui::TechnicianOrder order);
   CalibrateJob::Order order() const;
   void begun();

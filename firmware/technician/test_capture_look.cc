@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the workbench shows: borrowed from its parts, and from the session only while nobody works on it.
+// What the picture pages show: borrowed from its parts, and from the session only while nobody works on it.
 #include "firmware/technician/test_capture.h"
 
 namespace relievo::firmware {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An edge as the camera at the origin sees it: how far it leads along the line of sight and how far
+// ViewEdge: an edge as the camera at the origin sees it: how far it leads along the line of sight and how far
 // across. Their ratio is the surface's slope in that direction.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come
+// The way through the staff's side, without a screen: actions and the appliance's word go in, requests come
 // out.
 #include "ui/view/service.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TechnicianAct: what a touch on the technician's picture pages asks of firmware's workbench, with a number
+// TechnicianAct: what a touch on the technician's picture pages asks of the test capture, with a number
 // that says which. It is the verb of a StaffDo action (ui/view/service.h). Thread: any.
 #pragma once
 
@@ -60,7 +60,7 @@ enum class TechnicianAct : std::uint8_t {
   LoadBeside   // the same, and the present result is put aside first
 };
 
-// What a wish of the staff's side (ui/view/service.h) says, once it has come to the workbench.
+// What a request of the staff's side (ui/view/service.h) says, once it has come to the test capture.
 struct TechnicianOrder {
   TechnicianAct act = TechnicianAct::None;
   std::int64_t argument = 0;

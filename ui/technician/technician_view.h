@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // TechnicianView: everything the technician's picture pages may draw, as plain data. No person's name comes
-// here. Everything is borrowed from firmware's workbench for the length of one frame. Thread: main.
+// here. Everything is borrowed from firmware/technician for the length of one frame. Thread: main.
 #pragma once
 
 #include <array>

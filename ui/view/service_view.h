@@ -30,7 +30,7 @@ enum class StaffPage : std::uint8_t {
   Algorithms,
   Compare,
   Cameras,
-  Calibrate,  // technician's, on the workbench
+  Calibrate,  // the technician's picture pages end here
   SelfTest,
   Trigger,
   Touch,
@@ -114,7 +114,7 @@ struct ServiceView {
   const struct ConsentTextsView* consent = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
-  const struct TechnicianView* technician = nullptr;  // of all pages on the workbench
+  const struct TechnicianView* technician = nullptr;  // of all the technician's picture pages
 };
 
 }  // namespace relievo::ui

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The technician's workbench behind its own pages, on a small simulated rig: what a finger on a page asks for
-// is brought to the workbench as the staff's side does, without a PIN. One simulated person for all tests:
+// The test capture behind the technician's pages, on a small simulated rig: what a finger on a page asks for
+// is brought to it as the staff's side does, without a PIN. One simulated person for all tests:
 // making one takes longest.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StageRoom: a fixture on which a stage is run as the pipeline runs it.
+// StageRoom: a fixture in which a stage is run as the pipeline runs it.
 #pragma once
 
 #include <utility>

@@ -17,7 +17,7 @@ namespace {
 class Columns {
  public:
   explicit Columns(TechnicianFrame& frame)
-      : b(frame), page(frame.page), count(std::min(frame.view.put_aside + 1, kCompared)) {}
+      : f(frame), page(frame.page), count(std::min(frame.view.put_aside + 1, kCompared)) {}
 
   void pictures() {
     page.tree.open(page.grown(page.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
@@ -25,7 +25,7 @@ class Columns {
     for (std::size_t i = 0; i < count; ++i) {
       Node column = page.grown(page.box(Flow::Column, 6));
       page.tree.open(column);
-      page.tree.leaf(page.text(is_now(i) ? std::string_view(b.tr("Now")) : name_of(i), type::kSmall,
+      page.tree.leaf(page.text(is_now(i) ? std::string_view(f.tr("Now")) : name_of(i), type::kSmall,
                                Weight::Bold, page.palette.ink, TextAlign::Centre));
       picture(i);
       page.tree.close();
@@ -35,10 +35,10 @@ class Columns {
 
   void table() {
     page.begin_panel("figures");
-    row("name", b.tr("Pictures"), [this](const TechnicianResult& r) {
+    row("name", f.tr("Pictures"), [this](const TechnicianResult& r) {
       std::string name(r.name.empty() ? "–" : r.name);
       std::ranges::replace(name, '_', ' ');  // between date and time a line may end
-      return b.left_to_right(name);
+      return f.left_to_right(name);
     });
     algorithms();
     failures();
@@ -49,43 +49,43 @@ class Columns {
   }
 
  private:
-  TechnicianFrame& b;
+  TechnicianFrame& f;
   StaffFrame& page;
   const std::size_t count;
 
-  bool is_now(std::size_t i) const { return i == b.view.put_aside; }
+  bool is_now(std::size_t i) const { return i == f.view.put_aside; }
   bool labels_above() const { return page.portrait || page.text_share > 1.2F; }
-  const TechnicianResult& result(std::size_t i) const { return b.view.compared[i].result; }
+  const TechnicianResult& result(std::size_t i) const { return f.view.compared[i].result; }
   std::string_view name_of(std::size_t i) const { return page.number(static_cast<double>(i + 1)); }
 
   // What stands over the labels.
   void beside_pictures() {
     Node words = page.grown(page.box(Flow::Column, space::kS), label_share());
     page.tree.open(words);
-    page.tree.leaf(page.text(title_of(b.tr, b.view.stage), type::kSmall, Weight::Bold, page.palette.ink));
+    page.tree.leaf(page.text(title_of(f.tr, f.view.stage), type::kSmall, Weight::Bold, page.palette.ink));
     page.tree.leaf(page.text(how(), 18, Weight::Regular, page.palette.ink_soft));
     page.tree.close();
   }
   const char* how() const {
-    if (count == kCompared) return b.tr("Four stand side by side: drop one to put another beside them.");
-    return b.tr(
+    if (count == kCompared) return f.tr("Four stand side by side: drop one to put another beside them.");
+    return f.tr(
         "Put this result aside, then calculate again or load another one: up to four stand side by side.");
   }
   float label_share() const { return count > 2 ? 0.9F : 0.7F; }
 
   void picture(std::size_t i) {
-    const TechnicianCompared& one = b.view.compared[i];
-    const std::string_view spoken = is_now(i) ? std::string_view(b.tr("Now")) : name_of(i);
+    const TechnicianCompared& one = f.view.compared[i];
+    const std::string_view spoken = is_now(i) ? std::string_view(f.tr("Now")) : name_of(i);
     const auto slot = static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::TechnicianLeft) + i);
-    const std::string_view id = is_now(i) ? "present picture" : b.id("kept picture", i);
-    if (one.model != nullptr && is_turned(b.view.stage)) {
+    const std::string_view id = is_now(i) ? "present picture" : f.id("kept picture", i);
+    if (one.model != nullptr && is_turned(f.view.stage)) {
       Node card = page.grown(page.box(Flow::Stack));
       card.box.fill = page.palette.stage;
       card.box.radius = page.px(12);
       page.tree.open(card);
       Node face = page.box(Flow::Column);
       face.id = id;
-      face.name = b.tr("The model: turn it with a finger");
+      face.name = f.tr("The model: turn it with a finger");
       face.role = Role::Picture;
       face.mark = Mark::Face;
       face.face = static_cast<std::uint8_t>(i);
@@ -93,7 +93,7 @@ class Columns {
       face.action = {ActionKind::TurnFace, 0};
       page.tree.leaf(face);
     } else {
-      b.open_picture(id, spoken, one.picture, slot);
+      f.open_picture(id, spoken, one.picture, slot);
     }
     if (!is_now(i)) drop_button(i);
     page.tree.close();
@@ -104,8 +104,8 @@ class Columns {
     end.box.justify = Justify::End;
     page.tree.open(end);
     Node cross = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-    cross.id = b.id("drop", i);
-    cross.name = b.tr("Drop this result");
+    cross.id = f.id("drop", i);
+    cross.name = f.tr("Drop this result");
     cross.role = Role::Button;
     cross.action = technician_action(TechnicianAct::DropResult, static_cast<std::int32_t>(i));
     cross.box.justify = Justify::Centre;
@@ -169,10 +169,10 @@ class Columns {
     return {};
   }
   void option(std::size_t number, std::string_view key) {
-    const char* delivered = b.tr("as delivered");
-    row(b.id("option", number), b.left_to_right(b.breakable(key)), [&](const TechnicianResult& r) {
+    const char* delivered = f.tr("as delivered");
+    row(f.id("option", number), f.left_to_right(f.breakable(key)), [&](const TechnicianResult& r) {
       const std::string_view value = value_of(r.algorithms, key);
-      return value.empty() ? std::string_view(delivered) : b.left_to_right(b.breakable(value));
+      return value.empty() ? std::string_view(delivered) : f.left_to_right(f.breakable(value));
     });
   }
   void algorithms() {
@@ -181,32 +181,32 @@ class Columns {
       for (std::string_view rest = result(i).algorithms; !rest.empty();) {
         const std::string_view key = rest.substr(0, rest.find(" = "));
         const bool seen = std::any_of(
-            b.view.compared.begin(), b.view.compared.begin() + static_cast<std::ptrdiff_t>(i),
+            f.view.compared.begin(), f.view.compared.begin() + static_cast<std::ptrdiff_t>(i),
             [key](const TechnicianCompared& one) { return !value_of(one.result.algorithms, key).empty(); });
         if (!seen) option(number++, key);
         rest.remove_prefix(std::min(std::min(rest.find('\n'), rest.size() - 1) + 1, rest.size()));
       }
     }
     if (number == 0) {
-      row("option 0", b.tr("Algorithms"),
-          [this](const TechnicianResult&) { return std::string_view(b.tr("as delivered")); });
+      row("option 0", f.tr("Algorithms"),
+          [this](const TechnicianResult&) { return std::string_view(f.tr("as delivered")); });
     }
   }
   void failures() {
     const auto failed = [](const TechnicianCompared& one) { return !one.result.failure.empty(); };
-    if (std::none_of(b.view.compared.begin(), b.view.compared.end(), failed)) return;
+    if (std::none_of(f.view.compared.begin(), f.view.compared.end(), failed)) return;
     row(
         "failed", "",
         [this](const TechnicianResult& r) {
           if (r.failure.empty()) return std::string_view();
           return std::string_view(
-              page.filled("{} – {}", {work_of(b.tr, r.failed_at), words_of(b.tr, r.failure.code)}));
+              page.filled("{} – {}", {work_of(f.tr, r.failed_at), words_of(f.tr, r.failure.code)}));
         },
         true);
     row(
         "failed detail", "",
         [this](const TechnicianResult& r) {
-          return r.failure.empty() ? std::string_view() : b.left_to_right(b.breakable(r.failure.detail));
+          return r.failure.empty() ? std::string_view() : f.left_to_right(f.breakable(r.failure.detail));
         },
         false, true);
   }
@@ -214,76 +214,76 @@ class Columns {
     const auto always = [](const TechnicianResult&) { return true; };
     for (std::size_t i = 0; i < kStages; ++i)
       figure(
-          b.id("seconds", i), work_of(b.tr, i), 2, "s",
+          f.id("seconds", i), work_of(f.tr, i), 2, "s",
           [i](const TechnicianResult& r) { return r.seconds[i]; }, always);
     figure(
-        "all matches", b.tr("Matches"), 0, "", [](const TechnicianResult& r) { return r.matches; }, always);
-    const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels"),
-                                b.tr("Landmarks")};
+        "all matches", f.tr("Matches"), 0, "", [](const TechnicianResult& r) { return r.matches; }, always);
+    const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
+                                f.tr("Landmarks")};
     for (std::size_t i = 0; i < kStages; ++i)
       figure(
-          b.id("count", i), made[i], 0, "", [i](const TechnicianResult& r) { return r.made[i]; }, always);
+          f.id("count", i), made[i], 0, "", [i](const TechnicianResult& r) { return r.made[i]; }, always);
     figure(
-        "memory", b.tr("Memory"), 0, "MiB", [](const TechnicianResult& r) { return r.arena_peak_mib; },
+        "memory", f.tr("Memory"), 0, "MiB", [](const TechnicianResult& r) { return r.arena_peak_mib; },
         always);
   }
   void measures() {
     const auto model = [](const TechnicianResult& r) { return r.coverage > 0; };
     figure(
-        "sigma", b.tr("Median uncertainty"), 3, "mm",
+        "sigma", f.tr("Median uncertainty"), 3, "mm",
         [](const TechnicianResult& r) { return r.median_sigma_mm; }, model);
     figure(
-        "coverage", b.tr("Face covered"), 1, "%", [](const TechnicianResult& r) { return 100 * r.coverage; },
+        "coverage", f.tr("Face covered"), 1, "%", [](const TechnicianResult& r) { return 100 * r.coverage; },
         model);
     const auto predicted = [](const TechnicianResult& r) { return r.photo_windows > 0; };
     figure(
-        "photo", b.tr("Likeness of the predicted right view"), 3, "",
+        "photo", f.tr("Likeness of the predicted right view"), 3, "",
         [](const TechnicianResult& r) { return r.photo_correlation; }, predicted);
     figure(
-        "windows", b.tr("Compared windows"), 0, "", [](const TechnicianResult& r) { return r.photo_windows; },
+        "windows", f.tr("Compared windows"), 0, "", [](const TechnicianResult& r) { return r.photo_windows; },
         predicted);
     figure(
-        "rows", b.tr("Disagreement of the rows"), 3, "px",
+        "rows", f.tr("Disagreement of the rows"), 3, "px",
         [](const TechnicianResult& r) { return r.epipolar_px; },
         [](const TechnicianResult& r) { return r.epipolar_px >= 0; });
   }
 };
 
-void buttons(TechnicianFrame& b, bool there) {
-  const bool busy = b.view.phase == TechnicianPhase::Capturing || b.view.phase == TechnicianPhase::Running;
+void buttons(TechnicianFrame& f, bool there) {
+  const bool busy = f.view.phase == TechnicianPhase::Capturing || f.view.phase == TechnicianPhase::Running;
   if (busy) return;
-  const float grow = b.open_buttons();
-  const bool room = b.view.put_aside + 1 < kCompared;
+  const float grow = f.open_buttons();
+  const bool room = f.view.put_aside + 1 < kCompared;
   if (there) {
     const auto next =
-        static_cast<std::int32_t>((static_cast<std::size_t>(b.view.stage) + 1) % kTechnicianStages);
-    b.page.small_button("next stage", title_of(b.tr, b.view.stage), icon::kAgain, ButtonLook::Quiet,
+        static_cast<std::int32_t>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
+    f.page.small_button("next stage", title_of(f.tr, f.view.stage), icon::kAgain, ButtonLook::Quiet,
                         technician_action(TechnicianAct::ShowStage, next), grow);
     if (room)
-      b.page.small_button("keep", b.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
+      f.page.small_button("keep", f.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
                           technician_action(TechnicianAct::KeepResult), grow);
   }
-  if (room && !b.view.recording.running)
-    b.page.small_button("list saved", b.tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
+  if (room && !f.view.recording.running)
+    f.page.small_button("list saved", f.tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
                         technician_action(TechnicianAct::ListSaved), grow);
-  b.page.tree.close();
+  f.page.tree.close();
 }
 
 }  // namespace
 
 void technician_compare_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
-  TechnicianFrame b(page);
-  if (b.view.saved.listed) return b.saved_list(TechnicianAct::LoadBeside);
-  const bool there = b.capture_state();
+  TechnicianFrame f(page);
+  if (f.view.saved.listed) return f.saved_list(TechnicianAct::LoadBeside);
+  const bool there = f.capture_state();
   if (there) {
-    Columns columns(b);
+    Columns columns(f);
     columns.pictures();
     columns.table();
   }
-  b.stick_state();
-  buttons(b, there);
-  b.capture_buttons(true);
+  f.stick_state();
+  buttons(f, there);
+  f.capture_buttons(true);
 }
 
 }  // namespace relievo::ui

@@ -21,230 +21,230 @@ bool is_pair(TechnicianStage stage) {
          stage == TechnicianStage::Rectified;
 }
 
-bool makes_pairs(const TechnicianFrame& b) {
-  return b.view.by_hand && b.view.stage == TechnicianStage::Rectified;
+bool makes_pairs(const TechnicianFrame& f) {
+  return f.view.by_hand && f.view.stage == TechnicianStage::Rectified;
 }
 
-void tabs(TechnicianFrame& b) {
-  const std::size_t across = b.across(kTechnicianStages);
+void tabs(TechnicianFrame& f) {
+  const std::size_t across = f.across(kTechnicianStages);
   for (std::size_t first = 0; first < kTechnicianStages; first += across) {
-    b.page.tree.open(b.page.box(Flow::Row, 6));
+    f.page.tree.open(f.page.box(Flow::Row, 6));
     for (std::size_t i = first; i < first + across; ++i) {
       const auto stage = static_cast<TechnicianStage>(i);
-      const bool chosen = stage == b.view.stage;
-      Node tab = b.page.grown(b.page.box(Flow::Row, 0, 4, 4));
-      tab.id = b.id("stage", i);
-      tab.name = title_of(b.tr, stage);
+      const bool chosen = stage == f.view.stage;
+      Node tab = f.page.grown(f.page.box(Flow::Row, 0, 4, 4));
+      tab.id = f.id("stage", i);
+      tab.name = title_of(f.tr, stage);
       tab.role = Role::Button;
       tab.action = technician_action(TechnicianAct::ShowStage, static_cast<std::int32_t>(i));
       tab.box.justify = Justify::Centre;
       tab.box.align = Align::Centre;
-      tab.box.min_height = b.page.px(size::kStaffTarget);
-      tab.box.radius = b.page.px(14);
-      tab.box.fill = chosen ? b.page.palette.accent : b.page.palette.quiet;
-      tab.box.border = chosen ? b.page.palette.accent : b.page.palette.quiet_border;
-      tab.box.border_px = b.page.px(2);
-      b.page.tree.open(tab);
-      b.page.tree.leaf(b.page.text(
-          title_of(b.tr, stage), b.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,
-          chosen ? b.page.palette.accent_ink : b.page.palette.link, TextAlign::Centre));
-      b.page.tree.close();
+      tab.box.min_height = f.page.px(size::kStaffTarget);
+      tab.box.radius = f.page.px(14);
+      tab.box.fill = chosen ? f.page.palette.accent : f.page.palette.quiet;
+      tab.box.border = chosen ? f.page.palette.accent : f.page.palette.quiet_border;
+      tab.box.border_px = f.page.px(2);
+      f.page.tree.open(tab);
+      f.page.tree.leaf(f.page.text(
+          title_of(f.tr, stage), f.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,
+          chosen ? f.page.palette.accent_ink : f.page.palette.link, TextAlign::Centre));
+      f.page.tree.close();
     }
-    b.page.tree.close();
+    f.page.tree.close();
   }
 }
 
-void pin_pairs(TechnicianFrame& b, std::size_t side) {
-  for (const TechnicianPoint& p : b.view.pairs.first(std::min(b.view.pairs.size(), kMostPairs)))
-    if (side == 0 || p.matched) b.pin_dot(side == 0 ? p.left_x : p.right_x, p.y, kOther, {});
+void pin_pairs(TechnicianFrame& f, std::size_t side) {
+  for (const TechnicianPoint& p : f.view.pairs.first(std::min(f.view.pairs.size(), kMostPairs)))
+    if (side == 0 || p.matched) f.pin_dot(side == 0 ? p.left_x : p.right_x, p.y, kOther, {});
 }
 
-void pair_pictures(TechnicianFrame& b) {
-  const bool touchable = b.view.stage == TechnicianStage::Rectified;
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(2.4F));
+void pair_pictures(TechnicianFrame& f) {
+  const bool touchable = f.view.stage == TechnicianStage::Rectified;
+  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
   row.box.left_to_right = true;
-  b.page.tree.open(row);
+  f.page.tree.open(row);
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
     if (touchable) action = technician_action(side == 0 ? TechnicianAct::Point : TechnicianAct::PointRight);
-    if (makes_pairs(b))
+    if (makes_pairs(f))
       dragged = technician_action(side == 0 ? TechnicianAct::Drag : TechnicianAct::DragRight);
-    b.open_picture(side == 0 ? "left" : "right", side == 0 ? b.tr("Left camera") : b.tr("Right camera"),
-                   b.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
+    f.open_picture(side == 0 ? "left" : "right", side == 0 ? f.tr("Left camera") : f.tr("Right camera"),
+                   f.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
                    action, dragged);
-    if (b.view.stage != TechnicianStage::Input) {
-      for (int i = 1; i < kLines; ++i) b.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
+    if (f.view.stage != TechnicianStage::Input) {
+      for (int i = 1; i < kLines; ++i) f.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
     }
-    if (makes_pairs(b)) pin_pairs(b, side);
-    const TechnicianPoint& point = b.view.point;
-    if (touchable && point.touched) b.pin_line(point.y, kTouched, 2);
-    if (touchable && point.touched && side == 0) b.pin_dot(point.left_x, point.y, kTouched, "left mark");
-    if (touchable && point.matched && side == 1) b.pin_dot(point.right_x, point.y, kTouched, "right mark");
-    b.close_picture();
+    if (makes_pairs(f)) pin_pairs(f, side);
+    const TechnicianPoint& point = f.view.point;
+    if (touchable && point.touched) f.pin_line(point.y, kTouched, 2);
+    if (touchable && point.touched && side == 0) f.pin_dot(point.left_x, point.y, kTouched, "left mark");
+    if (touchable && point.matched && side == 1) f.pin_dot(point.right_x, point.y, kTouched, "right mark");
+    f.close_picture();
   }
-  b.page.tree.close();
+  f.page.tree.close();
 }
 
-void one_picture(TechnicianFrame& b) {
-  Node row = b.page.grown(b.page.box(Flow::Row, space::kS), b.picture_share(2.4F));
-  b.page.tree.open(row);
-  b.open_picture("picture", title_of(b.tr, b.view.stage), b.view.shown[0], PictureSlot::TechnicianLeft);
-  b.close_picture();
-  if (!b.view.shown[1].pixels.empty()) {
-    b.open_picture("change", b.tr("What the pairs by hand moved"), b.view.shown[1],
+void one_picture(TechnicianFrame& f) {
+  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
+  f.page.tree.open(row);
+  f.open_picture("picture", title_of(f.tr, f.view.stage), f.view.shown[0], PictureSlot::TechnicianLeft);
+  f.close_picture();
+  if (!f.view.shown[1].pixels.empty()) {
+    f.open_picture("change", f.tr("What the pairs by hand moved"), f.view.shown[1],
                    PictureSlot::TechnicianRight);
-    b.close_picture();
+    f.close_picture();
   }
-  b.page.tree.close();
+  f.page.tree.close();
 }
 
-std::string_view coordinates(TechnicianFrame& b, const pipeline::Vec2f& px) {
-  return b.several({static_cast<double>(px.x), static_cast<double>(px.y)}, 2, "px");
+std::string_view coordinates(TechnicianFrame& f, const pipeline::Vec2f& px) {
+  return f.several({static_cast<double>(px.x), static_cast<double>(px.y)}, 2, "px");
 }
 
-std::string_view plus_minus(TechnicianFrame& b, double value, double sigma, int decimals,
+std::string_view plus_minus(TechnicianFrame& f, double value, double sigma, int decimals,
                             const char* unit_name) {
-  return b.joined(b.page.number(value, decimals), "\u00a0±\u00a0", b.page.number(sigma, decimals, unit_name));
+  return f.joined(f.page.number(value, decimals), "\u00a0±\u00a0", f.page.number(sigma, decimals, unit_name));
 }
 
-void point_rows(TechnicianFrame& b) {
-  const TechnicianPoint& point = b.view.point;
+void point_rows(TechnicianFrame& f) {
+  const TechnicianPoint& point = f.view.point;
   if (!point.touched) {
-    b.page.tree.leaf(b.page.text(
-        b.view.by_hand
-            ? b.tr(
+    f.page.tree.leaf(f.page.text(
+        f.view.by_hand
+            ? f.tr(
                   "Touch a point in the left picture. Its partner is proposed in the right one: touch or drag to correct it.")
-            : b.tr("Touch the left picture: the line and the match of that point are shown."),
-        type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+            : f.tr("Touch the left picture: the line and the match of that point are shown."),
+        type::kSmall, Weight::Regular, f.page.palette.ink_soft));
     return;
   }
-  b.page.row("point left", b.tr("Left"), coordinates(b, point.left_px));
+  f.page.row("point left", f.tr("Left"), coordinates(f, point.left_px));
   if (point.waits_for_right) {
-    b.page.tree.leaf(b.page.text(b.tr("Now touch its partner on the orange line in the right picture."),
-                                 type::kSmall, Weight::Medium, b.page.palette.ink));
+    f.page.tree.leaf(f.page.text(f.tr("Now touch its partner on the orange line in the right picture."),
+                                 type::kSmall, Weight::Medium, f.page.palette.ink));
     return;
   }
   if (!point.matched) {
-    b.page.row("point none", b.tr("No match here"), {}, Mood::Warn);
+    f.page.row("point none", f.tr("No match here"), {}, Mood::Warn);
     return;
   }
-  if (point.new_surface) b.page.row("point moved", b.tr("Surface here"), b.tr("new"), Mood::Good);
+  if (point.new_surface) f.page.row("point moved", f.tr("Surface here"), f.tr("new"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
-    b.page.row("point moved", b.tr("Surface came nearer by"),
-               b.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
-  b.page.row("point right", b.tr("Right"), coordinates(b, point.right_px));
-  b.page.row(
-      "point disparity", b.tr("Disparity"),
-      plus_minus(b, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
-  b.page.row("point likeness", b.tr("Likeness"), b.page.number(1 - static_cast<double>(point.cost), 3));
+    f.page.row("point moved", f.tr("Surface came nearer by"),
+               f.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
+  f.page.row("point right", f.tr("Right"), coordinates(f, point.right_px));
+  f.page.row(
+      "point disparity", f.tr("Disparity"),
+      plus_minus(f, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
+  f.page.row("point likeness", f.tr("Likeness"), f.page.number(1 - static_cast<double>(point.cost), 3));
   if (!point.rejected_by.empty())
-    b.page.row("point rejected", b.tr("Rejected by"), b.rule_name(point.rejected_by), Mood::Bad);
-  else if (!point.by_hand) b.page.row("point accepted", b.tr("Accepted"), b.tr("yes"), Mood::Good);
-  b.page.row("point space", b.tr("In space"),
-             b.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y),
+    f.page.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
+  else if (!point.by_hand) f.page.row("point accepted", f.tr("Accepted"), f.tr("yes"), Mood::Good);
+  f.page.row("point space", f.tr("In space"),
+             f.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y),
                         static_cast<double>(point.at_mm.z)},
                        1, "mm"));
-  b.page.row("point sigma", b.tr("Depth uncertainty"),
-             b.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+  f.page.row("point sigma", f.tr("Depth uncertainty"),
+             f.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
 }
 
-void change_rows(TechnicianFrame& b) {
-  if (b.view.pairs.empty()) return;
-  b.page.rule();
-  b.page.row("pairs", b.tr("Pairs by hand"), b.page.number(static_cast<double>(b.view.pairs.size())));
-  const TechnicianChange& change = b.view.change;
+void change_rows(TechnicianFrame& f) {
+  if (f.view.pairs.empty()) return;
+  f.page.rule();
+  f.page.row("pairs", f.tr("Pairs by hand"), f.page.number(static_cast<double>(f.view.pairs.size())));
+  const TechnicianChange& change = f.view.change;
   if (!change.known) return;
-  b.page.row("moved", b.tr("Surface moved"), b.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));
-  b.page.row("new", b.tr("New surface"), b.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
-  b.page.row("farthest", b.tr("Largest move"),
-             b.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
-  if (b.view.stage == TechnicianStage::Mesh)
-    b.page.tree.leaf(
-        b.page.text(b.page.filled(b.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
-                                  b.page.number(static_cast<double>(change.full_colour_mm), 2, "mm")),
-                    type::kSmall, Weight::Regular, b.page.palette.ink_soft));
+  f.page.row("moved", f.tr("Surface moved"), f.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));
+  f.page.row("new", f.tr("New surface"), f.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
+  f.page.row("farthest", f.tr("Largest move"),
+             f.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
+  if (f.view.stage == TechnicianStage::Mesh)
+    f.page.tree.leaf(
+        f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
+                                  f.page.number(static_cast<double>(change.full_colour_mm), 2, "mm")),
+                    type::kSmall, Weight::Regular, f.page.palette.ink_soft));
 }
 
-void pair_buttons(TechnicianFrame& b) {
-  b.choice("by hand", b.tr("Match by hand"), b.view.by_hand, technician_action(TechnicianAct::ByHand), 0);
-  if (!b.view.by_hand) return;
-  if (b.view.point.touched)
-    b.page.small_button("remove pair", b.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
+void pair_buttons(TechnicianFrame& f) {
+  f.choice("by hand", f.tr("Match by hand"), f.view.by_hand, technician_action(TechnicianAct::ByHand), 0);
+  if (!f.view.by_hand) return;
+  if (f.view.point.touched)
+    f.page.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
                         technician_action(TechnicianAct::RemovePair));
-  if (b.view.pairs_changed)
-    b.page.small_button("run pairs", b.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
+  if (f.view.pairs_changed)
+    f.page.small_button("run pairs", f.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
                         technician_action(TechnicianAct::Run));
 }
 
-void rule_rows(TechnicianFrame& b) {
-  const TechnicianResult& r = b.view.result;
-  b.page.row("matches", b.tr("Matches"), b.page.number(static_cast<double>(r.matches)));
-  b.page.row("accepted", b.tr("Accepted matches"), b.page.number(static_cast<double>(r.accepted)));
-  b.page.section(b.tr("Rejected by"));
+void rule_rows(TechnicianFrame& f) {
+  const TechnicianResult& r = f.view.result;
+  f.page.row("matches", f.tr("Matches"), f.page.number(static_cast<double>(r.matches)));
+  f.page.row("accepted", f.tr("Accepted matches"), f.page.number(static_cast<double>(r.accepted)));
+  f.page.section(f.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const TechnicianRule& rule = r.rules[i];
-    Node row = b.page.box(Flow::Row, space::kS, 0, 6);
-    row.id = b.id("rule", i);
+    Node row = f.page.box(Flow::Row, space::kS, 0, 6);
+    row.id = f.id("rule", i);
     row.box.align = Align::Centre;
-    b.page.tree.open(row);
-    Node patch = b.page.sized(b.page.box(Flow::Column), 26, 26);
+    f.page.tree.open(row);
+    Node patch = f.page.sized(f.page.box(Flow::Column), 26, 26);
     patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
-    patch.box.radius = b.page.px(6);
-    b.page.tree.leaf(patch);
-    b.page.tree.open(b.page.grown(b.page.box(Flow::Column)));
-    b.page.tree.leaf(b.page.text(b.rule_name(rule.name), type::kSmall, Weight::Medium, b.page.palette.ink));
-    b.page.tree.close();
-    b.page.tree.leaf(b.page.text(b.page.number(static_cast<double>(rule.rejected)), type::kSmall,
-                                 Weight::Regular, b.page.palette.ink_soft));
-    b.page.tree.close();
+    patch.box.radius = f.page.px(6);
+    f.page.tree.leaf(patch);
+    f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
+    f.page.tree.leaf(f.page.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.page.palette.ink));
+    f.page.tree.close();
+    f.page.tree.leaf(f.page.text(f.page.number(static_cast<double>(rule.rejected)), type::kSmall,
+                                 Weight::Regular, f.page.palette.ink_soft));
+    f.page.tree.close();
   }
 }
 
-void time_rows(TechnicianFrame& b) {
-  const TechnicianResult& r = b.view.result;
-  const char* const made[] = {b.tr("Accepted matches"), b.tr("Points"), b.tr("Triangles"), b.tr("Texels"),
-                              b.tr("Landmarks")};
+void time_rows(TechnicianFrame& f) {
+  const TechnicianResult& r = f.view.result;
+  const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
+                              f.tr("Landmarks")};
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
-    b.page.section(work_of(b.tr, i));
-    b.page.row(b.id("time", i), b.tr("Time"), b.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
-    b.page.row(b.id("made", i), made[i], b.page.number(static_cast<double>(r.made[i])));
+    f.page.section(work_of(f.tr, i));
+    f.page.row(f.id("time", i), f.tr("Time"), f.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
+    f.page.row(f.id("made", i), made[i], f.page.number(static_cast<double>(r.made[i])));
   }
 }
 
-void side_rows(TechnicianFrame& b) {
-  b.failure();
-  if (b.view.stage == TechnicianStage::Rectified) {
-    point_rows(b);
-    return change_rows(b);
+void side_rows(TechnicianFrame& f) {
+  f.failure();
+  if (f.view.stage == TechnicianStage::Rectified) {
+    point_rows(f);
+    return change_rows(f);
   }
-  if (b.view.stage == TechnicianStage::Mesh) change_rows(b);
-  if (b.view.stage == TechnicianStage::Matches) return rule_rows(b);
-  time_rows(b);
+  if (f.view.stage == TechnicianStage::Mesh) change_rows(f);
+  if (f.view.stage == TechnicianStage::Matches) return rule_rows(f);
+  time_rows(f);
 }
 
 }  // namespace
 
 void technician_stages_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
-  TechnicianFrame b(page);
-  if (b.view.saved.listed) return b.saved_list(TechnicianAct::Load);
-  const bool there = b.capture_state();
+  TechnicianFrame f(page);
+  if (f.view.saved.listed) return f.saved_list(TechnicianAct::Load);
+  const bool there = f.capture_state();
   if (there) {
-    tabs(b);
+    tabs(f);
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
-    if (is_pair(b.view.stage)) pair_pictures(b);
-    else one_picture(b);
+    if (is_pair(f.view.stage)) pair_pictures(f);
+    else one_picture(f);
     Node side = page.grown(page.box(Flow::Column, space::kXs));
     page.tree.open(side);
     page.begin_panel("facts");
-    side_rows(b);
+    side_rows(f);
     page.tree.close();
-    if (b.view.stage == TechnicianStage::Rectified) pair_buttons(b);
+    if (f.view.stage == TechnicianStage::Rectified) pair_buttons(f);
     page.tree.close();
     page.tree.close();
   }
-  b.stick_state();
-  b.capture_buttons(false, true);
+  f.stick_state();
+  f.capture_buttons(false, true);
 }
 
 }  // namespace relievo::ui

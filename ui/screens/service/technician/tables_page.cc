@@ -34,9 +34,9 @@ struct Wide {  // a column of words, and how much wider than one of numbers
 };
 
 // A number, several of them, or the rule that judged.
-std::string_view said(TechnicianFrame& b, std::string_view text) {
-  const std::string_view numbers = b.page.with_numbers(text);
-  return numbers == text ? b.rule_name(text) : numbers;
+std::string_view said(TechnicianFrame& f, std::string_view text) {
+  const std::string_view numbers = f.page.with_numbers(text);
+  return numbers == text ? f.rule_name(text) : numbers;
 }
 
 // How a record of the table is divided: where its columns have no room abreast, it goes on in the line below.
@@ -57,98 +57,98 @@ Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
   return shape;
 }
 
-void cell(TechnicianFrame& b, std::string_view words, bool heading) {
+void cell(TechnicianFrame& f, std::string_view words, bool heading) {
   if (words.empty()) return;
-  Node node = b.page.text(b.left_to_right(heading ? words : said(b, words)), letters_dp(b.page),
+  Node node = f.page.text(f.left_to_right(heading ? words : said(f, words)), letters_dp(f.page),
                           heading ? Weight::Bold : Weight::Regular,
-                          heading ? b.page.palette.ink : b.page.palette.ink_soft, TextAlign::Start);
+                          heading ? f.page.palette.ink : f.page.palette.ink_soft, TextAlign::Start);
   node.style.tabular = true;
   node.style.size_px =
-      b.page.px(letters_dp(b.page) * b.page.text_share);  // figures are as wide in every language
-  b.page.tree.leaf(node);
+      f.page.px(letters_dp(f.page) * f.page.text_share);  // figures are as wide in every language
+  f.page.tree.leaf(node);
 }
 
 // Numbers stay left to right, as in any table of measurements.
-void record(TechnicianFrame& b, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
+void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
   const bool divided = shape.abreast < shape.columns;
   for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
-    Node row = b.page.box(Flow::Row, kGap, 4, 0);
+    Node row = f.page.box(Flow::Row, kGap, 4, 0);
     row.box.left_to_right = true;
-    row.box.min_height = b.page.px(36);
+    row.box.min_height = f.page.px(36);
     row.box.align = Align::Centre;
-    b.page.tree.open(row);
+    f.page.tree.open(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
-      b.page.tree.open(b.page.grown(b.page.box(Flow::Column),
+      f.page.tree.open(f.page.grown(f.page.box(Flow::Column),
                                     !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
-      if (i < shape.columns) cell(b, texts[i], heading);
-      b.page.tree.close();
+      if (i < shape.columns) cell(f, texts[i], heading);
+      f.page.tree.close();
     }
-    b.page.tree.close();
+    f.page.tree.close();
   }
-  if (divided) b.page.rule();
+  if (divided) f.page.rule();
 }
 
-void pager(TechnicianFrame& b) {
-  const TechnicianRows& rows = b.view.rows;
+void pager(TechnicianFrame& f) {
+  const TechnicianRows& rows = f.view.rows;
   if (rows.pages < 2) return;
-  Node row = b.page.box(Flow::Row, space::kS);
+  Node row = f.page.box(Flow::Row, space::kS);
   row.box.align = Align::Centre;
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;
-  b.page.tree.open(row);
+  f.page.tree.open(row);
   const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
     Node node =
-        b.page.sized(b.page.box(Flow::Row),
-                     std::min(96 * b.page.text_share, b.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
+        f.page.sized(f.page.box(Flow::Row),
+                     std::min(96 * f.page.text_share, f.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
     node.id = id;
     node.name = spoken;
     node.role = Role::Button;
     node.action = technician_action(TechnicianAct::TurnPage, pages);
     node.box.justify = Justify::Centre;
     node.box.align = Align::Centre;
-    node.box.radius = b.page.px(18);
-    node.box.fill = b.page.palette.quiet;
-    node.box.border = b.page.palette.quiet_border;
-    node.box.border_px = b.page.px(2);
-    b.page.tree.open(node);
-    Node sign = b.page.text(b.left_to_right(label), type::kSmall, Weight::Bold, b.page.palette.link,
+    node.box.radius = f.page.px(18);
+    node.box.fill = f.page.palette.quiet;
+    node.box.border = f.page.palette.quiet_border;
+    node.box.border_px = f.page.px(2);
+    f.page.tree.open(node);
+    Node sign = f.page.text(f.left_to_right(label), type::kSmall, Weight::Bold, f.page.palette.link,
                             TextAlign::Centre);
-    b.page.tree.leaf(sign);
-    b.page.tree.close();
+    f.page.tree.leaf(sign);
+    f.page.tree.close();
   };
-  turn("far back", b.tr("A hundred pages back"), "− 100", -kFarPages);
-  turn("page back", b.tr("One page back"), "−", -1);
-  const auto number = [&](std::size_t value) { return b.page.number(static_cast<double>(value)); };
-  Node where = b.page.text(b.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall,
-                           Weight::Medium, b.page.palette.ink, TextAlign::Centre);
+  turn("far back", f.tr("A hundred pages back"), "− 100", -kFarPages);
+  turn("page back", f.tr("One page back"), "−", -1);
+  const auto number = [&](std::size_t value) { return f.page.number(static_cast<double>(value)); };
+  Node where = f.page.text(f.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall,
+                           Weight::Medium, f.page.palette.ink, TextAlign::Centre);
   where.id = "page number";
-  b.page.tree.leaf(where);
-  turn("page on", b.tr("One page on"), "+", 1);
-  turn("far on", b.tr("A hundred pages on"), "+ 100", kFarPages);
-  b.page.tree.close();
+  f.page.tree.leaf(where);
+  turn("page on", f.tr("One page on"), "+", 1);
+  turn("far on", f.tr("A hundred pages on"), "+ 100", kFarPages);
+  f.page.tree.close();
 }
 
 }  // namespace
 
 void technician_tables_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
-  TechnicianFrame b(page);
-  const TechnicianRows& rows = b.view.rows;
+  TechnicianFrame f(page);
+  const TechnicianRows& rows = f.view.rows;
   const std::size_t across = page.portrait || page.text_share > 1.3F ? 2 : kTechnicianTables;
   for (std::size_t first = 0; first < kTechnicianTables; first += across) {
     page.tree.open(page.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < first + across; ++i) {
       const auto table = static_cast<TechnicianTable>(i);
-      b.choice(b.id("table", i), name_of_table(b.tr, table), rows.table == table,
+      f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
                technician_action(TechnicianAct::ShowTable, static_cast<std::int32_t>(i)));
     }
     page.tree.close();
   }
-  if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !b.view.calibrated)) {
-    if (b.capture_state()) {
-      page.nothing("no rows", icon::kShape, b.tr("There is nothing: a stage before it gave up."));
+  if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.view.calibrated)) {
+    if (f.capture_state()) {
+      page.nothing("no rows", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
     }
-    return b.capture_buttons(false);
+    return f.capture_buttons(false);
   }
   const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
@@ -159,11 +159,11 @@ void technician_tables_page(StaffFrame& page) {
   page.begin_list("table");
   const Shape shape = rows.table == TechnicianTable::Calibration ? Shape{columns, columns, wide}
                                                                  : shape_of(page, columns, wide);
-  record(b, rows.heads, true, shape);
+  record(f, rows.heads, true, shape);
   for (std::size_t at = 0; at + columns <= places; at += columns)
-    record(b, rows.cells.subspan(at, columns), false, shape);
+    record(f, rows.cells.subspan(at, columns), false, shape);
   page.tree.close();
-  pager(b);
+  pager(f);
 }
 
 }  // namespace relievo::ui
