@@ -90,7 +90,7 @@ class Appliance {
   void on_side_report(std::function<void(JobLane, const std::optional<Error>&)> listener) {
     side_listener_ = std::move(listener);
   }
-  // What Calibrate or Export was entered for has ended: back to Technician.
+  // What Calibrate or Export was entered for has ended: back to Staff.
   void end_service_state(bool done) { handle(done ? Event::StageDone : Event::StageFailed); }
   // For work on the capture thread.
   StereoGrabber& grabber() { return grabber_; }

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // StaffController: the appliance's half of the staff's side. It signs in who has a PIN, keeps the pages'
-// controllers, and closes everything when they go, or when nobody has touched the screen
-// for long.
+// controllers, and closes everything when they go, or when nobody has touched the screen for long.
 //
 //   ask(StaffRequest), touched(), turn() --> view()
 //
-// The machine's state Technician (with Calibrate and Export beyond it) is the only one in which a role
+// The machine's state Staff (with Calibrate and Export beyond it) is the only one in which a role
 // holds. Thread: main. Errors of open(): the store's.
 #pragma once
 

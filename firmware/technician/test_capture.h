@@ -3,7 +3,7 @@
 //
 // TestCapture: what the technician's picture pages work on. A test capture is a session without a subject:
 // its pictures and what the stages make of them lie in the appliance's own memory while the state is
-// Technician, and are wiped when the technician leaves or is away too long. Its jobs run on the appliance's
+// Staff, and are wiped when the technician leaves or is away too long. Its jobs run on the appliance's
 // threads; the screen never waits.
 //
 //   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state -->
@@ -11,7 +11,7 @@
 //   calibration and algorithms
 //
 // It borrows the session from the appliance and sends its work as side tasks (firmware/service/side_tasks.h);
-// it listens only in the states Technician and Calibrate, and forgets everything in any other. Thread: main.
+// it listens only in the states Staff and Calibrate, and forgets everything in any other. Thread: main.
 // Errors: none are returned; the view has them as a sentence.
 #pragma once
 

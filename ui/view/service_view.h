@@ -30,7 +30,7 @@ enum class StaffPage : std::uint8_t {
   Algorithms,
   Compare,
   Cameras,
-  Calibrate,  // the technician's picture pages end here
+  Calibrate,  // technician's, with pictures
   SelfTest,
   Trigger,
   Touch,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// TechnicianTest: one rig of a technician for all tests of a program: what they do by touch, and what they
-// wait for.
+// TechnicianTest: one TechnicianRig for all tests of a program: what they do by touch, and what they wait
+// for.
 #pragma once
 
 #include <string>
