@@ -35,9 +35,9 @@ void Ui::ask(std::optional<Intent> intent) {
   if (intent && intent_count_ < intents_.size()) intents_[intent_count_++] = *intent;
 }
 
-Wish Ui::wish() const {
+VisitRequest Ui::request() const {
   return {visit_.name(),      kConsentWording,      info_of(visit_.language).code,
-          visit_.agreed_at(), visit_.quotes_code(), visit_.errand()};
+          visit_.agreed_at(), visit_.quotes_code(), visit_.enrolment_kind()};
 }
 
 bool Ui::take_forgotten() { return std::exchange(forgotten_, false); }

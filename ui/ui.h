@@ -37,8 +37,8 @@ class Ui {
   void show(const ViewState& view, const Visit& visit, const Service& service = {});
 
   std::optional<Intent> take_intent();
-  Wish wish() const;
-  std::optional<StaffWish> take_staff_wish() { return service_.take_wish(); }
+  VisitRequest request() const;
+  std::optional<StaffRequest> take_staff_request() { return service_.take_request(); }
   // The person has gone since the last call: pictures of them in other hands are to be wiped, too.
   bool take_forgotten();
 

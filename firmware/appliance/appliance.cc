@@ -137,40 +137,38 @@ void Appliance::calibrated_anew() {
   if (problem_ && problem_->code == Errc::NotCalibrated) problem_.reset();
 }
 
-JobThread& Appliance::thread_at(JobPlace place) {
-  return place == JobPlace::Capture ? capture_ : place == JobPlace::Worker ? worker_ : keeper_;
+JobThread& Appliance::thread_at(JobLane lane) {
+  return lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
 }
 
-Result<void> Appliance::start_side_job(JobPlace place, Job& job) {
-  RELIEVO_TRY_ASSIGN(side_jobs_[static_cast<std::size_t>(place)], thread_at(place).start(job));
+Result<void> Appliance::start_side_job(JobLane lane, Job& job) {
+  RELIEVO_TRY_ASSIGN(side_jobs_[static_cast<std::size_t>(lane)], thread_at(lane).start(job));
   return {};
 }
 
-void Appliance::cancel_side_job(JobPlace place) {
-  if (side_jobs_[static_cast<std::size_t>(place)] != 0) thread_at(place).cancel();
+void Appliance::cancel_side_job(JobLane lane) {
+  if (side_jobs_[static_cast<std::size_t>(lane)] != 0) thread_at(lane).cancel();
 }
 
-void Appliance::end_side_job(JobPlace place) {
-  if (side_jobs_[static_cast<std::size_t>(place)] == 0) return;
-  thread_at(place).cancel();
-  thread_at(place).wait_until_idle();
-  side_jobs_[static_cast<std::size_t>(place)] = 0;
+void Appliance::end_side_job(JobLane lane) {
+  if (side_jobs_[static_cast<std::size_t>(lane)] == 0) return;
+  thread_at(lane).cancel();
+  thread_at(lane).wait_until_idle();
+  side_jobs_[static_cast<std::size_t>(lane)] = 0;
 }
 
-float Appliance::side_progress(JobPlace place) const {
-  const JobThread& thread = place == JobPlace::Capture  ? capture_
-                            : place == JobPlace::Worker ? worker_
-                                                        : keeper_;
-  return side_jobs_[static_cast<std::size_t>(place)] == 0 ? 0 : thread.progress();
+float Appliance::side_progress(JobLane lane) const {
+  const JobThread& thread = lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
+  return side_jobs_[static_cast<std::size_t>(lane)] == 0 ? 0 : thread.progress();
 }
 
-void Appliance::heard_side(std::size_t place, const JobReport& report) {
-  side_jobs_[place] = 0;
-  if (side_listener_) side_listener_(static_cast<JobPlace>(place), report.error);
+void Appliance::heard_side(std::size_t lane, const JobReport& report) {
+  side_jobs_[lane] = 0;
+  if (side_listener_) side_listener_(static_cast<JobLane>(lane), report.error);
 }
 
 void Appliance::heard(const JobReport& report) {
-  for (std::size_t i = 0; i < kJobPlaces; ++i) {
+  for (std::size_t i = 0; i < kJobLanes; ++i) {
     if (report.job == side_jobs_[i] && report.job != 0) return heard_side(i, report);
   }
   if (report.job != job_) return;  // of a state that was left
@@ -302,7 +300,7 @@ void Appliance::entered(const Change& change) {
     case State::Review:
       if (change.from == State::Assemble) problem_.reset();  // an attempt before it failed; this one did not
       break;
-    case State::Calibrate:  // what they were entered for runs beside, as an errand of the staff's page
+    case State::Calibrate:  // what they were entered for runs beside, as a side task of the staff's page
     case State::Export:
     case State::Staff:
     case State::Count:

@@ -50,7 +50,7 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
   app.add_flag_function(
       "--tell-nobody", [&args](std::int64_t) { args.tells_known = false; },
       "who types a name is not told that it is in the records already");
-  app.add_flag("--showpiece", args.write_showpiece,
+  app.add_flag("--showpiece", args.write_invitation_head,
                "with --screenshots: only the head of the page that invites")
       ->group("");
 }

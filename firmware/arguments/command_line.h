@@ -180,8 +180,8 @@ struct KioskArgs {
   Path screenshots;                 // take pictures of all screens into this folder, and end
   Path script;       // synthetic fingers play it, and the program ends; its pictures go to `screenshots`
   std::string only;  // of those, only the sheets whose name has this in it
-  bool tells_known = true;       // is a visitor told that their name is in the records already?
-  bool write_showpiece = false;  // make the head of the page that invites, instead
+  bool tells_known = true;             // is a visitor told that their name is in the records already?
+  bool write_invitation_head = false;  // make the head of the page that invites, instead
   AlgorithmArgs algorithms;
 };
 struct AlgorithmsArgs {

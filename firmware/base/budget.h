@@ -19,9 +19,9 @@ inline constexpr int kMaxFrameHeightPx = 2048;
 inline constexpr std::size_t kFrameBytes = std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
 // Two pictures, and a byte a pixel to develop one behind a colour filter.
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
-inline constexpr int kLiveSidePx = 640;          // longer side of the live picture on the screen
-inline constexpr int kStagePictureSidePx = 400;  // of a stage's picture, a square
-inline constexpr int kBenchPictureSidePx = 720;  // longer side of a picture on the technician's pages
+inline constexpr int kLiveSidePx = 640;               // longer side of the live picture on the screen
+inline constexpr int kStagePictureSidePx = 400;       // of a stage's picture, a square
+inline constexpr int kTechnicianPictureSidePx = 720;  // longer side of a picture on the technician's pages
 inline constexpr std::size_t kStereoSlots =
     2;  // a burst's best pair, kept until the session closes, and its newest
 
@@ -36,16 +36,17 @@ inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes +
 // The technician's pages: both pictures of three stages and one of five; beside them, of every result that
 // was put aside, one picture of each stage and the model (a simulated face at 1920 x 1200: 463,000 triangles
 // and 775,000 texels, 26 MiB; what is larger than the room is not kept).
-inline constexpr std::size_t kBenchPictureBytes = std::size_t{3} * kBenchPictureSidePx * kBenchPictureSidePx;
+inline constexpr std::size_t kTechnicianPictureBytes =
+    std::size_t{3} * kTechnicianPictureSidePx * kTechnicianPictureSidePx;
 inline constexpr std::size_t kKeptResults = 3;
 inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
-inline constexpr std::size_t kBenchBytes =
-    (11 + 8 * kKeptResults) * kBenchPictureBytes + kKeptResults * kKeptModelBytes;
+inline constexpr std::size_t kTechnicianBytes =
+    (11 + 8 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
 
 inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;
 inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;  // of the machine's memory, for the process
-static_assert(kBlockBytes + kBenchBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
+static_assert(kBlockBytes + kTechnicianBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
               "the parts need more than the appliance has");
 
 // --- queues and names ---------------------------------------------------------------------------

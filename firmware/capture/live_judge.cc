@@ -75,18 +75,18 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
   return guidance;
 }
 
-Result<LiveSight> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now,
-                                  pipeline::StageContext& context) {
+Result<LiveMeasurement> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now,
+                                        pipeline::StageContext& context) {
   if (!calibration_)
     return Error{Errc::NotCalibrated,
                  "this device has no calibration yet: a technician has to calibrate its cameras"};
   RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
                      }));
-  const pipeline::HeadSight& head = look.answer.measures.head;
+  const pipeline::HeadMeasurement& head = look.answer.measures.head;
   std::optional<FaceBoxes> face;
   if (head.known) face = face_boxes(*calibration_, look.relief.rectified_from_left, head.tip_mm);
-  return LiveSight{guidance_of(look.answer, *calibration_, look.relief), face, std::move(look.relief)};
+  return LiveMeasurement{guidance_of(look.answer, *calibration_, look.relief), face, std::move(look.relief)};
 }
 
 }  // namespace relievo::firmware

@@ -20,7 +20,7 @@ struct FaceBoxes {
   FaceBox left, right;  // of the whole pictures
 };
 
-struct LiveSight {
+struct LiveMeasurement {
   Guidance guidance;
   std::optional<FaceBoxes> face;
   pipeline::Relief relief;  // in context.output
@@ -36,8 +36,8 @@ class LiveJudge {
   void use(const pipeline::StereoCalibration& calibration) { calibration_ = calibration; }
   // Somebody else may stand here.
   void begin() { history_ = {}; }
-  Result<LiveSight> look(const pipeline::StereoFrame& frame, hal::Instant now,
-                         pipeline::StageContext& context);
+  Result<LiveMeasurement> look(const pipeline::StereoFrame& frame, hal::Instant now,
+                               pipeline::StageContext& context);
 
  private:
   explicit LiveJudge(pipeline::CaptureGate gate) : gate_(std::move(gate)) {}

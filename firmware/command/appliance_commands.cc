@@ -33,7 +33,7 @@ Result<void> run_memory(const MemoryArgs&, Services& services) {
   console.say("pictures        " + mib(budget::kFramePoolBytes));
   console.say("stage products  " + mib(budget::kOutputArenaBytes));
   console.say("stage scratch   " + mib(budget::kScratchArenaBytes));
-  console.say("technician      " + mib(budget::kBenchBytes));
+  console.say("technician      " + mib(budget::kTechnicianBytes));
   console.say("libraries       " + mib(budget::kLibraryBytes));
   console.say("queues          " + mib(budget::kQueueBytes));
   console.say("of              " + mib(budget::kApplianceBytes));

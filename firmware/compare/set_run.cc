@@ -17,9 +17,9 @@ namespace relievo::firmware::compare {
 namespace {
 
 // Runs the steps, each timed and with a scratch arena of its own.
-class Bench {
+class StepRunner {
  public:
-  Bench(ThreadPool& pool, JobControl& control, Run& run)
+  StepRunner(ThreadPool& pool, JobControl& control, Run& run)
       : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
         output_(memory_.output()),
         pool_(pool),
@@ -65,10 +65,10 @@ struct Made {
   std::optional<pipeline::FaceModel> model;
 };
 
-Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline, Bench& bench,
-                     Made& made) {
+Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeline>& pipeline,
+                     StepRunner& runner, Made& made) {
   RELIEVO_TRY_ASSIGN(
-      made.pair, bench.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
+      made.pair, runner.step("rectify", [&](pipeline::StageContext& c) -> Result<pipeline::RectifiedPair> {
         if (pipeline) return pipeline->rectify(order.pair.pictures.frame(), c);
         RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair,
                            pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
@@ -82,23 +82,23 @@ Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeli
 }
 
 // Step by step what Pipeline::match() does, so that each can be timed and its product looked at.
-Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
+Result<void> match(const NamedSet& set, StepRunner& runner, Made& made) {
   RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set.set));
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set.set));
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
   RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
   if (preprocessor != nullptr) {
-    RELIEVO_TRY(bench.step("preprocess",
-                           [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+    RELIEVO_TRY(runner.step("preprocess",
+                            [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
   }
   const pipeline::RectifiedPair& pair = *made.pair;
-  RELIEVO_TRY_ASSIGN(made.keypoints, bench.step("select", [&](pipeline::StageContext& c) {
+  RELIEVO_TRY_ASSIGN(made.keypoints, runner.step("select", [&](pipeline::StageContext& c) {
     return selector->select(pair, c);
   }));
-  RELIEVO_TRY_ASSIGN(made.matches, bench.step("match", [&](pipeline::StageContext& c) {
+  RELIEVO_TRY_ASSIGN(made.matches, runner.step("match", [&](pipeline::StageContext& c) {
     return matcher->match(pair, *made.keypoints, c);
   }));
-  return bench.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
+  return runner.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
     std::uint16_t bit = 1;
     for (const auto& constraint : constraints) {
       constraint->judge(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
@@ -108,19 +108,19 @@ Result<void> match(const NamedSet& set, Bench& bench, Made& made) {
   });
 }
 
-Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, Bench& bench, Made& made,
-                         Run& run) {
-  auto cloud = bench.step("reconstruct", [&](pipeline::StageContext& c) {
+Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, StepRunner& runner,
+                         Made& made, Run& run) {
+  auto cloud = runner.step("reconstruct", [&](pipeline::StageContext& c) {
     return pipeline.reconstruct(*made.pair, *made.matches, c);
   });
   if (!cloud) return cloud.error();
   auto mesh =
-      bench.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
+      runner.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
   if (!mesh) return mesh.error();
-  auto texture = bench.step(
+  auto texture = runner.step(
       "texture", [&](pipeline::StageContext& c) { return pipeline.texture(*mesh, *made.pair, c); });
   if (!texture) return texture.error();
-  auto model = bench.step("assemble", [&](pipeline::StageContext& c) {
+  auto model = runner.step("assemble", [&](pipeline::StageContext& c) {
     return pipeline.assemble(*std::move(mesh), *std::move(texture), *made.pair, c);
   });
   if (!model) return model.error();
@@ -143,24 +143,24 @@ void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, Pair
   else if (order.pair.view) facts.truth = truth_of_view(*order.pair.view, pair);
 }
 
-Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Made& made, Run& run) {
+Result<void> all_steps(const RunOrder& order, StepRunner& runner, PairFacts& facts, Made& made, Run& run) {
   std::optional<pipeline::Pipeline> pipeline;  // without a rig there is nothing to build
   if (order.pair.calibration) {
     const auto region = order.options.whole_view ? pipeline::Region::All : pipeline::Region::Face;
     RELIEVO_TRY_ASSIGN(pipeline,
                        pipeline::Pipeline::make(order.set.set, *order.pair.calibration, {}, region));
   }
-  RELIEVO_TRY(rectify(order, pipeline, bench, made));
+  RELIEVO_TRY(rectify(order, pipeline, runner, made));
   note_facts(order, *made.pair, facts);
   const std::size_t before = run.stages.size();
-  RELIEVO_TRY(match(order.set, bench, made));
+  RELIEVO_TRY(match(order.set, runner, made));
   for (std::size_t i = before; i < run.stages.size(); ++i) run.match_ms += run.stages[i].ms;
   run.map = disparity_map(*made.matches, made.pair->width_px, made.pair->height_px);
   run.matches = figures_of(order.set, *made.keypoints, *made.matches, facts.truth, order.options.limit_px);
   run.rejected_by = rejected_map(*made.matches, made.pair->width_px, made.pair->height_px);
   if (facts.truth) run.score = score(run.map, *facts.truth, order.options.limit_px);
   if (!pipeline || !order.options.models) return {};
-  const auto built = build_model(order, *pipeline, bench, made, run);
+  const auto built = build_model(order, *pipeline, runner, made, run);
   // A handful of places is compared all the same; that they make no face is no failure of theirs.
   const Errc code = built ? Errc::Cancelled : built.error().code;
   const bool few = made.matches->lattice_step_px == 0 && run.stages.back().name != "assemble" &&
@@ -172,11 +172,11 @@ Result<void> all_steps(const RunOrder& order, Bench& bench, PairFacts& facts, Ma
 }
 
 // Of places that are no lattice, which is no choice.
-Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipeline::RectifiedPair& pair,
+Result<void> look_at_selector(const RunOrder& order, StepRunner& runner, const pipeline::RectifiedPair& pair,
                               const PairFacts& facts, const Made& made, Run& run) {
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
   const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
-  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+  return runner.beside([&](pipeline::StageContext& c) -> Result<void> {
     RELIEVO_TRY_ASSIGN(const auto right, select_in_right(*selector, pair, region, c));
     run.selector = selector_figures(pair, *made.keypoints, right, *made.matches, facts.truth);
     return {};
@@ -184,8 +184,8 @@ Result<void> look_at_selector(const RunOrder& order, Bench& bench, const pipelin
 }
 
 // What says how good the matches are without knowing what is true.
-Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFacts& facts, const Made& made,
-                             Run& run) {
+Result<void> look_at_matches(const RunOrder& order, StepRunner& runner, const PairFacts& facts,
+                             const Made& made, Run& run) {
   if (!made.matches) return {};
   if (made.matches->epipolar_shift.measured()) run.epipolar_px = made.matches->epipolar_shift.residual_px;
   const pipeline::RectifiedPair& pair = *made.pair;
@@ -195,13 +195,13 @@ Result<void> look_at_matches(const RunOrder& order, Bench& bench, const PairFact
     for (const StageCost& stage : run.stages)
       if (stage.name == "mesh") run.surface->mesh_ms = stage.ms;
     model = model_view(*made.pair, made.model->mesh);
-    RELIEVO_TRY(bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+    RELIEVO_TRY(runner.beside([&](pipeline::StageContext& c) -> Result<void> {
       run.photo = photo_figures(*made.pair, *model, c);
       return {};
     }));
   }
-  if (made.keypoints->lattice_step_px == 0) return look_at_selector(order, bench, pair, facts, made, run);
-  return bench.beside([&](pipeline::StageContext& c) -> Result<void> {
+  if (made.keypoints->lattice_step_px == 0) return look_at_selector(order, runner, pair, facts, made, run);
+  return runner.beside([&](pipeline::StageContext& c) -> Result<void> {
     RELIEVO_TRY_ASSIGN(run.left_right, left_right_figures(pair, order.set.set, run.map, model, c));
     return {};
   });
@@ -218,15 +218,15 @@ std::string words_of(const Run& run, const Error& error) {
 Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
                      Run& run) {
   const PeakMemory peak;
-  Bench bench(pool, control, run);
+  StepRunner runner(pool, control, run);
   Made made;
-  Result<void> done = all_steps(order, bench, facts, made, run);
-  run.arena_peak_bytes = bench.touched_bytes();
+  Result<void> done = all_steps(order, runner, facts, made, run);
+  run.arena_peak_bytes = runner.touched_bytes();
   const std::size_t above = peak.above_bytes();
   run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
   if (!done) run.failure = words_of(run, done.error());
   if (done || done.error().code != Errc::Cancelled)
-    if (const auto looked = look_at_matches(order, bench, facts, made, run);
+    if (const auto looked = look_at_matches(order, runner, facts, made, run);
         !looked && looked.error().code == Errc::Cancelled)
       done = looked;
   if (!done && done.error().code == Errc::Cancelled)

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/demo/gallery.h"
 
-#include "firmware/demo/bench_gallery.h"
 #include "firmware/demo/staff_gallery.h"
+#include "firmware/demo/technician_gallery.h"
 
 namespace relievo::firmware {
 namespace {
@@ -166,7 +166,7 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   add_overlays(g, review, idle);
   add_troubles(g, idle);
   add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
-  add_bench_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
+  add_technician_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
   return std::move(g.exhibits);
 }
 

@@ -11,7 +11,7 @@
 
 #include "firmware/base/interrupt.h"
 #include "firmware/demo/gallery.h"
-#include "firmware/demo/showpiece_maker.h"
+#include "firmware/demo/invitation_head_maker.h"
 #include "hal/picture_file.h"
 #include "hal/whole_file.h"
 #include "ui/render/offscreen.h"
@@ -226,7 +226,7 @@ Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& cons
   hal::Picture live;
   ui::ViewState review;
   RELIEVO_TRY(reach_review(kiosk, live, review, console));
-  if (args.write_showpiece) return make_showpiece(*kiosk.view().model, args.screenshots);
+  if (args.write_invitation_head) return make_invitation_head(*kiosk.view().model, args.screenshots);
   RELIEVO_TRY_ASSIGN(auto renderer, ui::Renderer::make());
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   Photographer photographer(std::move(renderer), std::move(text), args);

@@ -128,11 +128,11 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
 }
 
 // The way in: PINs, the first start, a PIN that was forgotten.
-void add_door(std::deque<Shown>& all) {
-  ServiceView door;
-  all.push_back({"staff_pin", StaffPage::Pin, 0, door});
-  door.access.wait_s = 300;
-  all.push_back({"staff_pin_locked", StaffPage::Pin, 0, door});
+void add_sign_in(std::deque<Shown>& all) {
+  ServiceView sign_in;
+  all.push_back({"staff_pin", StaffPage::Pin, 0, sign_in});
+  sign_in.access.wait_s = 300;
+  all.push_back({"staff_pin_locked", StaffPage::Pin, 0, sign_in});
   ServiceView fresh;
   fresh.access.set_up = false;
   fresh.access.clock = "2026-03-14 10:21:09";
@@ -142,7 +142,7 @@ void add_door(std::deque<Shown>& all) {
   static const ui::Fault kNoLanguage{
       Errc::InvalidInput,
       "zh.txt: is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
-  static const ui::ConsentShelfView kUntouched{}, kWrong{false, ui::Outcome::Refused, &kNoLanguage};
+  static const ui::ConsentTextsView kUntouched{}, kWrong{false, ui::Outcome::Refused, &kNoLanguage};
   fresh.consent = &kUntouched;
   all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
   fresh.consent = &kWrong;
@@ -212,14 +212,14 @@ void add_settings(std::deque<Shown>& all) {
   settings.settings = &kJumped;
   settings.work.outcome = ui::Outcome::Done;
   all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
-  static const ui::ConsentShelfView kInForce{false, ui::Outcome::Done, nullptr};
+  static const ui::ConsentTextsView kInForce{false, ui::Outcome::Done, nullptr};
   settings.consent = &kInForce;
   all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
 }
 
 std::deque<Shown> make_shown() {
   std::deque<Shown> all;
-  add_door(all);
+  add_sign_in(all);
   add_menus(all);
   add_records(all);
   add_figures(all);
@@ -238,7 +238,7 @@ void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idl
   static std::deque<Shown> all = make_shown();
   for (Shown& shown : all) {
     const bool turns = shown.view.records != nullptr && shown.view.records->shown != nullptr;
-    shown.view.model = turns ? idle.showpiece : nullptr;
+    shown.view.model = turns ? idle.invitation_head : nullptr;
     shown.view.model_number = 1;
     Exhibit exhibit{shown.name, idle, visit, {}};
     exhibit.view.screen = ui::Screen::Staff;

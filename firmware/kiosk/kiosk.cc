@@ -32,9 +32,9 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 }
 
 Kiosk::~Kiosk() {
-  code_sight_.reset();
-  desk_.reset();
-  if (appliance_) appliance_->end_side_job(JobPlace::Capture);
+  code_scanner_.reset();
+  staff_.reset();
+  if (appliance_) appliance_->end_side_job(JobLane::Capture);
   appliance_.reset();
   wipe(receipt_);
   wipe(claimed_);
@@ -75,7 +75,8 @@ Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
   return set;
 }
 
-// Without a calibration everything is made that needs none: the rest comes with the first one (make_bench).
+// Without a calibration everything is made that needs none: the rest comes with the first one
+// (make_test_capture).
 Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration,
                      find_calibration(args, services));
@@ -105,7 +106,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY(set_up_measuring(args, services));
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
-  if (auto piece = Showpiece::read(asset_folder())) showpiece_ = std::move(*piece);
+  if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
   const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) {
     return keep(subject, model);
@@ -125,16 +126,16 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   camera_look_ =
       std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), device_->preferred_mode());
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
-  RELIEVO_TRY_ASSIGN(desk_, Desk::open({*appliance_, *device_, *store_, store_folder(args.store), revision_,
-                                        services.set_clock}));
-  desk_->set_bench(make_bench(args, services));
-  code_sight_ = std::make_unique<CodeSight>(*appliance_, *device_);
+  RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, store_folder(args.store),
+                                                    revision_, services.set_clock}));
+  staff_->set_test_capture(make_test_capture(args, services));
+  code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
   look();
   return {};
 }
 
 // Before the simulated rig somebody holds a board when it is calibrated.
-std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& services) {
+std::unique_ptr<TestCapture> Kiosk::make_test_capture(const KioskArgs& args, Services& services) {
   ShowBoards show;
   if (args.device == "sim" && services.hold_board) {
     show = [hold = services.hold_board](const BoardArgs& board) -> Result<std::unique_ptr<LivePairs>> {
@@ -143,14 +144,14 @@ std::unique_ptr<Bench> Kiosk::make_bench(const KioskArgs& args, Services& servic
       return hold(held);
     };
   }
-  return std::make_unique<Bench>(Bench::Parts{*appliance_, desk_->errands(), *device_, *stages_, *pool_,
-                                              *store_, std::move(show),
-                                              [this](const pipeline::StereoCalibration& calibration) {
-                                                revision_ = calibration.revision;
-                                                judge_->use(calibration);
-                                                appliance_->grabber().expect(calibration.cameras);
-                                                appliance_->calibrated_anew();
-                                              }});
+  return std::make_unique<TestCapture>(
+      TestCapture::Parts{*appliance_, staff_->side_tasks(), *device_, *stages_, *pool_, *store_,
+                         std::move(show), [this](const pipeline::StereoCalibration& calibration) {
+                           revision_ = calibration.revision;
+                           judge_->use(calibration);
+                           appliance_->grabber().expect(calibration.cameras);
+                           appliance_->calibrated_anew();
+                         }});
 }
 
 // On the keeper, while the main thread only draws.
@@ -171,12 +172,12 @@ Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& mo
   const storage::Consent consent{consented_.wording, consented_.language,
                                  std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
   // Somebody new, unless a code was quoted: that two people have one name must mix nothing up.
-  const bool known = consented_.errand != ui::Errand::New;
+  const bool known = consented_.enrolment_kind != ui::EnrolmentKind::NewSubject;
   const storage::SubjectChoice whose =
       known ? storage::SubjectChoice(record_) : storage::NewSubject{std::string(subject)};
   RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id,
                      store_->add_enrolment(whose, {model, consent, revision_, algorithms, json,
-                                                   consented_.errand == ui::Errand::Renew}));
+                                                   consented_.enrolment_kind == ui::EnrolmentKind::Renewal}));
   RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
   RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_->subject(stored.subject));
   receipt_ = receipt_of(whom);
@@ -226,13 +227,13 @@ void Kiosk::look() {
   view_.now = device_->clock().now();
   view_.wall_now = device_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = receipt_;
-  if (ui_->service().open || ui_->visit().step == ui::Step::Attract) desk_->consent().adopt();
-  view_.consent = desk_->consent().now();
+  if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
+  view_.consent = staff_->consent().now();
   for (std::size_t i = 0; i < ui::kLanguages; ++i)
     languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
   view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
-  view_.settings = desk_->settings();
+  view_.settings = staff_->settings();
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
   while (!view_.languages[static_cast<std::size_t>(view_.home)])
@@ -242,8 +243,8 @@ void Kiosk::look() {
   exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
   view_.out_of_order = out_of_order();
-  if (showpiece_) view_.showpiece = &showpiece_->model();
-  view_.service = &desk_->view();
+  if (invitation_head_) view_.invitation_head = &invitation_head_->model();
+  view_.service = &staff_->view();
 }
 
 void Kiosk::feed(const ui::Input& input) {
@@ -251,15 +252,15 @@ void Kiosk::feed(const ui::Input& input) {
   const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move ||
                        input.kind == ui::Input::Kind::Up) &&
                       input.finger != ui::kMouse;
-  if (finger && desk_->touch().takes_fingers()) {
+  if (finger && staff_->touch().takes_fingers()) {
     const ui::Node* cross = ui_->tree().find("cross");
     if (input.kind != ui::Input::Kind::Down || cross == nullptr) return;
-    desk_->touched();
-    return desk_->touch().touched({input.x / w, input.y / h}, {(cross->rect.x + cross->rect.w / 2) / w,
-                                                               (cross->rect.y + cross->rect.h / 2) / h});
+    staff_->touched();
+    return staff_->touch().touched({input.x / w, input.y / h}, {(cross->rect.x + cross->rect.w / 2) / w,
+                                                                (cross->rect.y + cross->rect.h / 2) / h});
   }
-  ui_->feed(finger ? desk_->touch().placed(input, ui_->width_px(), ui_->height_px()) : input, view_);
-  if (ui_->service().open) desk_->touched();
+  ui_->feed(finger ? staff_->touch().placed(input, ui_->width_px(), ui_->height_px()) : input, view_);
+  if (ui_->service().open) staff_->touched();
 }
 
 void Kiosk::ask(ui::Intent intent) {
@@ -269,16 +270,17 @@ void Kiosk::ask(ui::Intent intent) {
       (intent == ui::Intent::Pose || intent == ui::Intent::Begin))
     return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
-    const ui::Wish wish = ui_->wish();
-    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(wish.wording),
-                  std::string(wish.language), wish.agreed_at, wish.errand,
+    const ui::VisitRequest request = ui_->request();
+    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(request.wording),
+                  std::string(request.language), request.agreed_at, request.enrolment_kind,
                   view_.settings.of(ui::Setting::LeastRoomMib)};
-    appliance_->set_subject(wish.errand == ui::Errand::New ? wish.name : std::string_view(claimed_));
+    appliance_->set_subject(
+        request.enrolment_kind == ui::EnrolmentKind::NewSubject ? request.name : std::string_view(claimed_));
   }
   if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
-    const ui::Wish wish = ui_->wish();
-    (wish.quotes_code ? quoted_ : claimed_) = wish.name;
-    if (!wish.quotes_code) wipe(quoted_);
+    const ui::VisitRequest request = ui_->request();
+    (request.quotes_code ? quoted_ : claimed_) = request.name;
+    if (!request.quotes_code) wipe(quoted_);
     tells_known_ = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
     found_.store(ui::Known::Asking);
   }
@@ -299,15 +301,15 @@ void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
-    (void)appliance_->start_side_job(JobPlace::Capture, *camera_look_);
-  desk_->turn();
+    (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
+  staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)
     moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},
-                       desk_->errands(), desk_->log());
+                       staff_->side_tasks(), staff_->log());
   if (told_ && ui_->visit().step != ui::Step::Trouble)
     restarted_ = false;  // told once: it was read, or nobody is there
   look();
-  if (auto shown = code_sight_->turn(ui_->visit(), view_.now)) {
+  if (auto shown = code_scanner_->turn(ui_->visit(), view_.now)) {
     ui_->visit().enter(*shown, view_.now);
     wipe(*shown);
   }
@@ -317,9 +319,9 @@ void Kiosk::turn() {
     look();
   }
   ui_->frame(view_);
-  while (const auto wish = ui_->take_staff_wish()) {
-    desk_->ask(*wish);
-    desk_->turn();
+  while (const auto request = ui_->take_staff_request()) {
+    staff_->ask(*request);
+    staff_->turn();
     look();
     ui_->frame(view_);
   }

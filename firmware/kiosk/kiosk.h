@@ -17,12 +17,12 @@
 #include <string>
 
 #include "firmware/appliance/appliance.h"
-#include "firmware/kiosk/code/code_sight.h"
+#include "firmware/kiosk/code/code_scanner.h"
+#include "firmware/kiosk/invitation_head.h"
 #include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/run_mark.h"
-#include "firmware/kiosk/showpiece.h"
 #include "firmware/services/services.h"
-#include "firmware/staff/desk.h"
+#include "firmware/staff/staff_controller.h"
 #include "firmware/work/camera_look.h"
 #include "firmware/work/pipeline_stages.h"
 #include "ui/ui.h"
@@ -47,14 +47,14 @@ class Kiosk {
   const ui::ViewState& view() const { return view_; }
   hal::Device& device() { return *device_; }
   const Appliance& appliance() const { return *appliance_; }
-  const Desk& desk() const { return *desk_; }
+  const StaffController& staff() const { return *staff_; }
   const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
 
  private:
   struct Consented {
     std::string wording, language;
     std::chrono::system_clock::time_point at;
-    ui::Errand errand = ui::Errand::New;
+    ui::EnrolmentKind enrolment_kind = ui::EnrolmentKind::NewSubject;
     std::int32_t least_room_mib = 0;
   };
   Kiosk() = default;
@@ -63,7 +63,7 @@ class Kiosk {
                                                                       Services& services);
   Result<pipeline::AlgorithmSet> chosen_algorithms(const KioskArgs& args);
   Result<void> set_up_measuring(const KioskArgs& args, Services& services);
-  std::unique_ptr<Bench> make_bench(const KioskArgs& args, Services& services);
+  std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   Result<void> look_up();
   void forget_asked();
   ui::Trouble out_of_order() const;
@@ -77,7 +77,7 @@ class Kiosk {
   std::unique_ptr<ThreadPool> pool_;
   std::unique_ptr<PipelineStages> stages_;
   std::unique_ptr<LiveJudge> judge_;
-  std::unique_ptr<Showpiece> showpiece_;
+  std::unique_ptr<InvitationHead> invitation_head_;
   std::unique_ptr<ui::Ui> ui_;
   std::uint32_t revision_ = 0;
   Consented consented_;
@@ -98,9 +98,9 @@ class Kiosk {
   std::string receipt_;  // written by the keeper while the state is Store
   ui::ViewState view_;
   bool forgotten_ = false;
-  std::unique_ptr<Appliance> appliance_;  // its threads use everything above
-  std::unique_ptr<Desk> desk_;            // these two use the appliance
-  std::unique_ptr<CodeSight> code_sight_;
+  std::unique_ptr<Appliance> appliance_;    // its threads use everything above
+  std::unique_ptr<StaffController> staff_;  // these two use the appliance
+  std::unique_ptr<CodeScanner> code_scanner_;
 };
 
 }  // namespace relievo::firmware

@@ -28,20 +28,20 @@ Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   return kept_;
 }
 
-void MovedFaces::keep(std::uint32_t revision, const Said& said, Errands& errands, EventLog& log) {
+void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log) {
   if (revision == revision_ && said == kept_) return;
   const bool news = said != kept_;  // another calibration of which nothing is said needs no line
   revision_ = revision;
   kept_ = said;
   if (!news && said == Said{}) return;
-  errands.send(
-      JobPlace::Keeper,
+  side_tasks.send(
+      JobLane::Keeper,
       [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
                     said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [&log](const std::optional<Error>& error) {
         if (error) log.fault(*error);
       },
-      Errands::Whose::Device);
+      SideTasks::Whose::Device);
 }
 
 }  // namespace relievo::firmware

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "firmware/records/event_log.h"
-#include "firmware/service/errands.h"
+#include "firmware/service/side_tasks.h"
 #include "storage/store.h"
 
 namespace relievo::firmware {
@@ -28,7 +28,7 @@ class MovedFaces {
   // As it was kept of this calibration; nothing: of another. Before any thread uses the store.
   Result<Said> read(std::uint32_t revision);
   // Once a turn in which nobody waits for the keeper: writes what has changed.
-  void keep(std::uint32_t revision, const Said& said, Errands& errands, EventLog& log);
+  void keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log);
 
  private:
   storage::Store& store_;

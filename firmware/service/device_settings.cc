@@ -21,8 +21,8 @@ bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
   ui::Settings next = wanted_;
   if (!next.set(setting, value)) return false;
   wanted_ = next;
-  errands_.send(
-      JobPlace::Keeper,
+  side_tasks_.send(
+      JobLane::Keeper,
       [this, next, setting](JobControl&) -> Result<void> {
         // Whoever chooses how long records are kept has looked at the clock.
         if (setting == ui::Setting::KeepDays)
@@ -39,7 +39,7 @@ bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
         }
         done(error);
       },
-      Errands::Whose::Device);
+      SideTasks::Whose::Device);
   return true;
 }
 

@@ -11,7 +11,7 @@
 
 #include "firmware/base/settings.h"
 #include "firmware/records/event_log.h"
-#include "firmware/service/errands.h"
+#include "firmware/service/side_tasks.h"
 #include "storage/store.h"
 
 namespace relievo::firmware {
@@ -19,8 +19,8 @@ namespace relievo::firmware {
 class DeviceSettings {
  public:
   using Done = std::function<void(const std::optional<Error>&)>;
-  DeviceSettings(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
-      : store_(store), errands_(errands), log_(log), clock_(clock) {}
+  DeviceSettings(storage::Store& store, SideTasks& side_tasks, EventLog& log, const hal::Clock& clock)
+      : store_(store), side_tasks_(side_tasks), log_(log), clock_(clock) {}
 
   // Before any thread uses the store. A value that is none is told in the log.
   Result<void> look();
@@ -32,7 +32,7 @@ class DeviceSettings {
 
  private:
   storage::Store& store_;
-  Errands& errands_;
+  SideTasks& side_tasks_;
   EventLog& log_;
   const hal::Clock& clock_;
   ui::Settings now_, wanted_;

@@ -13,7 +13,7 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
-#include "firmware/service/desk_page.h"
+#include "firmware/service/page_controller.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"

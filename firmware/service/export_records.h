@@ -20,7 +20,7 @@ namespace relievo::firmware {
 
 enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo, Again };
 
-// How far an export came. Written by the keeper; main reads it when the errand has ended.
+// How far an export came. Written by the keeper; main reads it when the side task has ended.
 struct ExportTrace {
   ExportStep step = ExportStep::Find;
   int whole = 0;  // records on the stick, read back and under their names

@@ -64,11 +64,11 @@ Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
 
 void RetentionWatch::turn(const ui::Settings& settings) {
   const int days = settings.of(ui::Setting::KeepDays);
-  if (days == 0 || clock_.now() < next_ || errands_.busy(JobPlace::Keeper)) return;
+  if (days == 0 || clock_.now() < next_ || side_tasks_.busy(JobLane::Keeper)) return;
   next_ = clock_.now() + kEvery;
   const auto erased = std::make_shared<int>(0);
-  errands_.send(
-      JobPlace::Keeper,
+  side_tasks_.send(
+      JobLane::Keeper,
       [this, erased, days](JobControl& control) -> Result<void> {
         RELIEVO_TRY_ASSIGN(
             *erased, erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()),
@@ -81,7 +81,7 @@ void RetentionWatch::turn(const ui::Settings& settings) {
         jumped_ = error && error->code == Errc::InvalidState;
         if (*erased > 0) log_.say(ui::LogEvent::RecordsExpired, {std::to_string(*erased)});
       },
-      Errands::Whose::Device);
+      SideTasks::Whose::Device);
 }
 
 }  // namespace relievo::firmware

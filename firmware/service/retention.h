@@ -12,7 +12,7 @@
 #include <chrono>
 
 #include "firmware/records/event_log.h"
-#include "firmware/service/errands.h"
+#include "firmware/service/side_tasks.h"
 #include "storage/store.h"
 #include "ui/device/settings.h"
 
@@ -29,8 +29,8 @@ Result<int> erase_expired(storage::Store& store, storage::WallTime now, int keep
 
 class RetentionWatch {
  public:
-  RetentionWatch(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
-      : store_(store), errands_(errands), log_(log), clock_(clock) {}
+  RetentionWatch(storage::Store& store, SideTasks& side_tasks, EventLog& log, const hal::Clock& clock)
+      : store_(store), side_tasks_(side_tasks), log_(log), clock_(clock) {}
   // Once every turn in which nobody is at the screen.
   void turn(const ui::Settings& settings);
   bool clock_jumped() const { return jumped_; }
@@ -42,7 +42,7 @@ class RetentionWatch {
 
  private:
   storage::Store& store_;
-  Errands& errands_;
+  SideTasks& side_tasks_;
   EventLog& log_;
   const hal::Clock& clock_;
   hal::Instant next_{};

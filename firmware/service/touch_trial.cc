@@ -86,8 +86,8 @@ void TouchTrial::take_plain() {
 void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
   const ui::TouchMap before = std::exchange(map_, map);
   end(verdict);
-  errands_.send(
-      JobPlace::Keeper,
+  side_tasks_.send(
+      JobLane::Keeper,
       [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
       [this, before](const std::optional<Error>& error) {
         if (!error)
@@ -97,7 +97,7 @@ void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
         map_ = before;
         end(TouchVerdict::NotSaved);
       },
-      Errands::Whose::Device);
+      SideTasks::Whose::Device);
 }
 
 void TouchTrial::turn() {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "firmware/records/event_log.h"
-#include "firmware/service/errands.h"
+#include "firmware/service/side_tasks.h"
 #include "storage/store.h"
 #include "ui/device/touch_view.h"
 #include "ui/view/input.h"
@@ -28,8 +28,8 @@ inline constexpr std::chrono::seconds kTouchPatience{15};  // for each cross
 
 class TouchTrial {
  public:
-  TouchTrial(storage::Store& store, Errands& errands, EventLog& log, const hal::Clock& clock)
-      : store_(store), errands_(errands), log_(log), clock_(clock) {}
+  TouchTrial(storage::Store& store, SideTasks& side_tasks, EventLog& log, const hal::Clock& clock)
+      : store_(store), side_tasks_(side_tasks), log_(log), clock_(clock) {}
 
   // Before any thread uses the store. A correction that cannot be read is told in the log; the panel is then
   // taken as it is.
@@ -55,7 +55,7 @@ class TouchTrial {
   void keep(const ui::TouchMap& map, ui::TouchVerdict verdict);
 
   storage::Store& store_;
-  Errands& errands_;
+  SideTasks& side_tasks_;
   EventLog& log_;
   const hal::Clock& clock_;
   ui::TouchMap map_, candidate_;

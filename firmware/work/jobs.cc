@@ -61,11 +61,11 @@ Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& 
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
-  RELIEVO_TRY_ASSIGN(LiveSight sight, judge_->look(frame, device_.clock().now(), context));
-  session_.live().fill_relief(sight.relief);
-  face_ = sight.face;
-  RELIEVO_TRY(meter(frame, sight.guidance));
-  return sight.guidance;
+  RELIEVO_TRY_ASSIGN(LiveMeasurement measured, judge_->look(frame, device_.clock().now(), context));
+  session_.live().fill_relief(measured.relief);
+  face_ = measured.face;
+  RELIEVO_TRY(meter(frame, measured.guidance));
+  return measured.guidance;
 }
 
 // Where no face is known, the middle of the picture is lit for.

@@ -87,7 +87,7 @@ double BoardScene::dark_share(Vec3 origin, Vec3 direction, const Hit& hit) const
   return static_cast<double>(dark) / kSamples;
 }
 
-Sight BoardScene::look(Vec3 origin, Vec3 direction) const {
+RayHit BoardScene::look(Vec3 origin, Vec3 direction) const {
   Hit hit;
   if (!meet(origin, direction, hit)) return {{kRoom, kRoom, kRoom}, RayCaster::kFar, -1, false};
   const double lit = light(origin, direction, hit);

@@ -36,7 +36,7 @@ class BoardScene final : public Scene {
   // the camera needs no more than one.
   BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look = {},
              double pixel_rad = 0);
-  Sight look(Vec3 origin, Vec3 direction) const override;
+  RayHit look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
   bool blocked(Vec3, Vec3, double) const override { return false; }
   Mesh solid_mesh() const override;

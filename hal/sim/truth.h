@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is really there, for every pixel of the left picture. For tests and the measuring bench
+// What is really there, for every pixel of the left picture. For tests and benchmarks
 // only: nothing that reconstructs may include this.
 #pragma once
 

@@ -82,7 +82,7 @@ struct Judge {
     return Advice::None;
   }
   Advice cover() const {
-    const HeadSight& h = m.head;
+    const HeadMeasurement& h = m.head;
     const bool hidden = above(h.in_front_share, l.in_front_share, Advice::FaceHidden) ||
                         above(h.unknown_share, l.unknown_share, Advice::FaceHidden) ||
                         above(h.asymmetry_mm, l.asymmetry_mm, Advice::FaceHidden);
@@ -92,23 +92,23 @@ struct Judge {
   // hardly anything is left.
   bool closed() const {
     double better = -1, worse = 1;
-    for (const EyeSight& eye : m.eyes)
+    for (const EyeMeasurement& eye : m.eyes)
       if (eye.known) better = std::max(better, eye.contrast), worse = std::min(worse, eye.contrast);
     return better > -1 && (below(better, l.iris_contrast, Advice::EyesClosed) ||
                            below(worse, l.one_eye_share * better, Advice::EyesClosed));
   }
   // Of an eye that something hides nobody can tell whether it is open.
   Advice eyes() const {
-    for (const EyeSight& eye : m.eyes)
+    for (const EyeMeasurement& eye : m.eyes)
       if (eye.known && below(eye.brightness, l.eye_brightness, Advice::EyesHidden)) return Advice::EyesHidden;
-    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeSight& eye) {
+    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeMeasurement& eye) {
       return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare);
     });
     if (!glare && closed()) return Advice::EyesClosed;
     return glare ? Advice::GlassesGlare : Advice::None;
   }
   Advice mouth() const {
-    const MouthSight& mouth = m.mouth;
+    const MouthMeasurement& mouth = m.mouth;
     if (!mouth.known) return Advice::None;
     const bool open = above(mouth.dark_mm2, l.dark_mm2, Advice::MouthOpen) ||
                       above(mouth.steps_mm, l.steps_mm, Advice::MouthOpen) ||

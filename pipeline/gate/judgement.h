@@ -9,9 +9,9 @@
 #include <array>
 
 #include "hal/base/result.h"
-#include "pipeline/gate/expression/eye_sight.h"
-#include "pipeline/gate/expression/mouth_sight.h"
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/expression/eye_measurement.h"
+#include "pipeline/gate/expression/mouth_measurement.h"
+#include "pipeline/gate/head/head_measurement.h"
 #include "pipeline/gate/light/face_light.h"
 #include "pipeline/model/advice.h"
 
@@ -28,13 +28,13 @@ struct GateMeasures {
       0;                     // of the same: known by the relief to be nearer than the capture volume begins
   HeadHint face;             // where on the small picture
   double covered_share = 0;  // of the face, by something that stands before it: face_cover.h
-  HeadSight head;
+  HeadMeasurement head;
   double off_right_mm = 0, off_down_mm = 0;  // the tip of the nose from the middle of the capture volume
   double speed_mm_s = 0, turn_deg_s = 0;
   FaceLight light;
-  double blur_mm = 0;            // on the face: edge_blur.h
-  std::array<EyeSight, 2> eyes;  // on the picture's left, on its right
-  MouthSight mouth;
+  double blur_mm = 0;                  // on the face: edge_blur.h
+  std::array<EyeMeasurement, 2> eyes;  // on the picture's left, on its right
+  MouthMeasurement mouth;
   double beside_share =
       0;  // of a field beside the head, by something else at the depth of the face: beside_head.h
 };

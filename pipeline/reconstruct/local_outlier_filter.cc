@@ -16,10 +16,10 @@ constexpr int kBands = 32;
 
 enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
 
-// Depth along the sight of the centre and the place across it: the frame in which support and planes
+// Depth along the line of sight of the centre and the place across it: the frame in which support and planes
 // are judged.
-struct Sight {
-  explicit Sight(const Vec3f& at) {
+struct RayFrame {
+  explicit RayFrame(const Vec3f& at) {
     const float l = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
     along = {at.x / l, at.y / l, at.z / l};
     const float flat = std::sqrt(along.x * along.x + along.z * along.z);
@@ -33,7 +33,7 @@ float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z *
 
 struct Offset {
   float u, v, depth;
-};  // from the centre, in its Sight
+};  // from the centre, in its RayFrame
 
 class Filter {
  public:
@@ -84,7 +84,7 @@ class Filter {
 
   Verdict judge_point(std::uint32_t i, int column, int row) const {
     const CloudPoint& p = points_[i];
-    const Sight sight(p.at_mm);
+    const RayFrame ray(p.at_mm);
     int places = 0;
     int support = 0;
     Offset near[64];
@@ -96,7 +96,7 @@ class Filter {
           ++places;
           const CloudPoint& q = points_[k];
           const Vec3f d{q.at_mm.x - p.at_mm.x, q.at_mm.y - p.at_mm.y, q.at_mm.z - p.at_mm.z};
-          const Offset o{dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)};
+          const Offset o{dot(d, ray.across), dot(d, ray.down), dot(d, ray.along)};
           if (supports(o, std::max(p.sigma_mm, q.sigma_mm)) && support < 64) near[support++] = o;
         }
     // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
@@ -161,7 +161,7 @@ class Filter {
     island_[seed] = label;
     for (std::size_t next = 0; next < stack_.size(); ++next) {
       const std::uint32_t i = stack_[next];
-      const Sight sight(points_[i].at_mm);
+      const RayFrame ray(points_[i].at_mm);
       const int column = static_cast<int>(at[i] & 0xFFFFFFFFU);
       const int row = static_cast<int>(at[i] >> 32);
       for (int r = row - 1; r <= row + 1; ++r)
@@ -171,7 +171,7 @@ class Filter {
             const Vec3f& a = points_[i].at_mm;
             const Vec3f& b = points_[k].at_mm;
             const Vec3f d{b.x - a.x, b.y - a.y, b.z - a.z};
-            if (!supports({dot(d, sight.across), dot(d, sight.down), dot(d, sight.along)},
+            if (!supports({dot(d, ray.across), dot(d, ray.down), dot(d, ray.along)},
                           std::max(points_[i].sigma_mm, points_[k].sigma_mm)))
               continue;
             island_[k] = label;

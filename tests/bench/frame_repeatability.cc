@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kBarMm = 0.7, kBarDeg = 0.7;
 
-Result<Photograph> look_at(const std::filesystem::path& folder, test::StageBench& room) {
+Result<Photograph> look_at(const std::filesystem::path& folder, test::StageFixture& room) {
   Photograph photo{person_of(folder), pose_of(folder), {}, {}, {}};
   RELIEVO_TRY_ASSIGN(photo.true_surface, firmware::measure::read_true_surface(folder / "head.ply"));
   RELIEVO_TRY_ASSIGN(const SeenSurface seen, surface_of(folder, room));
@@ -63,7 +63,7 @@ void compare(const std::vector<Photograph>& photos, Tally& tally) {
 }
 
 int run(int count, char** folders) {
-  test::StageBench room;
+  test::StageFixture room;
   std::map<std::string, std::vector<Photograph>> people;
   for (int i = 1; i < count; ++i) {
     auto photo = look_at(folders[i], room);

@@ -31,7 +31,7 @@ std::string pose_of(const std::filesystem::path& folder) {
   return name.substr(name.rfind('_') + 1);
 }
 
-Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room,
+Result<FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageFixture& room,
                                     Vec3d& across) {
   room.output.reset();
   RELIEVO_TRY_ASSIGN(const auto pictures, firmware::read_pair(folder / "left.png", folder / "right.png"));

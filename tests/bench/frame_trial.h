@@ -13,7 +13,7 @@
 #include "firmware/measure/triangle_grid.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/model/face_mesh.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 
@@ -35,7 +35,7 @@ std::string person_of(const std::filesystem::path& folder);
 std::string pose_of(const std::filesystem::path& folder);
 
 // Errors: those of the readers and of the pipeline.
-Result<pipeline::FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageBench& room,
+Result<pipeline::FaceMesh> reconstruct_folder(const std::filesystem::path& folder, test::StageFixture& room,
                                               pipeline::Vec3d& across);
 
 // The rigid motion that takes camera coordinates of b's photograph to a's.

@@ -18,7 +18,7 @@
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 namespace {
@@ -44,7 +44,7 @@ Person person(std::uint32_t seed, double wave_mm, double shine, ThreadPool& pool
 }
 
 Result<FaceMesh> reconstruct(const Scene& scene, const SimRig& rig, const AlgorithmSet& algorithms,
-                             test::StageBench& room) {
+                             test::StageFixture& room) {
   room.output.reset();
   const hal::sim::PicturePair pictures = render_pair(scene, rig, {}, 1, room.pool);
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make(algorithms, test::true_calibration(rig)));
@@ -80,7 +80,7 @@ double share_kept(const FaceMesh& mesh, const Scene& rippled, const Scene& smoot
 }
 
 int run(int heads, const AlgorithmSet& algorithms) {
-  test::StageBench room;
+  test::StageFixture room;
   constexpr double kWaves[] = {4, 6, 8, 12};
   std::printf("share of a wave of %.1f mm that comes back\n%6s %9s", kHeightMm, "head", "skin");
   for (const double wave : kWaves) std::printf("%7.0f mm", wave);

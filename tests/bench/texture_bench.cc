@@ -30,7 +30,7 @@
 #include "storage/export/format/png_writer.h"
 #include "storage/export/format/stl_writer.h"
 #include "storage/export/recognition_files.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 #include "tests/support/texture_seams.h"
 
 namespace relievo::bench {
@@ -126,8 +126,8 @@ void print_texels(const FaceModel& model, const RectifiedPair& pair) {
       std::sqrt(all_texels / all_mm2), half, fifth);
 }
 
-void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageBench& bench) {
-  StageContext& c = bench.context;
+void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageFixture& fixture) {
+  StageContext& c = fixture.context;
   const storage::ExportMesh mesh = need(storage::make_export_mesh(model, storage::ExportFrame::Head));
   const auto png = need(storage::png_bytes(model.texture));
   std::pmr::unsynchronized_pool_resource heap;
@@ -138,7 +138,7 @@ void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageB
     all += cost;
   };
   say("texture", best_of_five([&] {
-        Arena::Mark mark(bench.output);
+        Arena::Mark mark(fixture.output);
         need(run_stage(c, [&](StageContext& s) { return TwoViewTexturer({}).texture(model.mesh, pair, s); }));
       }));
   say("sharpness", best_of_five([&] { texture_sharpness(model.texture, c); }));
@@ -206,9 +206,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: texture_bench LEFT RIGHT RIG.yml [OUT.png]\n");
     return 2;
   }
-  test::StageBench bench(std::size_t{512} << 20, std::size_t{640} << 20,
-                         static_cast<int>(std::thread::hardware_concurrency()));
-  pipeline::StageContext& c = bench.context;
+  test::StageFixture fixture(std::size_t{512} << 20, std::size_t{640} << 20,
+                             static_cast<int>(std::thread::hardware_concurrency()));
+  pipeline::StageContext& c = fixture.context;
   const auto left = need(hal::read_picture(argv[1]));
   const auto right = need(hal::read_picture(argv[2]));
   const auto calibration = need(pipeline::read_calibration(argv[3], {left.width_px, left.height_px, 0}));
@@ -224,7 +224,7 @@ int main(int argc, char** argv) {
   print_seams("seams, two-view", test::measure_seams(model.mesh, model.texture, &alone));
   print_texels(model, pair);
   std::printf("sharpness %.3f\n", model.quality.texture_sharpness);
-  print_times(model, pair, bench);
+  print_times(model, pair, fixture);
   if (argc > 4) draw_three_sides(model, argv[4]);
   return 0;
 }

@@ -27,8 +27,8 @@ constexpr int kWidth = 480, kHeight = 300;
 class Both final : public sim::Scene {
  public:
   Both(std::unique_ptr<sim::Scene> a, std::unique_ptr<sim::Scene> b) : a_(std::move(a)), b_(std::move(b)) {}
-  sim::Sight look(sim::Vec3 o, sim::Vec3 d) const override {
-    sim::Sight a = a_->look(o, d), b = b_->look(o, d);
+  sim::RayHit look(sim::Vec3 o, sim::Vec3 d) const override {
+    sim::RayHit a = a_->look(o, d), b = b_->look(o, d);
     if (b.body < 0) return a;
     if (a.body >= 0 && a.distance_mm <= b.distance_mm) return a;
     b.body += 100000;
@@ -47,7 +47,7 @@ class Both final : public sim::Scene {
 // Nobody: the room, which the head's scene shows where its rays meet nothing.
 class Room final : public sim::Scene {
  public:
-  sim::Sight look(sim::Vec3, sim::Vec3 d) const override {
+  sim::RayHit look(sim::Vec3, sim::Vec3 d) const override {
     const double grey = 0.035 + 0.010 * sim::value_noise(d * 6, 99) - 0.02 * d.y;
     return {{grey, grey * 1.02, grey * 1.06}, sim::RayCaster::kFar, -1, false};
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The way through the staff's side, without a screen: actions and the appliance's word go in, wishes come
+// The way through the staff's side, without a screen: actions and the appliance's word go in, requests come
 // out.
 #include "ui/view/service.h"
 
@@ -20,20 +20,20 @@ class ServiceTest : public testing::Test {
   ServiceTest() {
     view.screen = Screen::Idle;
     view.now = hal::Instant(std::chrono::seconds(1000));
-    view.service = &desk;
+    view.service = &staff;
   }
   void act(ActionKind kind, int value = 0, int detail = 0) { service.act({kind, value, detail}, view); }
   void sign_in(StaffRole role) {
     act(ActionKind::StaffEnter);
-    desk.role = role;
+    staff.role = role;
     service.follow(view);
   }
-  std::optional<StaffWish> last_wish() {
-    std::optional<StaffWish> last;
-    while (auto wish = service.take_wish()) last = wish;
+  std::optional<StaffRequest> last_request() {
+    std::optional<StaffRequest> last;
+    while (auto request = service.take_request()) last = request;
     return last;
   }
-  ServiceView desk;
+  ServiceView staff;
   ViewState view;
   Service service;
 };
@@ -46,18 +46,18 @@ TEST_F(ServiceTest, OnlyTheApplianceLetsAnybodyIn) {
   EXPECT_FALSE(service.open) << "without a role there is no page";
   sign_in(StaffRole::Operator);
   EXPECT_EQ(service.page, StaffPage::Menu);
-  desk.role = StaffRole::None;
+  staff.role = StaffRole::None;
   service.follow(view);
   EXPECT_FALSE(service.open);
 }
 
-TEST_F(ServiceTest, APinIsDigitsAndIsWipedWithItsWish) {
+TEST_F(ServiceTest, APinIsDigitsAndIsWipedWithItsRequest) {
   act(ActionKind::StaffEnter);
   for (const char* key : {"4", "x", "7", "1", " ", "1"}) service.type(key);
   EXPECT_EQ(service.typed(), "4711");
   act(ActionKind::StaffDo, 1);
   EXPECT_EQ(service.typed(), "");
-  EXPECT_EQ(last_wish()->text(), "4711");
+  EXPECT_EQ(last_request()->text(), "4711");
   for (int i = 0; i < 20; ++i) service.type("9");
   EXPECT_EQ(service.typed().size(), kMostPinDigits);
   view.now += kPinPatience + std::chrono::seconds(1);
@@ -73,24 +73,24 @@ TEST_F(ServiceTest, BackLeadsOutOneStepAtATime) {
   service.type("A");
   act(ActionKind::Back);
   EXPECT_EQ(service.mode, 0);
-  desk.inner = true;
+  staff.inner = true;
   act(ActionKind::Back);
   EXPECT_EQ(service.page, StaffPage::Records) << "what it showed within itself is closed first";
-  EXPECT_EQ(last_wish()->verb, kPageOpened);
+  EXPECT_EQ(last_request()->verb, kPageOpened);
   EXPECT_EQ(service.typed(), "");
-  desk.inner = false;
+  staff.inner = false;
   act(ActionKind::Back);
   EXPECT_EQ(service.page, StaffPage::Menu);
   act(ActionKind::Back);
   EXPECT_FALSE(service.open);
-  EXPECT_EQ(last_wish()->verb, kPageLeft);
+  EXPECT_EQ(last_request()->verb, kPageLeft);
 }
 
 TEST_F(ServiceTest, ANewDeviceAsksForItsPinsFirst) {
-  desk.access.set_up = false;
+  staff.access.set_up = false;
   act(ActionKind::StaffEnter);
   EXPECT_EQ(service.page, StaffPage::FirstStart);
-  desk.access.set_up = true;
+  staff.access.set_up = true;
   service.follow(view);
   EXPECT_EQ(service.page, StaffPage::Pin);
 }

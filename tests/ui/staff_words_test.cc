@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "ui/screens/service/bench/bench_frame.h"
 #include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
+#include "ui/screens/service/technician/technician_frame.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {
@@ -82,11 +82,11 @@ TEST_F(StaffWordsTest, AnErrorNobodyKnowsIsSaidByItsCodeWithItsDetailInEnglish) 
   for (const auto& [language, sentence] :
        {std::pair{Language::German, "Es ist kein Platz mehr"}, std::pair{Language::Arabic, "لم تبق مساحة"}}) {
     StaffFrame page = in(language);
-    BenchView bench;
-    bench.problem = fault;
-    staff_.bench = &bench;
+    TechnicianView technician;
+    technician.problem = fault;
+    staff_.technician = &technician;
     page.begin("", nullptr);
-    BenchFrame(page).problem(bench.problem);
+    TechnicianFrame(page).problem(technician.problem);
     page.end();
     const Node *said = nullptr, *detail = nullptr;
     for (const Node& node : tree_.nodes()) {

@@ -55,11 +55,11 @@ def photographed():
 
 def walk_in(kiosk):
     """From the page that invites to the live picture; fingers count where they are, to the pixel's neighbour."""
-    kiosk.see("attract", SLOW, ["showpiece"])
+    kiosk.see("attract", SLOW, ["invitation_head"])
     button = kiosk.pages["attract"].nodes["start"]
     kiosk.tap(button["x"] - 4, button["y"] + button["h"] / 2)
     kiosk.tap(button["x"] + button["w"] / 2, button["y"] + button["h"] + 4)
-    kiosk.stays("attract", 3, ["showpiece"])
+    kiosk.stays("attract", 3, ["invitation_head"])
     kiosk.tap(button["x"] + 4, button["y"] + button["h"] - 5)
     kiosk.see("consent", 60)
     kiosk.tap_node("consent", "agree")
@@ -109,7 +109,7 @@ def visit(machine, pages):
         kiosk.tap_node("review", "accept")
         kiosk.see("thanks", SLOW, only=["title", "what", "finish"])   # the box for the code is as wide as its digits
         kiosk.tap_node("thanks", "finish")
-        kiosk.see("attract", 20, ["showpiece"])
+        kiosk.see("attract", 20, ["invitation_head"])
     with Panel(machine, BUILT / "tests/vm/touch_panel") as panel:
         kiosk.panel = panel
         kiosk.tap_node("attract", "start")
@@ -144,7 +144,7 @@ def faults(machine, pages):
     refused(kiosk, "stranger", "relievo: /dev/dri/card0: this user may not use the screen: ")
     with Panel(machine, BUILT / "tests/vm/touch_panel"):
         kiosk.start(words=photographed())
-        kiosk.see("attract", SLOW, ["showpiece"])
+        kiosk.see("attract", SLOW, ["invitation_head"])
         machine.run("kill -SEGV $(busybox pidof relievo)")
         code, _ = kiosk.ended(60)
         check(code != 0, "a crash should not look like an end")

@@ -45,13 +45,13 @@ function(relievo_precompile target)
   endif()
 endfunction()
 
-# relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [DOORS rooms it may use...]
+# relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [ROOMS rooms it may use...]
 #              [PRECOMPILE headers of libraries...])
 # One static library from every .cc below the folders named (default: all of the current folder). READS_BYTES: it takes
 # numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: what many of its files
 # include beside the standard library.
 function(relievo_room name)
-  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;DOORS;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;ROOMS;PRECOMPILE" ${ARGN})
   if(NOT arg_DIRS)
     set(arg_DIRS .)
   endif()
@@ -66,7 +66,7 @@ function(relievo_room name)
   add_library(relievo_${name} STATIC ${sources})
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX RELIEVO_READS_BYTES "${arg_READS_BYTES}")
   # Who uses an installed room gets its headers, not our warnings.
-  target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_DOORS} PRIVATE ${arg_LIBS})
+  target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_ROOMS} PRIVATE ${arg_LIBS})
   relievo_precompile(relievo_${name} ${arg_PRECOMPILE})
   target_include_directories(relievo_${name} INTERFACE $<INSTALL_INTERFACE:include/relievo>)
   target_compile_features(relievo_${name} PUBLIC cxx_std_20)

@@ -55,10 +55,10 @@ enum class PictureSlot : std::uint8_t {
   Mesh,
   Texture,
   Attract,
-  BenchLeft,
-  BenchRight,
-  BenchThird,
-  BenchFourth,
+  TechnicianLeft,
+  TechnicianRight,
+  TechnicianThird,
+  TechnicianFourth,
   Count
 };
 inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlot::Count);

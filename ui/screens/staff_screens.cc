@@ -5,7 +5,7 @@
 #include <array>
 
 #include "ui/screens/parts/overlay.h"
-#include "ui/screens/service/bench/bench_frame.h"
+#include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
 namespace {
@@ -36,19 +36,19 @@ constexpr std::array kPages{
     StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page},
     StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
     StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
-                  bench_cameras_page},
+                  technician_cameras_page},
     StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
-                  bench_calibrate_page},
+                  technician_calibrate_page},
     StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
-                  bench_stages_page},
+                  technician_stages_page},
     StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model in 3D"), icon::kShape, true, false,
-                  bench_model_page},
+                  technician_model_page},
     StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
-                  bench_tables_page},
+                  technician_tables_page},
     StaffPageInfo{StaffPage::Algorithms, "open algorithms", mark_tr("Algorithms"), kTune, true, false,
-                  bench_algorithms_page},
+                  technician_algorithms_page},
     StaffPageInfo{StaffPage::Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
-                  bench_compare_page},
+                  technician_compare_page},
 };
 
 void draw_page(StaffFrame& page) {
@@ -88,7 +88,8 @@ const Palette& build_staff_screen(Tree& tree, const ViewState& view, const Visit
 void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& visit, const Service& service) {
   list.pictures = {};
   list.faces = {};
-  if (view.service->bench != nullptr && fill_bench_pictures(list, *view.service->bench, visit, service.page))
+  if (view.service->technician != nullptr &&
+      fill_technician_pictures(list, *view.service->technician, visit, service.page))
     return;
   list.faces[0].model = view.service->model;
   list.faces[0].version = view.service->model == nullptr ? 0 : view.service->model_number;
@@ -103,17 +104,17 @@ void staff_entrance(Page& page) {
   corner.box.justify = Justify::End;
   corner.box.align = Align::Start;
   page.tree.open(corner);
-  Node door = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
-  door.id = "staff";
-  door.name = page.tr("Staff: hold for three seconds");
-  door.role = Role::Button;
-  door.action = {ActionKind::StaffEnter, 0};
-  door.hold = true;
-  door.filling = page.palette.accent;
-  door.box.justify = Justify::Centre;
-  door.box.align = Align::Centre;
-  door.box.radius = page.px(size::kRadius);
-  page.tree.open(door);
+  Node lock = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
+  lock.id = "staff";
+  lock.name = page.tr("Staff: hold for three seconds");
+  lock.role = Role::Button;
+  lock.action = {ActionKind::StaffEnter, 0};
+  lock.hold = true;
+  lock.filling = page.palette.accent;
+  lock.box.justify = Justify::Centre;
+  lock.box.align = Align::Centre;
+  lock.box.radius = page.px(size::kRadius);
+  page.tree.open(lock);
   page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);
   page.tree.close();
   page.tree.close();

@@ -25,21 +25,21 @@ enum class Intent : std::uint8_t {
 };
 
 // What is to become of the portrait.
-enum class Errand : std::uint8_t {
-  New,    // of somebody new
-  Renew,  // in the place of the earlier ones of the record whose code was quoted
-  Add     // beside them
+enum class EnrolmentKind : std::uint8_t {
+  NewSubject,  // of somebody new
+  Renewal,     // in the place of the earlier ones of the record whose code was quoted
+  Addition     // beside them
 };
 
 // Who stands there, and what they have agreed to; goes with Intent::LookUp and Intent::Pose. Borrowed for the
 // call.
-struct Wish {
+struct VisitRequest {
   std::string_view name;
   std::string_view wording;   // which consent text was shown
   std::string_view language;  // in which language, BCP 47
   std::chrono::system_clock::time_point agreed_at;
   bool quotes_code = false;  // the name is the code of an earlier record, or nothing
-  Errand errand = Errand::New;
+  EnrolmentKind enrolment_kind = EnrolmentKind::NewSubject;
 };
 
 }  // namespace relievo::ui

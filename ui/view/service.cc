@@ -35,7 +35,7 @@ void Service::act(const Action& action, const ViewState& view) {
   if (kind == ActionKind::StaffEnter) enter(view);
   if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
   if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer)
-    wish(static_cast<std::uint8_t>(action.value), action.detail);
+    request(static_cast<std::uint8_t>(action.value), action.detail);
   if (kind == ActionKind::StaffAnswer) mode = 0;
   if (kind == ActionKind::StaffMode) mode = action.value;
   if (kind == ActionKind::StaffChoose) {
@@ -48,7 +48,7 @@ void Service::act(const Action& action, const ViewState& view) {
 }
 
 void Service::leave() {
-  wish(kPageLeft, 0);
+  request(kPageLeft, 0);
   close();
 }
 
@@ -94,7 +94,7 @@ void Service::go(StaffPage to) {
   page = to;
   mode = 0;
   chosen = 0;
-  wish(kPageOpened, 0);
+  request(kPageOpened, 0);
 }
 
 void Service::close() {
@@ -105,9 +105,9 @@ void Service::close() {
   chosen = 0;
 }
 
-void Service::wish(std::uint8_t verb, std::int64_t number) {
-  if (wish_count_ == wishes_.size()) return;
-  StaffWish& next = wishes_[wish_count_++];
+void Service::request(std::uint8_t verb, std::int64_t number) {
+  if (request_count_ == requests_.size()) return;
+  StaffRequest& next = requests_[request_count_++];
   next.page = page;
   next.verb = verb;
   next.number = number;
@@ -117,11 +117,12 @@ void Service::wish(std::uint8_t verb, std::int64_t number) {
   if (verb != kPageOpened) forget_typed();
 }
 
-std::optional<StaffWish> Service::take_wish() {
-  if (wish_count_ == 0) return std::nullopt;
-  const StaffWish first = wishes_[0];
-  std::move(wishes_.begin() + 1, wishes_.begin() + static_cast<std::ptrdiff_t>(wish_count_), wishes_.begin());
-  explicit_bzero(wishes_[--wish_count_].bytes.data(), kStaffTextBytes);
+std::optional<StaffRequest> Service::take_request() {
+  if (request_count_ == 0) return std::nullopt;
+  const StaffRequest first = requests_[0];
+  std::move(requests_.begin() + 1, requests_.begin() + static_cast<std::ptrdiff_t>(request_count_),
+            requests_.begin());
+  explicit_bzero(requests_[--request_count_].bytes.data(), kStaffTextBytes);
   return first;
 }
 

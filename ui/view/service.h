@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Service: where a member of staff is on their side of the screen, what they have typed and chosen.
-// The sibling of Visit. It decides nothing: what is to be done goes out as StaffWish, who may come in
+// The sibling of Visit. It decides nothing: what is to be done goes out as StaffRequest, who may come in
 // the appliance says (ServiceView::role).
 //
 //   closed --StaffEnter--> Pin (or FirstStart) --role--> Menu <--> pages --role None--> closed
@@ -34,7 +34,7 @@ inline constexpr std::chrono::seconds kHold{3};  // a finger on the way in
 inline constexpr std::uint8_t kPageOpened = 0, kPageLeft = 255;
 
 // What a page asks of the appliance: one of its verbs, a number, what was typed.
-struct StaffWish {
+struct StaffRequest {
   StaffPage page = StaffPage::Menu;
   std::uint8_t verb = kPageOpened;
   std::int64_t number = 0;
@@ -57,15 +57,15 @@ class Service {
   // Follows the appliance, and the time.
   void follow(const ViewState& view);
   // What is to be asked of the appliance; nothing when there is no more.
-  std::optional<StaffWish> take_wish();
+  std::optional<StaffRequest> take_request();
   // For screenshots and tests: the page, as if somebody had walked there.
   void show(StaffPage which, int in_mode = 0);
   void close();
 
  private:
-  static constexpr std::size_t kWishes = 8;
+  static constexpr std::size_t kRequests = 8;
   void go(StaffPage to);
-  void wish(std::uint8_t verb, std::int64_t number);
+  void request(std::uint8_t verb, std::int64_t number);
   void enter(const ViewState& view);
   void leave();
   void back(bool inner);
@@ -77,8 +77,8 @@ class Service {
 
   std::array<char, kStaffTextBytes> typed_{};
   std::size_t length_ = 0;
-  std::array<StaffWish, kWishes> wishes_{};
-  std::size_t wish_count_ = 0;
+  std::array<StaffRequest, kRequests> requests_{};
+  std::size_t request_count_ = 0;
   hal::Instant last_touch_{};
 };
 

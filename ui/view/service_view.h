@@ -30,7 +30,7 @@ enum class StaffPage : std::uint8_t {
   Algorithms,
   Compare,
   Cameras,
-  Calibrate,  // technician's, on the workbench
+  Calibrate,  // technician's, with pictures
   SelfTest,
   Trigger,
   Touch,
@@ -111,10 +111,10 @@ struct ServiceView {
   const struct TriggerView* trigger = nullptr;
   const struct HealthView* health = nullptr;
   const struct LogView* log = nullptr;
-  const struct ConsentShelfView* consent = nullptr;
+  const struct ConsentTextsView* consent = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
-  const struct BenchView* bench = nullptr;  // of all pages on the workbench
+  const struct TechnicianView* technician = nullptr;  // of all the technician's picture pages
 };
 
 }  // namespace relievo::ui

@@ -61,7 +61,7 @@ struct LogView {
 // --- consent text: which is in force, ViewState::consent says --------------------------------------
 inline constexpr std::uint8_t kConsentTake = 5;  // from the stick; also on the page of the first start
 
-struct ConsentShelfView {
+struct ConsentTextsView {
   bool taking = false;
   Outcome outcome = Outcome::None;  // of the last try; Done: it is in force
   const Fault* fault = nullptr;     // why not

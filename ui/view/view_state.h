@@ -101,10 +101,10 @@ struct ViewState {
   int attempt = 0;           // 1 for the first capture of a session
   LiveView live;
   std::array<StageView, kStageViews> stages{};
-  const pipeline::StereoFrame* frame = nullptr;    // the pictures of this session, once taken
-  const pipeline::FaceModel* model = nullptr;      // from Review on
-  std::uint32_t model_number = 0;                  // another for every model
-  const pipeline::FaceModel* showpiece = nullptr;  // a simulated head for the page that invites
+  const pipeline::StereoFrame* frame = nullptr;          // the pictures of this session, once taken
+  const pipeline::FaceModel* model = nullptr;            // from Review on
+  std::uint32_t model_number = 0;                        // another for every model
+  const pipeline::FaceModel* invitation_head = nullptr;  // a simulated head for the page that invites
   std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
   Language home = Language::English;      // the one a visit begins in; one of them
   Settings settings;                      // the staff's

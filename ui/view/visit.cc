@@ -40,7 +40,7 @@ void Visit::forget() {
 
 void Visit::forget_person() {
   wipe_name();
-  errand_ = Errand::New;
+  enrolment_kind_ = EnrolmentKind::NewSubject;
   quotes_code_ = looking_up_ = false;
   look_ups_ = 0;
   agreed_at_ = {};
@@ -225,9 +225,9 @@ std::optional<Intent> Visit::act_on_record(ActionKind kind) {
     step = Step::Name;
     return std::nullopt;
   }
-  errand_ = kind == ActionKind::Renew        ? Errand::Renew
-            : kind == ActionKind::AddAnother ? Errand::Add
-                                             : Errand::New;
+  enrolment_kind_ = kind == ActionKind::Renew        ? EnrolmentKind::Renewal
+                    : kind == ActionKind::AddAnother ? EnrolmentKind::Addition
+                                                     : EnrolmentKind::NewSubject;
   return Intent::Pose;
 }
 
@@ -236,7 +236,7 @@ std::optional<Intent> Visit::follow_look_up(const ViewState& view) {
   if (!looking_up_ || view.known == Known::NotAsked || view.known == Known::Asking) return std::nullopt;
   looking_up_ = false;
   if (step != Step::Name || overlay == Overlay::Leave) return std::nullopt;
-  errand_ = Errand::New;
+  enrolment_kind_ = EnrolmentKind::NewSubject;
   if (view.known == Known::Nobody) return Intent::Pose;
   if (view.known == Known::Name || view.known == Known::Code) step = Step::Known;
   return std::nullopt;

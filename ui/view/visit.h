@@ -67,7 +67,7 @@ class Visit {
   std::string_view name() const { return {name_.data(), length_}; }
   // Is the code of an earlier record asked for, instead of a name?
   bool quotes_code() const { return quotes_code_; }
-  Errand errand() const { return errand_; }
+  EnrolmentKind enrolment_kind() const { return enrolment_kind_; }
   std::chrono::system_clock::time_point agreed_at() const { return agreed_at_; }
   // Seconds until the visit is wiped; only while Overlay::StillThere asks.
   int seconds_left(hal::Instant now) const;
@@ -113,7 +113,7 @@ class Visit {
   Screen last_screen_ = Screen::SelfTest;
   Language home_ = Language::English;
   Settings settings_;  // as the last view had them
-  Errand errand_ = Errand::New;
+  EnrolmentKind enrolment_kind_ = EnrolmentKind::NewSubject;
   bool quotes_code_ = false;
   bool looking_up_ = false;
   int look_ups_ = 0;

@@ -52,7 +52,7 @@ Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) 
       break;
     case Kind::Hold:
       if (!(words >> action.word) || !length_of(words, action.seconds))
-        return wrong(action.where, "wants an id and a number of seconds, as hold door 2");
+        return wrong(action.where, "wants an id and a number of seconds, as hold staff 3");
       break;
     case Kind::Drag:
       if (!(words >> action.word >> action.dx_px >> action.dy_px))

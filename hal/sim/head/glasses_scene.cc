@@ -144,8 +144,8 @@ class GlassesScene final : public Scene {
   GlassesScene(std::unique_ptr<Scene> face, const Frame& frame, double passes)
       : face_(std::move(face)), frame_(frame), passes_(passes) {}
 
-  Sight look(Vec3 origin, Vec3 direction) const override {
-    const Sight behind = face_->look(origin, direction);
+  RayHit look(Vec3 origin, Vec3 direction) const override {
+    const RayHit behind = face_->look(origin, direction);
     const Vec3 o = frame_.to_head(origin), d = frame_.turned(direction);
     const Met met = frame_.meet(o, d);
     if (met.distance_mm >= behind.distance_mm) return behind;
@@ -155,7 +155,7 @@ class GlassesScene final : public Scene {
       return {Vec3{0.030, 0.026, 0.024} * facing + frame_.mirrored(at, d, met.normal, 0.3), met.distance_mm,
               kRim, false};
     }
-    Sight out = behind;
+    RayHit out = behind;
     out.light =
         behind.light * passes_ + frame_.mirrored(at, d, met.normal, 2);  // front and back of the glass
     out.body = behind.body + kGlass;

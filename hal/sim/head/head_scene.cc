@@ -29,7 +29,7 @@ class HeadScene final : public Scene {
     }
   }
 
-  Sight look(Vec3 origin, Vec3 direction) const override {
+  RayHit look(Vec3 origin, Vec3 direction) const override {
     const Vec3 o = to_head(origin), d = head_from_world_ * direction;
     Hit hit;
     if (!head_->caster.cast(o, d, hit)) return {room_light(direction), RayCaster::kFar, -1, false};

@@ -123,9 +123,9 @@ LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < view.width_px; ++x) {
         const std::size_t i = index_of(view.width_px, x, y);
-        const Sight sight = scene.look(eye, view.ray(x, y));
-        store(out, i, sight.light);
-        cells[i] = {sight.body, static_cast<float>(sight.distance_mm), sight.fine};
+        const RayHit hit = scene.look(eye, view.ray(x, y));
+        store(out, i, hit.light);
+        cells[i] = {hit.body, static_cast<float>(hit.distance_mm), hit.fine};
       }
   });
   pool.for_each_band(view.height_px, kBands, [&](int begin, int end, int) {

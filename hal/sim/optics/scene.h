@@ -13,7 +13,7 @@
 
 namespace relievo::hal::sim {
 
-struct Sight {
+struct RayHit {
   Vec3 light;              // linear red, green, blue
   double distance_mm = 0;  // to what was met; RayCaster::kFar for the background
   std::int32_t body = -1;  // changes where the picture needs more samples
@@ -28,7 +28,7 @@ struct SolidPoint {
 class Scene {
  public:
   virtual ~Scene() = default;
-  virtual Sight look(Vec3 origin, Vec3 direction) const = 0;
+  virtual RayHit look(Vec3 origin, Vec3 direction) const = 0;
   virtual bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const = 0;
   virtual bool blocked(Vec3 from, Vec3 direction, double far_mm) const = 0;
   virtual Mesh solid_mesh() const = 0;  // in world, for head.ply

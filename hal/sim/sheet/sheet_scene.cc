@@ -67,7 +67,7 @@ class SheetScene final : public Scene {
     caster_.commit();
   }
 
-  Sight look(Vec3 origin, Vec3 direction) const override {
+  RayHit look(Vec3 origin, Vec3 direction) const override {
     Hit hit;
     if (!caster_.cast(origin, direction, hit)) return {room_light(direction), RayCaster::kFar, -1, false};
     const Vec3 at = origin + direction * hit.distance_mm;

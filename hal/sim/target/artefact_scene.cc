@@ -71,7 +71,7 @@ DumbbellScene::Part DumbbellScene::meet(Vec3 o, Vec3 d, double& distance, Vec3& 
   return part;
 }
 
-Sight DumbbellScene::look(Vec3 origin, Vec3 direction) const {
+RayHit DumbbellScene::look(Vec3 origin, Vec3 direction) const {
   const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
   double distance = 0;
   Vec3 normal;
@@ -135,7 +135,7 @@ bool PlateScene::meet(Vec3 o, Vec3 d, double& distance) const {
   return distance > 0 && std::abs(p.x) < plate_.width_mm / 2 && std::abs(p.y) < plate_.height_mm / 2;
 }
 
-Sight PlateScene::look(Vec3 origin, Vec3 direction) const {
+RayHit PlateScene::look(Vec3 origin, Vec3 direction) const {
   const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
   double distance = 0;
   if (!meet(o, d, distance)) return {dark_room(direction), RayCaster::kFar, kBackground, false};

@@ -40,7 +40,7 @@ struct FlatPlate {
 class DumbbellScene final : public Scene {
  public:
   DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose) : dumbbell_(dumbbell), pose_(pose) {}
-  Sight look(Vec3 origin, Vec3 direction) const override;
+  RayHit look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;  // skin: the spheres
   bool blocked(Vec3 from, Vec3 direction, double far_mm) const override;
   Mesh solid_mesh() const override;  // the spheres
@@ -56,7 +56,7 @@ class DumbbellScene final : public Scene {
 class PlateScene final : public Scene {
  public:
   PlateScene(const FlatPlate& plate, const ArtefactPose& pose) : plate_(plate), pose_(pose) {}
-  Sight look(Vec3 origin, Vec3 direction) const override;
+  RayHit look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
   bool blocked(Vec3, Vec3, double) const override { return false; }
   Mesh solid_mesh() const override;

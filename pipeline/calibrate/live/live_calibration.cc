@@ -62,7 +62,7 @@ Result<void> LiveCalibration::look(const ImageView& left, const ImageView& right
                  "pictures of another size than before: do not change the cameras' mode, or begin again"};
   const std::array<ImageView, 2> pictures{left, right};
   auto seen =
-      for_both<BoardSighting>(*pool_, [&](std::size_t eye) { return tracker_[eye].look(pictures[eye]); });
+      for_both<BoardDetection>(*pool_, [&](std::size_t eye) { return tracker_[eye].look(pictures[eye]); });
   for (const auto& one : seen)
     if (!one) return one.error();
   RELIEVO_TRY_ASSIGN(const bool wanted,

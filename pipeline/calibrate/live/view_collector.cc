@@ -74,9 +74,9 @@ ViewCollector::ViewCollector(ViewCollector&& other) noexcept = default;
 ViewCollector& ViewCollector::operator=(ViewCollector&& other) noexcept = default;
 ViewCollector::~ViewCollector() = default;
 
-Result<void> ViewCollector::check(const PairSighting& pair) const {
+Result<void> ViewCollector::check(const PairDetection& pair) const {
   const auto corners = static_cast<std::size_t>(input_.pattern.corners());
-  for (const BoardSighting& one : pair.seen)
+  for (const BoardDetection& one : pair.seen)
     if (!one.corners.empty() && one.corners.size() != corners)
       return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
           "pair " + std::to_string(state_.pairs + 1));
@@ -86,7 +86,7 @@ Result<void> ViewCollector::check(const PairSighting& pair) const {
   return {};
 }
 
-void ViewCollector::measure_motion(const PairSighting& pair) {
+void ViewCollector::measure_motion(const PairDetection& pair) {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const BoardCorners& now = pair.seen[eye].corners;
     const bool known = has_last_ && !now.empty() && !last_.seen[eye].corners.empty();
@@ -103,7 +103,7 @@ bool ViewCollector::is_new() const {
   return planner_->worth(state_.corners[0], state_.corners[1]) >= options_.least_worth * best_worth_;
 }
 
-PairVerdict ViewCollector::judge(const PairSighting& pair) const {
+PairVerdict ViewCollector::judge(const PairDetection& pair) const {
   const BoardCorners& left = pair.seen[0].corners;
   const BoardCorners& right = pair.seen[1].corners;
   if (phase_ == Phase::Done) return PairVerdict::Finished;
@@ -123,7 +123,7 @@ PairVerdict ViewCollector::judge(const PairSighting& pair) const {
   return PairVerdict::Taken;
 }
 
-Result<bool> ViewCollector::consider(PairSighting pair) {
+Result<bool> ViewCollector::consider(PairDetection pair) {
   RELIEVO_TRY(check(pair));
   ++state_.pairs;
   BoardCorners& left = pair.seen[0].corners;
@@ -131,7 +131,7 @@ Result<bool> ViewCollector::consider(PairSighting pair) {
   if (!left.empty() && !right.empty()) pair_order(left, right, input_.pattern);
   measure_motion(pair);
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const BoardSighting& one = pair.seen[eye];
+    const BoardDetection& one = pair.seen[eye];
     state_.corners[eye] = one.corners;
     state_.edge_px[eye] = one.edge_px;
     now_[eye] = one.corners.empty()

@@ -35,9 +35,9 @@
 
 namespace relievo::pipeline {
 
-struct PairSighting {
-  std::array<BoardSighting, 2> seen;  // left, right
-  std::chrono::nanoseconds at{0};     // since any beginning
+struct PairDetection {
+  std::array<BoardDetection, 2> seen;  // left, right
+  std::chrono::nanoseconds at{0};      // since any beginning
 };
 
 class ViewPlanner;
@@ -52,7 +52,7 @@ class ViewCollector {
   ViewCollector& operator=(ViewCollector&& other) noexcept;
   ~ViewCollector();
 
-  Result<bool> consider(PairSighting pair);
+  Result<bool> consider(PairDetection pair);
   // The wanted view with its precise corners.
   Result<void> take(BoardCorners left, BoardCorners right);
   // The wanted view turned out not to be whole at full size.
@@ -68,9 +68,9 @@ class ViewCollector {
   enum class Phase : std::uint8_t { Opening, Improving, Done, Swapped };
 
   ViewCollector(const BoardPattern& pattern, int width_px, int height_px, const LiveOptions& options);
-  Result<void> check(const PairSighting& pair) const;
-  void measure_motion(const PairSighting& pair);
-  PairVerdict judge(const PairSighting& pair) const;
+  Result<void> check(const PairDetection& pair) const;
+  void measure_motion(const PairDetection& pair);
+  PairVerdict judge(const PairDetection& pair) const;
   bool is_new() const;
   void recalculate();
   void aim();
@@ -83,7 +83,7 @@ class ViewCollector {
   CalibratorInput input_;
   LiveState state_;
   Phase phase_ = Phase::Opening;
-  PairSighting last_;  // the pair before
+  PairDetection last_;  // the pair before
   bool has_last_ = false;
   std::array<BoardParameters, 2> now_{};               // of the newest pair
   std::vector<std::array<BoardParameters, 2>> taken_;  // one a view

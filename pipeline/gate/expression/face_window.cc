@@ -23,7 +23,7 @@ struct Plane {
   bool known = false;
 };
 
-Plane fit_plane(const Relief& relief, const HeadSight& head, const WindowBox& box) {
+Plane fit_plane(const Relief& relief, const HeadMeasurement& head, const WindowBox& box) {
   Plane plane;
   const double step = std::max(2.0, head.tip_mm.z / relief.focal_px);
   for (int round = 0; round < 3; ++round) {
@@ -100,7 +100,7 @@ class Lattice {
 
  private:
   static Vec2d pixel(const FacePhoto& photo, const Plane& plane, double right, double down) {
-    const HeadSight& h = photo.head;
+    const HeadMeasurement& h = photo.head;
     const double behind = plane.level + plane.across * right + plane.slope * down;
     const Vec3d p{h.tip_mm.x + right * h.right.x + down * h.down.x + behind * h.away.x,
                   h.tip_mm.y + right * h.right.y + down * h.down.y + behind * h.away.y,

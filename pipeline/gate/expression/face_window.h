@@ -5,14 +5,14 @@
 // skin: what is measured in it is metric, however far away and however turned the person stands. Taken from
 // the left picture at full size (or the mean of as many pixels as a sample covers), through a plane laid into
 // the part of the face that the relief knows. Luminance: mean of the channels, 0 .. 255. Axes: right and
-// down, millimetres from the tip of the nose along those of HeadSight. Memory: context's scratch. Thread:
-// worker. Errors: none; empty() where the relief or the picture ends.
+// down, millimetres from the tip of the nose along those of HeadMeasurement. Memory: context's scratch.
+// Thread: worker. Errors: none; empty() where the relief or the picture ends.
 #pragma once
 
 #include <memory_resource>
 #include <vector>
 
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
 
@@ -44,7 +44,7 @@ struct FacePhoto {
   const StereoFrame& frame;
   const StereoCalibration& calibration;  // of the frame's size
   const Relief& relief;
-  const HeadSight& head;
+  const HeadMeasurement& head;
 };
 
 FaceWindow cut_window(const FacePhoto& photo, const WindowBox& box, StageContext& context);

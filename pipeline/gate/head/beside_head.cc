@@ -58,7 +58,7 @@ std::array<bool, kSurfaces> own_surfaces(const Relief& relief, const Vec3d& tip)
 
 }  // namespace
 
-double beside_share(const Relief& relief, const HeadSight& head) {
+double beside_share(const Relief& relief, const HeadMeasurement& head) {
   if (!head.known || relief.surface.empty()) return 0;
   const Vec3d& tip = head.tip_mm;
   const std::array<bool, kSurfaces> own = own_surfaces(relief, tip);

@@ -7,7 +7,7 @@
 // Frame: that of the relief, millimetres. Memory: none. Thread: any. Errors: none.
 #pragma once
 
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 
 namespace relievo::pipeline {
 
@@ -15,7 +15,7 @@ namespace relievo::pipeline {
 // the nose, the share of the fuller one that something stands in, from kBesideBeforeMm before the tip to
 // kBesideBehindMm behind it. Surfaces that reach into the head are its own (hair, a hat, its back when it is
 // turned), up to three fifths of the field: a bag held against the head grows into one surface with it.
-double beside_share(const Relief& relief, const HeadSight& head);
+double beside_share(const Relief& relief, const HeadMeasurement& head);
 
 inline constexpr double kBesideInnerMm = 110, kBesideOuterMm = 180, kBesideBeforeMm = 120,
                         kBesideBehindMm = 150;

@@ -6,7 +6,7 @@
 // pixels. Memory: none. Thread: any. Errors: none.
 #pragma once
 
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 
 namespace relievo::pipeline {
 

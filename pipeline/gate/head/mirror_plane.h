@@ -20,7 +20,7 @@ HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm);
 
 struct MirrorPlane {
   double yaw_deg = 0, roll_deg = 0,
-         offset_mm = 0;  // signs: head_sight.h; offset along the normal, from the tip
+         offset_mm = 0;  // signs: head_measurement.h; offset along the normal, from the tip
   double rms_mm = 0;     // of the points against the relief behind their mirror images
   double price = 0;      // the same, more for a head that leans: of two planes the cheaper one is the head's
 };

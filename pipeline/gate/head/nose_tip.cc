@@ -63,7 +63,7 @@ struct NosePoint {
 
 struct HeldAxes {
   Vec3d right, down, out;
-  explicit HeldAxes(const HeadSight& head) : right(head.right) {
+  explicit HeldAxes(const HeadMeasurement& head) : right(head.right) {
     const double pitch = head.pitch_deg * std::numbers::pi / 180;
     down = along(times(head.down, std::cos(pitch)), std::sin(pitch), head.away);
     out = along(times(head.away, -std::cos(pitch)), std::sin(pitch), head.down);
@@ -209,8 +209,8 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
   return true;
 }
 
-bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadSight& head, StageContext& context,
-                    Vec3d& tip) {
+bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadMeasurement& head,
+                    StageContext& context, Vec3d& tip) {
   Arena::Mark mark(context.scratch);
   const HeldAxes axes(head);
   std::pmr::vector<NosePoint> points = points_about(relief, head.tip_mm, axes, context);

@@ -9,7 +9,7 @@
 // Thread: any; deterministic. Errors: none, false where too little is known.
 #pragma once
 
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 
 namespace relievo::pipeline {
 
@@ -18,8 +18,8 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
 
 // Asks of `head` the axes, the pitch and a tip that may be wrong; the new one lies on the surface within
 // kNoseAsideMm of its mirror plane.
-bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadSight& head, StageContext& context,
-                    Vec3d& tip);
+bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadMeasurement& head,
+                    StageContext& context, Vec3d& tip);
 
 inline constexpr double kNoseAsideMm = 14;
 

@@ -181,7 +181,7 @@ double blur_of(const Grid& grid, StageContext& context) {
 }  // namespace
 
 double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief,
-                       const HeadSight& head, StageContext& context) {
+                       const HeadMeasurement& head, StageContext& context) {
   if (!head.known || frame.left.empty() || frame.right.empty()) return 0;
   Arena::Mark mark(context.scratch);
   // The middle between nose and eyes.

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "pipeline/base/stage.h"
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
 
@@ -18,7 +18,7 @@ namespace relievo::pipeline {
 // the more blurred camera, in the pictures at full size: lens, focus, fog, motion, and the pixels themselves.
 // At most kMostBlurMm, which is also said where no edge is left.
 double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief,
-                       const HeadSight& head, StageContext& context);
+                       const HeadMeasurement& head, StageContext& context);
 
 inline constexpr double kMostBlurMm = 6;
 

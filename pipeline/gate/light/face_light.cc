@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180,
 constexpr double kMostTurnDeg = 20;
 constexpr int kGlossStep = 55;  // levels above the median of the face
 
-Histogram zone(const Relief& relief, const HeadSight& head, double side) {
+Histogram zone(const Relief& relief, const HeadMeasurement& head, double side) {
   Histogram counts{};
   const double step = std::max(0.8, head.tip_mm.z / relief.focal_px);
   for (double right = kPupilMm; right < kPupilMm + kZoneMm; right += step)
@@ -61,7 +61,7 @@ int median_of(const Histogram& counts, int all) {
 
 }  // namespace
 
-FaceLight measure_light(const Relief& relief, const HeadSight& head) {
+FaceLight measure_light(const Relief& relief, const HeadMeasurement& head) {
   FaceLight light;
   if (!head.known) return light;
   Histogram counts{};

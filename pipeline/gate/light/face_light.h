@@ -7,7 +7,7 @@
 // and nothing stands before. Memory: none of its own. Thread: any. Errors: none.
 #pragma once
 
-#include "pipeline/gate/head/head_sight.h"
+#include "pipeline/gate/head/head_measurement.h"
 
 namespace relievo::pipeline {
 
@@ -24,6 +24,6 @@ struct FaceLight {
   double glossy_share = 0;  // much brighter than the skin about it
 };
 
-FaceLight measure_light(const Relief& relief, const HeadSight& head);
+FaceLight measure_light(const Relief& relief, const HeadMeasurement& head);
 
 }  // namespace relievo::pipeline

@@ -9,13 +9,13 @@
 #include <span>
 
 #include "pipeline/mesh/lattice/cell_filler.h"
-#include "pipeline/mesh/sight_edge.h"
+#include "pipeline/mesh/view_edge.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::edge_between, mesh::SightEdge;
+using mesh::edge_between, mesh::ViewEdge;
 
 struct Cell {
   int c, r;
@@ -104,7 +104,7 @@ class GapCloser {
       if (!from) continue;
       const std::optional<Cell> to = rim(at, way);
       if (!to) continue;
-      const SightEdge edge = edge_between(middle(*from), middle(*to));
+      const ViewEdge edge = edge_between(middle(*from), middle(*to));
       const float cells = static_cast<float>(std::max(std::abs(to->c - from->c), std::abs(to->r - from->r)));
       const float width = std::hypot(edge.depth_mm, edge.across_mm) * (cells - 1) / cells;
       if (width > narrowest) continue;
@@ -153,7 +153,7 @@ class GapCloser {
                            static_cast<int>(k) / lattice_.columns + 1);
   }
 
-  bool continues_both(const SightEdge& edge, float width, float before, float after) const {
+  bool continues_both(const ViewEdge& edge, float width, float before, float after) const {
     const float most = std::max(before, after) * edge.across_mm;
     const float least = std::min(before, after) * edge.across_mm;
     const float allowed = limits_.min_step_mm + limits_.max_bend * width;
@@ -180,7 +180,7 @@ class GapCloser {
       if (!lattice_.inside(next.c, next.r) || !whole_[lattice_.index(next.c, next.r)]) break;
       back = next;
     }
-    const SightEdge edge =
+    const ViewEdge edge =
         back.c == rim.c && back.r == rim.r ? across_cell(rim, way) : edge_between(middle(rim), middle(back));
     return edge.depth_mm / edge.across_mm;
   }
@@ -191,7 +191,7 @@ class GapCloser {
     return times(plus(plus(p[0], p[1]), plus(q[0], q[1])), 0.25F);
   }
 
-  SightEdge across_cell(Cell at, Cell way) const {
+  ViewEdge across_cell(Cell at, Cell way) const {
     const Vec3f* p = &lattice_.at_mm[lattice_.index(at.c, at.r)];
     const Vec3f* q = p + lattice_.columns;
     const Vec3f right = times(minus(plus(p[1], q[1]), plus(p[0], q[0])), static_cast<float>(way.c) / 2);

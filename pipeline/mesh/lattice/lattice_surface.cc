@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/sight_edge.h"
+#include "pipeline/mesh/view_edge.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using mesh::edge_between, mesh::SightEdge;
+using mesh::edge_between, mesh::ViewEdge;
 
 // Tests whether two neighbours continue one surface. A depth step is not known by its size alone: the
 // flank of a nose is as steep as a small step. It is known by leaving the slope found on both sides.
@@ -23,7 +23,7 @@ class EdgeTest {
     const std::size_t a = lattice_.index(column, row);
     const std::size_t b = lattice_.index(column + dx, row + dy);
     if (lattice_.node[a] == Node::Empty || lattice_.node[b] == Node::Empty) return false;
-    const SightEdge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
+    const ViewEdge edge = edge_between(lattice_.at_mm[a], lattice_.at_mm[b]);
     const float noise = limits_.step_sigmas * std::sqrt(lattice_.sigma_mm[a] * lattice_.sigma_mm[a] +
                                                         lattice_.sigma_mm[b] * lattice_.sigma_mm[b]);
     const float depth = std::abs(edge.depth_mm);
@@ -46,7 +46,7 @@ class EdgeTest {
     if (!lattice_.inside(c, r)) return 0;
     const std::size_t n = lattice_.index(c, r);
     if (lattice_.node[n] == Node::Empty) return 0;
-    const SightEdge edge = edge_between(lattice_.at_mm[k], lattice_.at_mm[n]);
+    const ViewEdge edge = edge_between(lattice_.at_mm[k], lattice_.at_mm[n]);
     const float slope = std::abs(edge.depth_mm) / edge.across_mm;
     return slope > limits_.max_slope ? 0 : slope;  // beyond the limit it is another surface
   }

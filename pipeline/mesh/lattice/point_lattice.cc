@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/sight_edge.h"
+#include "pipeline/mesh/view_edge.h"
 
 namespace relievo::pipeline {
 namespace {

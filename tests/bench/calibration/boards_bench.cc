@@ -172,13 +172,14 @@ struct Contender {
   Score score;
 };
 
-struct Wish {
+struct RunOptions {
   int boards = 12;
   bool peers = true, classic = false;
   std::string only;
 };
 
-void run(const Condition& condition, sim::BoardKind kind, bool cut_off, const Wish& wish, ThreadPool& pool) {
+void run(const Condition& condition, sim::BoardKind kind, bool cut_off, const RunOptions& options,
+         ThreadPool& pool) {
   std::vector<Contender> contenders;
   contenders.push_back({"ours",
                         [](const ImageView& picture, const pipeline::BoardPattern& pattern) {
@@ -187,10 +188,10 @@ void run(const Condition& condition, sim::BoardKind kind, bool cut_off, const Wi
                         },
                         {}});
   const bool chessboard = kind == sim::BoardKind::Chessboard;
-  if (wish.peers && chessboard) contenders.push_back({"OpenCV sector-based", sector_based_board, {}});
-  if (wish.classic && chessboard) contenders.push_back({"OpenCV classic", classic_board, {}});
-  if (wish.peers && !chessboard) contenders.push_back({"OpenCV aruco", aruco_board, {}});
-  for (int i = 0; i < wish.boards; ++i) {
+  if (options.peers && chessboard) contenders.push_back({"OpenCV sector-based", sector_based_board, {}});
+  if (options.classic && chessboard) contenders.push_back({"OpenCV classic", classic_board, {}});
+  if (options.peers && !chessboard) contenders.push_back({"OpenCV aruco", aruco_board, {}});
+  for (int i = 0; i < options.boards; ++i) {
     const Photograph shot = photograph(condition, kind, cut_off, static_cast<std::uint32_t>(i + 1), pool);
     pipeline::BoardPattern pattern{shot.pattern.corners_x, shot.pattern.corners_y, shot.pattern.square_mm};
     if (kind == sim::BoardKind::Charuco) pattern.kind = pipeline::BoardKind::Charuco;
@@ -243,26 +244,27 @@ std::vector<Condition> conditions() {
 int main(int argc, char** argv) {
   namespace bench = relievo::bench;
   using relievo::hal::sim::BoardKind;
-  bench::Wish wish;
+  bench::RunOptions options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (const int number = std::atoi(argv[i]); number > 0 && word.find('x') == std::string::npos)
-      wish.boards = number;
-    else if (word == "ours") wish.peers = false;
-    else if (word == "classic") wish.classic = true;
-    else wish.only = word;
+      options.boards = number;
+    else if (word == "ours") options.peers = false;
+    else if (word == "classic") options.classic = true;
+    else options.only = word;
   }
   relievo::ThreadPool pool(2);
-  const auto wanted = [&wish](const char* kind, const char* name) {
-    return (std::string(kind) + " " + name).find(wish.only) != std::string::npos;
+  const auto wanted = [&options](const char* kind, const char* name) {
+    return (std::string(kind) + " " + name).find(options.only) != std::string::npos;
   };
   for (const auto& condition : bench::conditions()) {
-    if (wanted("chessboard", condition.name)) bench::run(condition, BoardKind::Chessboard, false, wish, pool);
+    if (wanted("chessboard", condition.name))
+      bench::run(condition, BoardKind::Chessboard, false, options, pool);
   }
   for (const auto& condition : bench::conditions()) {
     if (!wanted("charuco", condition.name)) continue;
-    bench::run(condition, BoardKind::Charuco, false, wish, pool);
-    bench::run(condition, BoardKind::Charuco, true, wish, pool);
+    bench::run(condition, BoardKind::Charuco, false, options, pool);
+    bench::run(condition, BoardKind::Charuco, true, options, pool);
   }
   return 0;
 }

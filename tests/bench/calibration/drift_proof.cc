@@ -25,7 +25,7 @@
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 namespace {
@@ -202,8 +202,8 @@ class Proof {
   }
 
   double scale_;
-  test::StageBench bench_{std::size_t{640} << 20, std::size_t{768} << 20,
-                          static_cast<int>(std::thread::hardware_concurrency())};
+  test::StageFixture bench_{std::size_t{640} << 20, std::size_t{768} << 20,
+                            static_cast<int>(std::thread::hardware_concurrency())};
   std::mt19937 random_{7};
   std::uint32_t who_ = 0;
   std::vector<double> promises_, sigmas_;

@@ -8,7 +8,7 @@
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/pipeline.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 namespace {
@@ -59,7 +59,7 @@ Result<ChainRecord> record_chain(const ChainPictures& pictures, int threads) {
   RELIEVO_TRY_ASSIGN(const hal::Picture right, hal::read_picture(pictures.right));
   RELIEVO_TRY_ASSIGN(const StereoCalibration calibration, read_calibration(pictures.calibration));
   RELIEVO_TRY_ASSIGN(const Pipeline stages, Pipeline::make({}, calibration));
-  test::StageBench room(std::size_t{256} << 20, std::size_t{512} << 20, threads);
+  test::StageFixture room(std::size_t{256} << 20, std::size_t{512} << 20, threads);
   ChainRecord record;
   const auto stage = [&room](auto call) {
     auto product = call(room.context);

@@ -16,7 +16,7 @@
 
 #include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/head_field.h"
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 
 namespace relievo::bench {
 namespace {
@@ -88,7 +88,7 @@ void find_glasses(Kind kind, std::uint32_t seed, Posed& posed, Random& random) {
 
 struct Proof {
   test::Album album;
-  test::GateBench gate;
+  test::GateFixture gate;
 
   pipeline::GateAnswer look(const Posed& posed, std::uint32_t seed, Random& random) {
     const test::Shot& shot = album.shoot(seed, posed.pose, test::Extra::None, posed.guise);
@@ -105,7 +105,7 @@ void print_measures(std::FILE* file, std::uint32_t seed, Kind kind, int place,
   std::fprintf(file, "%u,\"%s\",%d,%d,%.1f,%.1f,%.1f,%.3f", seed, kNames[static_cast<std::size_t>(kind)],
                place, static_cast<int>(answer.reason), m.head.yaw_deg, m.head.pitch_deg, m.head.roll_deg,
                m.light.side_ratio);
-  for (const pipeline::EyeSight& e : m.eyes)
+  for (const pipeline::EyeMeasurement& e : m.eyes)
     std::fprintf(file, ",%.3f,%.2f,%.2f,%.1f,%.1f,%.1f", e.contrast, e.brightness, e.iris, e.glare_mm2,
                  e.right_mm, e.down_mm);
   std::fprintf(file, ",%.1f,%.2f,%.2f,%.2f,%.1f,%.1f\n", m.mouth.dark_mm2, m.mouth.steps_mm,
@@ -134,7 +134,7 @@ int run(int argc, char** argv) {
   }
   const int people = std::max(1, std::atoi(argv[1])), cases = std::max(1, std::atoi(argv[2]));
   const auto first = static_cast<std::uint32_t>(argc > 3 ? std::atoi(argv[3]) : 71);
-  Proof proof{test::Album(argc > 4 ? argv[4] : ""), test::GateBench()};
+  Proof proof{test::Album(argc > 4 ? argv[4] : ""), test::GateFixture()};
   std::FILE* measures = argc > 5 ? std::fopen(argv[5], "w") : nullptr;
   if (argc > 5 && measures == nullptr) {
     std::fprintf(stderr, "expression_proof: the file for the measures cannot be written\n");

@@ -9,7 +9,7 @@
 #include <array>
 
 #include "hal/sim/base/noise.h"
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 
 namespace relievo::bench {
 
@@ -54,7 +54,7 @@ class GateTrial {
 
  private:
   test::Album album_;
-  test::GateBench gate_;
+  test::GateFixture gate_;
 };
 
 }  // namespace relievo::bench

@@ -25,7 +25,7 @@
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 namespace {
@@ -51,7 +51,7 @@ double first_met(const hal::sim::HeadField& field, const RigidTransform& sim_fro
   return 10;
 }
 
-bool learn(std::uint32_t seed, relievo::test::StageBench& room, const Globe& globe,
+bool learn(std::uint32_t seed, relievo::test::StageFixture& room, const Globe& globe,
            Eigen::Ref<Eigen::RowVectorXd> radii) {
   const pipeline::test::FieldHead head(seed);
   room.output.reset();
@@ -111,7 +111,7 @@ void write_part(const Eigen::RowVectorXd& mean, const Eigen::MatrixXd& modes, co
 }
 
 int run() {
-  relievo::test::StageBench room;
+  relievo::test::StageFixture room;
   const Globe globe(kGlobeTimes, std::pmr::get_default_resource());
   Eigen::MatrixXd people(kHeadPeople + kKeptApart, kCells + kGlobeNodes);
   int count = 0;

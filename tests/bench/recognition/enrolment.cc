@@ -7,7 +7,7 @@
 
 namespace relievo::bench {
 
-Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageBench& room) {
+Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageFixture& room) {
   const std::filesystem::path file = folder / "mesh.bin";
   room.output.reset();
   if (std::filesystem::exists(file)) return read_surface(file, &room.output);
@@ -17,7 +17,7 @@ Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageB
   return surface;
 }
 
-Result<pipeline::ComparableFace> enrol(const std::filesystem::path& folder, test::StageBench& room) {
+Result<pipeline::ComparableFace> enrol(const std::filesystem::path& folder, test::StageFixture& room) {
   RELIEVO_TRY_ASSIGN(const SeenSurface surface, surface_of(folder, room));
   const auto frame = pipeline::run_stage(room.context, [&](pipeline::StageContext& c) {
     return find_head_frame(surface.mesh, c, surface.across);

@@ -9,13 +9,13 @@
 
 #include "tests/bench/recognition/mesh_file.h"
 #include "tests/support/recognition/face_comparison.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 
 // The surface alone, in the room's output.
-Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageBench& room);
+Result<SeenSurface> surface_of(const std::filesystem::path& folder, test::StageFixture& room);
 
-Result<pipeline::ComparableFace> enrol(const std::filesystem::path& folder, test::StageBench& room);
+Result<pipeline::ComparableFace> enrol(const std::filesystem::path& folder, test::StageFixture& room);
 
 }  // namespace relievo::bench

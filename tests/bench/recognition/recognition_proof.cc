@@ -119,7 +119,7 @@ class Run {
   }
 
   const Asked& asked_;
-  test::StageBench room_;
+  test::StageFixture room_;
   Photographer photographer_;
   Faces faces_;
 };

@@ -109,7 +109,7 @@ class Proof {
   int count_;
   std::filesystem::path folder_;
   std::ofstream lines_;
-  test::StageBench room_;
+  test::StageFixture room_;
   Tally tally_;
   bool holds_ = true;
 };

@@ -11,7 +11,7 @@ namespace {
 using namespace pipeline;  // NOLINT: a bench of the pipeline
 
 Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pictures,
-                         test::StageBench& room, Verdict& verdict) {
+                         test::StageFixture& room, Verdict& verdict) {
   const StereoFrame frame{pictures.left.view(), pictures.right.view(), 0, 0};
   RELIEVO_TRY_ASSIGN(auto pair, stages.rectify(frame, room.context));
   RELIEVO_TRY_ASSIGN(const auto matches, stages.match(pair, room.context));
@@ -32,7 +32,7 @@ hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool) {
   return render_pair(*trial.scene, make_rig(trial.rig), trial.sensor, trial.noise_seed, pool);
 }
 
-Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageBench& room) {
+Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageFixture& room) {
   room.output.reset();
   Verdict verdict;
   const auto stages = Pipeline::make({}, test::true_calibration(make_rig(trial.rig)));

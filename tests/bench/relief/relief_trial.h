@@ -11,7 +11,7 @@
 #include "hal/sim/render.h"
 #include "pipeline/relief/relief_check.h"
 #include "tests/bench/relief/relief_scenes.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 
@@ -23,6 +23,6 @@ struct Verdict {
 };
 
 hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool);
-Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageBench& room);
+Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageFixture& room);
 
 }  // namespace relievo::bench

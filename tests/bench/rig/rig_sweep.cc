@@ -70,8 +70,8 @@ bool run(const Asked& asked, const std::filesystem::path& csv) {
   }
   std::ofstream out(csv, std::ios::app);
   if (written.empty()) out << csv_header();
-  test::StageBench room(std::size_t{640} << 20, std::size_t{1024} << 20,
-                        static_cast<int>(std::thread::hardware_concurrency()));
+  test::StageFixture room(std::size_t{640} << 20, std::size_t{1024} << 20,
+                          static_cast<int>(std::thread::hardware_concurrency()));
   std::map<std::uint32_t, Person> persons;
   for (Row row : plan(asked.persons)) {
     const std::string key = key_of(row, asked.scale);

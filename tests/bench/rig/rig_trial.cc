@@ -102,7 +102,7 @@ Surface measured_surface(const pipeline::FaceMesh& mesh) {
 }
 
 Result<Surface> reconstruct(const sim::PicturePair& pictures, const sim::SimRig& rig, const RigUnderTest& r,
-                            test::StageBench& room) {
+                            test::StageFixture& room) {
   room.output.reset();
   // The volume follows the distance: nose to ear, and how people stand.
   const pipeline::RectifierOptions volume{r.distance_mm - 160, r.distance_mm + 190, 8192};
@@ -180,7 +180,7 @@ TrialResult look_at(const RigUnderTest& r, const Person& person, const Stand& st
 }
 
 TrialResult run_trial(const RigUnderTest& r, const Person& person, const Stand& stand, std::uint32_t seed,
-                      double scale, test::StageBench& room) {
+                      double scale, test::StageFixture& room) {
   const Setting setting(r, stand, seed, scale);
   const auto scene = sim::make_head_scene(person.head, setting.pose, room.pool);
   const auto model =

@@ -17,7 +17,7 @@
 #include "hal/base/thread_pool.h"
 #include "hal/sim/head/head_scene.h"
 #include "hal/sim/optics/rig.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::bench {
 
@@ -63,6 +63,6 @@ Person make_person(std::uint32_t seed, ThreadPool& pool);
 TrialResult look_at(const RigUnderTest& rig, const Person& person, const Stand& stand, std::uint32_t seed);
 
 TrialResult run_trial(const RigUnderTest& rig, const Person& person, const Stand& stand, std::uint32_t seed,
-                      double scale, test::StageBench& room);
+                      double scale, test::StageFixture& room);
 
 }  // namespace relievo::bench

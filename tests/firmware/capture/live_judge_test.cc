@@ -97,9 +97,9 @@ TEST(LiveJudge, GoesByAnotherCalibrationFromThenOn) {
   const ImageView picture{grey.data(), 1920, 1200, 1920, PixelFormat::Grey8};
   pipeline::Workspace work(1, std::size_t{16} << 20, std::size_t{64} << 20);
   const auto ideal_width = [&] {
-    const auto sight = judge->look({picture, picture, 0, 0}, {}, work.context);
-    EXPECT_TRUE(sight);
-    return sight ? sight->guidance.ideal_width : 0;
+    const auto measured = judge->look({picture, picture, 0, 0}, {}, work.context);
+    EXPECT_TRUE(measured);
+    return measured ? measured->guidance.ideal_width : 0;
   };
   const double before = ideal_width();
   for (auto* camera : {&calibration.left, &calibration.right}) camera->focal_px = {2000, 2000};

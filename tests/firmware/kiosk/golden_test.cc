@@ -48,7 +48,7 @@ constexpr Golden kGoldens[] = {
     {"known_code", German, 1280, 800, 2, false},     {"position_aside", Arabic, 1280, 800, 0, false},
     {"working", English, 1080, 1920, 0, false},      {"thanks", Arabic, 1080, 1920, 2, false},
     {"trouble_camera", German, 1280, 800, 0, false}, {"staff_records", Arabic, 1280, 800, 0, false},
-    {"staff_erase", German, 1280, 800, 0, false},    {"bench_option", German, 1280, 800, 0, false},
+    {"staff_erase", German, 1280, 800, 0, false},    {"technician_option", German, 1280, 800, 0, false},
 };
 
 std::string name_of(const Golden& golden) {

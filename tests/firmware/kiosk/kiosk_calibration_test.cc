@@ -36,12 +36,12 @@ class KioskCalibrationTest : public StaffHands {
   void open_again() {
     ASSERT_TRUE(until([this] {
       return (kiosk->appliance().state() == State::Idle || kiosk->appliance().state() == State::Staff) &&
-             !kiosk->desk().errands().busy(JobPlace::Keeper);
+             !kiosk->staff().side_tasks().busy(JobLane::Keeper);
     }));
     kiosk.reset();
     open();
   }
-  const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
+  const ui::TechnicianView& technician() const { return *kiosk->view().service->technician; }
 
   void visitors_are_told() {
     ASSERT_TRUE(reach(ui::Step::Trouble));
@@ -49,7 +49,7 @@ class KioskCalibrationTest : public StaffHands {
     EXPECT_EQ(find("finish"), nullptr) << "nobody passes by";
     EXPECT_EQ(find("start"), nullptr);
   }
-  void the_bench_says_what_comes_first() {
+  void the_technician_pages_say_what_comes_first() {
     for (const char* page : {"open stages", "open model", "open tables", "open compare"}) {
       tap(page);
       EXPECT_TRUE(says("not calibrated yet")) << page;
@@ -68,17 +68,20 @@ class KioskCalibrationTest : public StaffHands {
   void calibrate() {
     tap("calibration begin");
     ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Calibrate; }));
-    ASSERT_TRUE(until([this] { return bench().calibration.views >= 8 || !bench().calibration.running; }))
-        << bench().calibration.problem.detail;
-    if (bench().calibration.running) tap("calibration finish");
-    ASSERT_TRUE(until([this] { return bench().calibration.ended || !bench().calibration.problem.empty(); }));
-    ASSERT_EQ(bench().calibration.problem.detail, "");
-    ASSERT_NE(bench().calibration.verdict, ui::BenchVerdict::Refuse) << bench().calibration.problem.detail;
+    ASSERT_TRUE(until([this] {
+      return technician().calibration.views >= 8 || !technician().calibration.running;
+    })) << technician().calibration.problem.detail;
+    if (technician().calibration.running) tap("calibration finish");
+    ASSERT_TRUE(until(
+        [this] { return technician().calibration.ended || !technician().calibration.problem.empty(); }));
+    ASSERT_EQ(technician().calibration.problem.detail, "");
+    ASSERT_NE(technician().calibration.verdict, ui::TechnicianVerdict::Refuse)
+        << technician().calibration.problem.detail;
     EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
     tap("calibration store");
-    ASSERT_TRUE(until([this] { return bench().calibration.history_count == 1; }))
-        << bench().calibration.problem.detail;
-    EXPECT_TRUE(bench().calibrated);
+    ASSERT_TRUE(until([this] { return technician().calibration.history_count == 1; }))
+        << technician().calibration.problem.detail;
+    EXPECT_TRUE(technician().calibrated);
   }
 };
 
@@ -87,7 +90,7 @@ TEST_F(KioskCalibrationTest, WithoutACalibrationItStartsIsCalibratedAtItsScreenA
   visitors_are_told();
   first_start();
   sign_in("4711", StaffRole::Technician);
-  the_bench_says_what_comes_first();
+  the_technician_pages_say_what_comes_first();
   calibrate();
   sign_out();
   ASSERT_TRUE(reach(ui::Step::Attract)) << "without a restart";
@@ -146,7 +149,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open calibrate");
-  ASSERT_TRUE(until([this] { return bench().calibration.history_count == 2; }));
+  ASSERT_TRUE(until([this] { return technician().calibration.history_count == 2; }));
   kiosk->ui().visit().language = ui::Language::German;
   kiosk->turn();
   EXPECT_TRUE(says("Die Kameras müssen kalibriert werden"))
@@ -154,9 +157,9 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   EXPECT_TRUE(says("1.5")) << "with its figures";
   kiosk->ui().visit().language = ui::Language::English;
   kiosk->turn();
-  tap(bench().calibration.history[0].active ? "calibration 1" : "calibration 0");
+  tap(technician().calibration.history[0].active ? "calibration 1" : "calibration 0");
   ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; }))
-      << bench().calibration.problem.detail;
+      << technician().calibration.problem.detail;
   sign_out();
   open_again();
   ASSERT_TRUE(reach(ui::Step::Attract)) << "a calibration that was chosen ends it for good";

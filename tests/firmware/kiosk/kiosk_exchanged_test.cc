@@ -75,13 +75,13 @@ TEST_F(KioskExchangedTest, AtTheStartItIsToldAndTheCalibrationOfThatCameraServes
   tap("open calibrate");
   for (const char* words : {"the right camera", "serial", "R1", "R2", "calibrate again"})
     EXPECT_TRUE(says(words)) << words;
-  const auto& bench = [this]() -> const ui::BenchCalibration& {
-    return kiosk->view().service->bench->calibration;
+  const auto& technician = [this]() -> const ui::TechnicianCalibration& {
+    return kiosk->view().service->technician->calibration;
   };
-  ASSERT_TRUE(until([&] { return bench().history_count == 2; }));
-  tap(bench().history[0].active ? "calibration 1" : "calibration 0");
+  ASSERT_TRUE(until([&] { return technician().history_count == 2; }));
+  tap(technician().history[0].active ? "calibration 1" : "calibration 0");
   ASSERT_TRUE(until([this] { return kiosk->view().out_of_order == ui::Trouble::None; }))
-      << bench().problem.detail;
+      << technician().problem.detail;
   EXPECT_FALSE(says("R2"));
   sign_out();
   EXPECT_TRUE(reach(ui::Step::Attract));

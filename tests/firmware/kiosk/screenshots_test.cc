@@ -30,7 +30,7 @@ class ScreenshotsTest : public testing::Test {
     EXPECT_TRUE(ui::prepare_languages().has_value());
     args.store = folder.path() / "store";
     args.screenshots = folder.path() / "pictures";
-    args.write_showpiece = true;
+    args.write_invitation_head = true;
     std::filesystem::create_directories(args.store);
     std::filesystem::create_directories(args.screenshots);
     services.open_device = [](std::string_view) {
@@ -60,7 +60,7 @@ TEST_F(ScreenshotsTest, ARunThatEndedInTheMiddleDoesNotEndTheNextOne) {
   std::ofstream(args.store / "relievo.running").put('\n');  // as of one that was killed
   const Result<void> taken = take();
   ASSERT_TRUE(taken.has_value()) << taken.error().what.view();
-  EXPECT_GT(std::filesystem::file_size(args.screenshots / "showpiece.face"), 10'000U);
+  EXPECT_GT(std::filesystem::file_size(args.screenshots / "invitation_head.face"), 10'000U);
   EXPECT_FALSE(std::filesystem::exists(args.store / "relievo.running"));
 }
 

@@ -19,7 +19,7 @@ TEST(Script, EveryWordIsRead) {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "visit.script";
   std::ofstream(file)
-      << "# a remark\n\nwait Review 12.5\r\n  tap key A\nhold door 2\ndrag face -40 8\ntype Ada Lovelace  \npause 0.5\nscreenshot end\nplug /media/a stick\nunplug\n";
+      << "# a remark\n\nwait Review 12.5\r\n  tap key A\nhold staff 3\ndrag face -40 8\ntype Ada Lovelace  \npause 0.5\nscreenshot end\nplug /media/a stick\nunplug\n";
   const auto script = read_script(file);
   ASSERT_TRUE(script.has_value()) << script.error().where();
   const Kind kinds[] = {Kind::Wait,  Kind::Tap,        Kind::Hold, Kind::Drag,  Kind::Type,
@@ -36,7 +36,7 @@ TEST(Script, EveryWordIsRead) {
 
 TEST(Script, WrongWordsAreToldWithTheirLine) {
   for (const char* bad :
-       {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold door", "drag face 1", "type",
+       {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold staff", "drag face 1", "type",
         "pause nan", "pause 1 2", "screenshot ../x", "screenshot .hidden", "plug", "unplug now"}) {
     const auto read = read_script_line(bad, "a:1");
     ASSERT_FALSE(read.has_value()) << bad;

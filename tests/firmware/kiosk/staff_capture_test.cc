@@ -23,7 +23,7 @@ class StaffCaptureTest : public StaffHands, public testing::WithParamInterface<b
     }
     sign_in("4711", StaffRole::Technician);
   }
-  const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
+  const ui::TechnicianView& technician() const { return *kiosk->view().service->technician; }
   // Are both views of the capture still those that were taken: grey all over?
   bool stands() const {
     const auto& frame = kiosk->appliance().session().products().frame;
@@ -42,9 +42,11 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   enter();
   tap("open stages");
   tap("capture");
-  ASSERT_TRUE(until(
-      [this] { return bench().phase == ui::BenchPhase::Ready || bench().phase == ui::BenchPhase::Failed; }));
-  ASSERT_TRUE(stands()) << bench().problem.detail;
+  ASSERT_TRUE(until([this] {
+    return technician().phase == ui::TechnicianPhase::Ready ||
+           technician().phase == ui::TechnicianPhase::Failed;
+  }));
+  ASSERT_TRUE(stands()) << technician().problem.detail;
   tap("back");
   tap("open trigger");
   tap("begin");
@@ -58,7 +60,7 @@ TEST_P(StaffCaptureTest, TriggerTestAndSelfTestTakeTheirPicturesBesideIt) {
   EXPECT_TRUE(stands()) << "the self-test";
   tap("back");
   tap("open cameras");
-  ASSERT_TRUE(until([this] { return bench().cameras.pairs > 2; }));
+  ASSERT_TRUE(until([this] { return technician().cameras.pairs > 2; }));
   EXPECT_TRUE(stands()) << "the live pair";
   tap("back");
   sign_out();

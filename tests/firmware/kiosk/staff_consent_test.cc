@@ -34,16 +34,16 @@ class StaffConsentTest : public StaffHands {
     std::filesystem::create_directories(stick() / "consent" / version);
     std::ofstream(stick() / "consent" / version / file, std::ios::binary) << words;
   }
-  const ui::ConsentShelfView& shelf() const { return *kiosk->view().service->consent; }
+  const ui::ConsentTextsView& texts() const { return *kiosk->view().service->consent; }
   Outcome take() {
     tap("take consent");
-    EXPECT_TRUE(until([this] { return !shelf().taking; }));
+    EXPECT_TRUE(until([this] { return !texts().taking; }));
     kiosk->turn();
-    return shelf().outcome;
+    return texts().outcome;
   }
   // The detail where the page shows one, else how the try ended.
   std::string said() const {
-    if (const ui::Fault* fault = shelf().fault; fault != nullptr && says(fault->detail)) return fault->detail;
+    if (const ui::Fault* fault = texts().fault; fault != nullptr && says(fault->detail)) return fault->detail;
     const ui::Node* node = find("outcome");
     std::string words(node == nullptr ? std::string_view() : node->name);
     for (const char* mark : {"\u2066", "\u2068", "\u2069"})
@@ -183,7 +183,7 @@ TEST_F(StaffConsentTest, TheOperatorChangesItLaterByAVersionThatComesAfter) {
   EXPECT_TRUE(says("2026-03"));
   tap("consent");
   ASSERT_EQ(kiosk->ui().service().page, StaffPage::Consent);
-  EXPECT_EQ(shelf().outcome, Outcome::None) << "what happened at the first start is no news";
+  EXPECT_EQ(texts().outcome, Outcome::None) << "what happened at the first start is no news";
 
   write("2026-03", "en.txt", "The first, but not the same\n\nA point\n");
   EXPECT_EQ(take(), Outcome::Refused) << "records name this version: it keeps its words";

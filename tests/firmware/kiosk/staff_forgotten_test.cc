@@ -32,7 +32,7 @@ class StaffForgottenTest : public StaffHands, public testing::WithParamInterface
         [this] { return kiosk->ui().visit().step == ui::Step::Attract || kiosk->ui().service().open; }));
     if (!kiosk->ui().service().open) knock();
   }
-  // Both lead to the door: before real people the kiosk demands it, elsewhere somebody knocks.
+  // Both lead to the sign-in: before real people the kiosk demands it, elsewhere somebody holds the lock.
   void set_up() {
     changes.live = GetParam();
     begin_anew();

@@ -129,7 +129,7 @@ class StaffHands : public KioskHands {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  // By the keypad, which needs not hold: on until the door has the focus.
+  // By the keypad, which needs not hold: on until the lock has the focus.
   void focus_on(std::string_view id) {
     ASSERT_NE(find(id), nullptr) << id << " is not on the screen";
     do kiosk->feed({ui::Input::Kind::Next});

@@ -33,7 +33,7 @@ class StaffRecordTest : public StaffHands {
               .has_value());
     }
   }
-  const ui::BenchView& bench() const { return *kiosk->view().service->bench; }
+  const ui::TechnicianView& technician() const { return *kiosk->view().service->technician; }
   void capture() {
     start();
     if (!signed_in_before) first_start();
@@ -42,15 +42,15 @@ class StaffRecordTest : public StaffHands {
     tap("open stages");
     EXPECT_EQ(find("record"), nullptr) << "nothing to be recorded yet";
     tap("capture");
-    ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << bench().problem.detail;
+    ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << technician().problem.detail;
   }
   Outcome record() { return use_stick("record"); }
   Outcome use_stick(const char* button) {
     tap(button);
-    until([this] { return bench().recording.outcome != Outcome::None; });
+    until([this] { return technician().recording.outcome != Outcome::None; });
     kiosk->turn();
     EXPECT_NE(find("record"), nullptr) << "the way on";
-    return bench().recording.outcome;
+    return technician().recording.outcome;
   }
   static std::vector<std::string> recordings_on(const Path& root) { return names_on(root, "captures"); }
   static std::vector<std::string> names_on(const Path& root, const char* inside) {
@@ -131,15 +131,16 @@ TEST_F(StaffRecordTest, AReconstructionThatFailedIsSavedAndLoadedAsFarAsItCame) 
 
   faulty.plug_in_again();
   tap("capture");
-  ASSERT_TRUE(until([this] { return find("list saved") != nullptr && bench().can_record; }));
+  ASSERT_TRUE(until([this] { return find("list saved") != nullptr && technician().can_record; }));
   tap("stage 0");  // the pictures: there is nothing else
-  const std::uint32_t before = bench().shown[0].version;
+  const std::uint32_t before = technician().shown[0].version;
   tap("list saved");
   ASSERT_TRUE(until([this] { return find("saved 0") != nullptr; }));
   tap("saved 0");
-  ASSERT_TRUE(until([this, before] { return bench().can_record && bench().shown[0].version != before; }))
-      << bench().problem.detail;
-  EXPECT_FALSE(bench().result.failure.empty());
+  ASSERT_TRUE(until([this, before] {
+    return technician().can_record && technician().shown[0].version != before;
+  })) << technician().problem.detail;
+  EXPECT_FALSE(technician().result.failure.empty());
   EXPECT_EQ(record(), Outcome::Done);
   is_replayed_bit_for_bit(stick() / "captures" / recordings_on(stick()).front());
 }
@@ -159,8 +160,8 @@ TEST_F(StaffRecordTest, WhoStopsItOrLeavesLeavesNothingHalfWritten) {
   ASSERT_TRUE(until([this] { return faulty.waits() && find("stop recording") != nullptr; }));
   tap("stop recording");
   faulty.let_go_on();
-  ASSERT_TRUE(until([this] { return bench().recording.outcome != Outcome::None; }));
-  EXPECT_EQ(bench().recording.outcome, Outcome::Cancelled);
+  ASSERT_TRUE(until([this] { return technician().recording.outcome != Outcome::None; }));
+  EXPECT_EQ(technician().recording.outcome, Outcome::Cancelled);
   EXPECT_TRUE(recordings_on(stick()).empty());
   faulty.fail(FaultyStick::Fault::Waits);
   tap("record");

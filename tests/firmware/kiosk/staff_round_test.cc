@@ -57,7 +57,7 @@ TEST_F(StaffRoundTest, WhereRealPeopleStandNobodyGetsPastTheFirstStart) {
   EXPECT_NE(find("start"), nullptr);
 }
 
-TEST_F(StaffRoundTest, AFingerThatOnlyPassesDoesNotOpenTheDoor) {
+TEST_F(StaffRoundTest, AFingerThatOnlyPassesDoesNotSignIn) {
   start();
   tap("staff");
   EXPECT_FALSE(kiosk->ui().service().open);
@@ -147,7 +147,7 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   for (const ui::Node& node : kiosk->ui().tree().nodes())
     EXPECT_EQ(node.text.find("Hopper"), std::string_view::npos);
   EXPECT_EQ(kiosk->view().service->records, nullptr) << "no name is left";
-  EXPECT_EQ(kiosk->ui().draw_list().faces[0].model, kiosk->view().showpiece);
+  EXPECT_EQ(kiosk->ui().draw_list().faces[0].model, kiosk->view().invitation_head);
   kiosk.reset();
   auto store = storage::open_sqlite_store(args.store, clock, {});
   ASSERT_TRUE(store.has_value());

@@ -17,7 +17,7 @@ class StaffSettingsTest : public StaffHands {
   StaffSettingsTest() { changes.clock = &time; }
   void choose(const std::string& button, Setting setting, std::int32_t value) {
     tap(button);
-    ASSERT_TRUE(until([&] { return kiosk->desk().settings().of(setting) == value; })) << button;
+    ASSERT_TRUE(until([&] { return kiosk->staff().settings().of(setting) == value; })) << button;
     EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::Done);
   }
   void store_setting(const char* key, const std::string& value) {
@@ -26,7 +26,7 @@ class StaffSettingsTest : public StaffHands {
     ASSERT_TRUE((*store)->set_setting(key, value).has_value());
   }
   bool logged(std::string_view words) const {
-    for (const LogEntry& entry : kiosk->desk().log().entries()) {
+    for (const LogEntry& entry : kiosk->staff().log().entries()) {
       if (entry.text.find(words) != std::string::npos) return true;
     }
     return false;
@@ -73,8 +73,8 @@ TEST_F(StaffSettingsTest, WhatIsChosenHoldsAtOnceAndOverARestart) {
 TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   store_setting(kDeviceSetting, "patience_s 1\nattempts 2\nnonsense\n");
   start();
-  EXPECT_EQ(kiosk->desk().settings().of(Setting::PatienceS), 45);
-  EXPECT_EQ(kiosk->desk().settings().of(Setting::Attempts), 2);
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::PatienceS), 45);
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::Attempts), 2);
   first_start();
   sign_in("4711", StaffRole::Technician);
   tap("open log");

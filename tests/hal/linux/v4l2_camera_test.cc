@@ -7,7 +7,7 @@
 
 #include <linux/videodev2.h>
 
-#include "tests/hal/linux/v4l2_bench.h"
+#include "tests/hal/linux/v4l2_fixture.h"
 
 namespace relievo::hal {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-using V4l2CameraTest = V4l2Bench;
+using V4l2CameraTest = V4l2Fixture;
 
 TEST_F(V4l2CameraTest, GivesTheDriversOwnMemoryStampAndNumber) {
   run();

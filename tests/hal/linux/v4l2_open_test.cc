@@ -7,14 +7,14 @@
 
 #include <linux/videodev2.h>
 
-#include "tests/hal/linux/v4l2_bench.h"
+#include "tests/hal/linux/v4l2_fixture.h"
 
 namespace relievo::hal {
 namespace {
 
 using std::chrono::microseconds;
 
-using V4l2OpenTest = V4l2Bench;
+using V4l2OpenTest = V4l2Fixture;
 
 TEST_F(V4l2OpenTest, AnotherCameraThanTheCalibratedOneIsRefused) {
   make({"/dev/v4l/by-path/left", "B2", 0, true});

@@ -14,7 +14,7 @@
 
 #include "pipeline/match/refine/refined_matcher.h"
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -118,13 +118,13 @@ TEST(Drift, AFaceThatTellsNothingIsNoVerdict) {
 // From pictures to verdict, where the truth is in closed form.
 TEST(Drift, SeesItInPicturesOfABump) {
   for (const double rows : {0.0, 0.2, -0.2, 1.8}) {
-    test::StageBench bench(std::size_t{32} << 20, std::size_t{128} << 20);
+    test::StageFixture fixture(std::size_t{32} << 20, std::size_t{128} << 20);
     const RectifiedPair pair =
         test::BumpScene{.width_px = 240, .height_px = 200, .right_gain = 0.9, .seed = 5, .rows_px = rows}
-            .render(&bench.output);
-    const Keypoints keypoints = test::lattice(pair, 8, &bench.output);
+            .render(&fixture.output);
+    const Keypoints keypoints = test::lattice(pair, 8, &fixture.output);
     const auto matches = run_stage(
-        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+        fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     const DriftJudgement judgement = judge_drift(matches->epipolar_shift, promising(0.01));
     EXPECT_EQ(judgement.verdict, rows == 0  ? DriftVerdict::Ok

@@ -11,13 +11,13 @@
 
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/support/head_album.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline::test {
 namespace {
 
 using relievo::test::shared_album;
-using relievo::test::StageBench;
+using relievo::test::StageFixture;
 using relievo::test::standing;
 
 constexpr std::uint32_t kPerson = 4;
@@ -48,9 +48,9 @@ struct Person {
 
 class Heads : public ::testing::Test {
  protected:
-  explicit Heads(int threads = 2) : bench_(std::size_t{256} << 20, std::size_t{512} << 20, threads) {}
+  explicit Heads(int threads = 2) : fixture_(std::size_t{256} << 20, std::size_t{512} << 20, threads) {}
 
-  Result<FusedHead> fuse(const std::vector<Person>& shots, StageBench& bench, Arena& kept) {
+  Result<FusedHead> fuse(const std::vector<Person>& shots, StageFixture& fixture, Arena& kept) {
     relievo::test::Album& album = shared_album();
     RELIEVO_TRY_ASSIGN(const HeadPipeline pipeline, HeadPipeline::make({}));
     std::vector<HeadPose> poses;
@@ -61,21 +61,21 @@ class Heads : public ::testing::Test {
       return album.develop(album.shoot(shots[k].seed, shots[k].pose), how);
     };
     for (std::size_t k = 1; k < shots.size(); ++k) {
-      const Arena::Mark mark(bench.output);
+      const Arena::Mark mark(fixture.output);
       const hal::sim::PicturePair pictures = develop(k);
       RELIEVO_TRY_ASSIGN(poses[k], pipeline.turned({pictures.left.view(), pictures.right.view()},
-                                                   album.calibration(), bench.context, kept));
+                                                   album.calibration(), fixture.context, kept));
     }
     const hal::sim::PicturePair pictures = develop(0);
     RELIEVO_TRY_ASSIGN(FrontPose front, pipeline.front({pictures.left.view(), pictures.right.view()},
-                                                       album.calibration(), bench.context, kept));
+                                                       album.calibration(), fixture.context, kept));
     poses[0] = std::move(front.pose);
     alone_mm2_ = front.face.quality.measured_area_mm2;
-    return pipeline.fuse(std::move(front.face), poses, bench.context);
+    return pipeline.fuse(std::move(front.face), poses, fixture.context);
   }
-  Result<FusedHead> fuse(const std::vector<Person>& shots) { return fuse(shots, bench_, kept_); }
+  Result<FusedHead> fuse(const std::vector<Person>& shots) { return fuse(shots, fixture_, kept_); }
 
-  StageBench bench_;
+  StageFixture fixture_;
   std::vector<std::byte> kept_block_ = std::vector<std::byte>(std::size_t{64} << 20);
   Arena kept_{kept_block_};
   double alone_mm2_ = 0;  // what the frontal pair measured
@@ -129,7 +129,7 @@ TEST_F(Heads, BecomeOneSurfaceThatShowsMoreThanOnePair) {
 TEST_F(Heads, AreTheSameForAnyNumberOfThreads) {
   const auto two = fuse(turning());
   ASSERT_TRUE(two);
-  StageBench alone(std::size_t{256} << 20, std::size_t{512} << 20, 1);
+  StageFixture alone(std::size_t{256} << 20, std::size_t{512} << 20, 1);
   std::vector<std::byte> block(std::size_t{64} << 20);
   Arena kept{block};
   const auto one = fuse(turning(), alone, kept);
@@ -141,7 +141,7 @@ TEST_F(Heads, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST_F(Heads, StopWhenTold) {
-  bench_.cancelled = true;
+  fixture_.cancelled = true;
   const auto head = fuse(turning());
   ASSERT_FALSE(head);
   EXPECT_EQ(head.error().code, Errc::Cancelled);
@@ -150,7 +150,7 @@ TEST_F(Heads, StopWhenTold) {
 TEST_F(Heads, SayWhenMemoryIsUsedUp) {
   std::vector<std::byte> block(std::size_t{1} << 20);
   Arena kept{block};
-  const auto head = fuse(turning(), bench_, kept);
+  const auto head = fuse(turning(), fixture_, kept);
   ASSERT_FALSE(head);
   EXPECT_EQ(head.error().code, Errc::OutOfMemory);
 }

@@ -38,7 +38,7 @@ double share_with(const Depth& beside, double tip_x = 240) {
       relief.depth_mm[relief.index(x, y)] = static_cast<float>(z);
     }
   label_surfaces(relief, 1.5F, 400, work.context);
-  HeadSight head;
+  HeadMeasurement head;
   head.known = true;
   head.tip_mm = relief.point(tip_x, 140.0, kFaceMm);
   return beside_share(relief, head);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/sim/head/shape/head_field.h"
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -27,7 +27,7 @@ struct Rig {
     truth = test::true_head(shot, look.relief);
     return look.answer;
   }
-  test::GateBench gate;
+  test::GateFixture gate;
   GateHistory history;
   GateTime now{}, every = kFrame;
   test::TrueHead truth{};
@@ -154,7 +154,7 @@ TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
   for (const double distance_mm : {400.0, 560.0}) {
     Rig rig;
     const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(distance_mm)), {});
-    const HeadSight& head = answer.measures.head;
+    const HeadMeasurement& head = answer.measures.head;
     ASSERT_TRUE(head.known);
     EXPECT_NEAR(head.tip_mm.z, distance_mm - 26, 10);  // the nose before the middle of the face
     EXPECT_NEAR(answer.measures.off_right_mm, 0, 6);
@@ -164,7 +164,8 @@ TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
     EXPECT_GT(head.relief_mm, 15);
   }
   Rig rig;
-  const HeadSight turned = rig.look(shared_album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
+  const HeadMeasurement turned =
+      rig.look(shared_album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
   EXPECT_NEAR(turned.yaw_deg, rig.truth.yaw_deg, 9);
 }
 

@@ -57,7 +57,7 @@ double blur_mm(const Look& left, const Look& right) {
   };
   Workspace work(1, std::size_t{1} << 20, std::size_t{16} << 20);
   Relief relief(&work.output);
-  HeadSight head;
+  HeadMeasurement head;
   head.known = true;
   head.tip_mm = {0, 18, kDistanceMm};
   head.right = {1, 0, 0}, head.down = {0, 1, 0}, head.away = {0, 0, 1};

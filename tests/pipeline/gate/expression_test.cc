@@ -10,7 +10,7 @@
 
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/calibrator.h"
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -43,7 +43,7 @@ struct Case {
 TEST(GateExpression, TellsEyesMouthAndGlassesApart) {
   RELIEVO_MANY_TRIALS();
   test::Album& album = test::shared_album();
-  test::GateBench gate;
+  test::GateFixture gate;
   hal::sim::Glasses dark;
   dark.passes = 0.12;
   for (const Case& c :
@@ -92,7 +92,7 @@ TEST(GateExpression, RealFaces) {
     GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the real faces";
   const auto calibration = calibration_of(fs::path(data) / "real_faces/calibration");
   ASSERT_TRUE(calibration);
-  test::GateBench gate(2);  // pictures of 1024 x 1024: the small ones are about as large as a rig's
+  test::GateFixture gate(2);  // pictures of 1024 x 1024: the small ones are about as large as a rig's
   for (int i = 1; i <= 5; ++i) {
     const fs::path face = fs::path(data) / "real_faces" / ("face_" + std::to_string(i));
     const auto left = hal::read_picture(face / "left.jpg"), right = hal::read_picture(face / "right.jpg");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -13,7 +13,7 @@ namespace {
 TEST(FaceLight, ATurnedCheekIsNoUnevenLight) {
   RELIEVO_MANY_TRIALS();
   test::Album& album = test::shared_album();
-  test::GateBench gate;
+  test::GateFixture gate;
   const test::Shot& turned =
       album.shoot(32, {13.4, 0.8, 0.1, 514, 21, -14});  // by 8 degrees, from the rig's middle
   for (const double one_sided : {1.0, 0.05, 0.0}) {

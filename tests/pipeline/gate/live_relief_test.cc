@@ -27,8 +27,8 @@ constexpr std::size_t kOutput = std::size_t{8} << 20, kScratch = std::size_t{48}
 class Plates final : public sim::Scene {
  public:
   Plates() : near_({90, 70, 5}, place(70, 400)), far_({240, 180, 6}, place(50, 560)) {}
-  sim::Sight look(sim::Vec3 o, sim::Vec3 d) const override {
-    const sim::Sight a = near_.look(o, d);
+  sim::RayHit look(sim::Vec3 o, sim::Vec3 d) const override {
+    const sim::RayHit a = near_.look(o, d);
     return a.body >= 0 ? a : far_.look(o, d);
   }
   bool solid(sim::Vec3 o, sim::Vec3 d, sim::SolidPoint& out) const override {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/gate_bench.h"
+#include "tests/support/gate_fixture.h"
 #include "tests/support/proof.h"
 
 namespace relievo::pipeline {
@@ -24,13 +24,13 @@ struct Case {
 TEST(NoseTip, IsNeitherBrowNorBridgeNorTongue) {
   RELIEVO_MANY_TRIALS();
   test::Album& album = test::shared_album();
-  test::GateBench gate;
+  test::GateFixture gate;
   for (const Case& c : {Case{"bowed, the mouth open", 72, {0.2, 6.5, 2.8, 630, -20, -10}, {1, 11, 0, 0}},
                         Case{"bowed, a smile", 73, {9.6, 5.3, -5.3, 626, -5, -4}, {1, 0, 0.79, 0}},
                         Case{"looks up, a tongue", 31, {7.1, -7, 2.2, 542, -17, -5}, {1, 12.6, 0, 20.1}}}) {
     const test::Shot& shot = album.shoot(c.person, c.pose, test::Extra::None, {c.expression, false, {}});
     const GateLook look = gate.first_look(album, shot);
-    const HeadSight& head = look.answer.measures.head;
+    const HeadMeasurement& head = look.answer.measures.head;
     ASSERT_TRUE(head.known) << c.what;
     const test::TrueHead truth = test::true_head(shot, look.relief);
     const Vec3d off{head.tip_mm.x - truth.tip_mm.x, head.tip_mm.y - truth.tip_mm.y,

@@ -15,7 +15,7 @@
 
 #include "pipeline/match/matcher.h"
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::test {
 
@@ -96,14 +96,14 @@ struct MatchTrial {
 };
 
 inline MatchErrors measure(const pipeline::Matcher& matcher, const MatchTrial& trial) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{96} << 20, 2);
-  pipeline::RectifiedPair pair = trial.scene.render(&bench.output);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{96} << 20, 2);
+  pipeline::RectifiedPair pair = trial.scene.render(&fixture.output);
   if (trial.colours) paint(trial.scene, pair);
   const pipeline::Keypoints keypoints = trial.scattered > 0
-                                            ? scattered(pair, trial.scattered, 99, &bench.output)
-                                            : lattice(pair, 2, &bench.output);
+                                            ? scattered(pair, trial.scattered, 99, &fixture.output)
+                                            : lattice(pair, 2, &fixture.output);
   const auto matches = pipeline::run_stage(
-      bench.context, [&](pipeline::StageContext& c) { return matcher.match(pair, keypoints, c); });
+      fixture.context, [&](pipeline::StageContext& c) { return matcher.match(pair, keypoints, c); });
   EXPECT_TRUE(matches);
   if (!matches) return {};
   EXPECT_EQ(matches->lattice_step_px, keypoints.lattice_step_px);

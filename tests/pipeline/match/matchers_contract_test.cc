@@ -14,7 +14,7 @@ namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 // What is read from a file has tests of its own.
 std::vector<std::string> searching_matchers() {
@@ -62,11 +62,11 @@ TEST_P(Matchers, FindTheSurfaceOnALatticeAndAnywhere) {
 }
 
 TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   std::size_t next = 0;
   for (const Match& m : matches->matches) {
@@ -81,11 +81,11 @@ TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
 TEST_P(Matchers, GiveTheSameBytesForAnyNumberOfThreads) {
   std::vector<Match> first;
   for (const int threads : {1, 2, 3, 2}) {
-    StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20, threads);
-    const RectifiedPair pair = scene.render(&bench.output);
-    const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+    StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20, threads);
+    const RectifiedPair pair = scene.render(&fixture.output);
+    const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
     const auto matches =
-        run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     if (first.empty()) first.assign(matches->matches.begin(), matches->matches.end());
     ASSERT_EQ(first.size(), matches->matches.size());
@@ -99,27 +99,27 @@ TEST_P(Matchers, GiveTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_P(Matchers, RefuseAPairWithoutPixelsAndKeypointsThatAreNone) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
-  const RectifiedPair nothing(&bench.output);
-  const Keypoints none(&bench.output);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair nothing(&fixture.output);
+  const Keypoints none(&fixture.output);
   auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
+      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::InvalidInput);
-  const RectifiedPair pair = scene.render(&bench.output);
-  matches = run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, none, c); });
+  const RectifiedPair pair = scene.render(&fixture.output);
+  matches = run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, none, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
 
 TEST_P(Matchers, FindNothingOnAPlainWall) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
   scene.contrast = 0;
   scene.noise = 0;
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
@@ -132,9 +132,9 @@ TEST_P(Matchers, EveryArenaTooSmallSaysSo) {
   int refusals = 0;
   bool succeeded = false;
   for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
-    StageBench bench(size, size);
+    StageFixture fixture(size, size);
     const auto matches =
-        run_stage(bench.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
     succeeded = matches.has_value();
     if (succeeded) break;
     EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
@@ -145,12 +145,12 @@ TEST_P(Matchers, EveryArenaTooSmallSaysSo) {
 }
 
 TEST_P(Matchers, StopWhenAsked) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  bench.cancelled = true;
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  fixture.cancelled = true;
   // Not through run_stage, which would not even begin.
-  const auto matches = matcher()->match(pair, keypoints, bench.context);
+  const auto matches = matcher()->match(pair, keypoints, fixture.context);
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }

@@ -16,7 +16,7 @@
 #include "pipeline/recognition/recognition_images.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -104,13 +104,13 @@ TEST(RangeImage, StandsInTheHeadFrameWhereverTheFaceWas) {
 // The whole way, judged by the surface the pictures were drawn from.
 TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(0.45));
-  relievo::test::StageBench bench;
-  StageContext& c = bench.context;
+  relievo::test::StageFixture fixture;
+  StageContext& c = fixture.context;
   hal::sim::HeadPose pose;
   pose.yaw_deg = 12;
-  const auto scene =
-      hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(5), bench.pool), pose, bench.pool);
-  const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, bench.pool);
+  const auto scene = hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(5), fixture.pool),
+                                               pose, fixture.pool);
+  const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, fixture.pool);
   const auto pipeline = Pipeline::make({}, relievo::test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
   auto pair = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -41,9 +41,9 @@ RectifiedPair pair_with_face(double width_px) {
 }
 
 TEST(FaceCrop, KeepsTheBallAroundTheTipOfTheNose) {
-  test::StageBench bench(1 << 24, 1 << 22, 1);
-  PointCloud cloud = dome_on_a_wall(&bench.output);
-  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 110}, bench.context));
+  test::StageFixture fixture(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&fixture.output);
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 110}, fixture.context));
   double farthest = 0;
   for (const CloudPoint& p : cloud.points)
     farthest = std::max(farthest, std::sqrt(p.at_mm.x * p.at_mm.x + p.at_mm.y * p.at_mm.y +
@@ -54,37 +54,37 @@ TEST(FaceCrop, KeepsTheBallAroundTheTipOfTheNose) {
 
 // Bowed, the forehead is nearest; the ball stays about the nose.
 TEST(FaceCrop, ABowedHeadKeepsItsChin) {
-  test::StageBench bench(1 << 24, 1 << 22, 1);
-  PointCloud cloud = dome_on_a_wall(&bench.output);
+  test::StageFixture fixture(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&fixture.output);
   const double slope = std::tan(20 * std::numbers::pi / 180);
   for (CloudPoint& p : cloud.points)
     p.at_mm.z += static_cast<float>(slope * static_cast<double>(p.at_mm.y));  // what is higher is nearer
-  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 80}, bench.context));
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 80}, fixture.context));
   double lowest = 0;
   for (const CloudPoint& p : cloud.points) lowest = std::max(lowest, static_cast<double>(p.at_mm.y));
   EXPECT_GT(lowest, 40);
 }
 
 TEST(FaceCrop, OneStrayPointDoesNotMoveTheBall) {
-  test::StageBench bench(1 << 24, 1 << 22, 1);
-  PointCloud cloud = dome_on_a_wall(&bench.output);
+  test::StageFixture fixture(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&fixture.output);
   cloud.points.push_back({{30, 30, 420}, {560, 560}, 0.1F});
-  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 60}, bench.context));
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(300), {.radius_mm = 60}, fixture.context));
   for (const CloudPoint& p : cloud.points) EXPECT_GT(p.at_mm.z, 450);
 }
 
 TEST(FaceCrop, LeavesEverythingWhereNoFaceWasLookedFor) {
-  test::StageBench bench(1 << 24, 1 << 22, 1);
-  PointCloud cloud = dome_on_a_wall(&bench.output);
+  test::StageFixture fixture(1 << 24, 1 << 22, 1);
+  PointCloud cloud = dome_on_a_wall(&fixture.output);
   const std::size_t before = cloud.points.size();
-  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(0), {}, bench.context));
+  ASSERT_TRUE(crop_to_face(cloud, pair_with_face(0), {}, fixture.context));
   EXPECT_EQ(cloud.points.size(), before);
 }
 
 TEST(FaceCrop, NothingInTheMiddleIsNoFace) {
-  test::StageBench bench(1 << 20, 1 << 20, 1);
-  PointCloud cloud(&bench.output);
-  const auto cropped = crop_to_face(cloud, pair_with_face(300), {}, bench.context);
+  test::StageFixture fixture(1 << 20, 1 << 20, 1);
+  PointCloud cloud(&fixture.output);
+  const auto cropped = crop_to_face(cloud, pair_with_face(300), {}, fixture.context);
   ASSERT_FALSE(cropped);
   EXPECT_EQ(cropped.error().code, Errc::NoFace);
 }

@@ -9,12 +9,12 @@
 #include "pipeline/algorithms.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
 #include "tests/support/names_of.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using relievo::test::StageBench;
+using relievo::test::StageFixture;
 
 class OutlierFilters : public testing::TestWithParam<std::string> {
  protected:
@@ -44,8 +44,8 @@ TEST_P(OutlierFilters, TakeFlyingPointsAndLeaveTheSurface) {
       p.at_mm = {p.at_mm.x * away, p.at_mm.y * away, p.at_mm.z * away};
     }
     cloud.points[7].at_mm.x = std::numeric_limits<float>::quiet_NaN();
-    StageBench bench(1 << 16, std::size_t{32} << 20, 2);
-    const auto done = run_stage(bench.context, [&](StageContext& c) { return filter()->reject(cloud, c); });
+    StageFixture fixture(1 << 16, std::size_t{32} << 20, 2);
+    const auto done = run_stage(fixture.context, [&](StageContext& c) { return filter()->reject(cloud, c); });
     ASSERT_TRUE(done);
     std::size_t flying = 0;
     for (const CloudPoint& p : cloud.points)
@@ -61,8 +61,8 @@ TEST_P(OutlierFilters, JudgeAlikeForAnyNumberOfThreads) {
   std::size_t first = 0;
   for (const int threads : {1, 2, 3}) {
     PointCloud cloud = sphere();
-    StageBench bench(1 << 16, std::size_t{32} << 20, threads);
-    ASSERT_TRUE(run_stage(bench.context, [&](StageContext& c) { return filter()->reject(cloud, c); }));
+    StageFixture fixture(1 << 16, std::size_t{32} << 20, threads);
+    ASSERT_TRUE(run_stage(fixture.context, [&](StageContext& c) { return filter()->reject(cloud, c); }));
     if (first == 0) first = cloud.points.size();
     EXPECT_EQ(cloud.points.size(), first);
   }
@@ -70,16 +70,16 @@ TEST_P(OutlierFilters, JudgeAlikeForAnyNumberOfThreads) {
 
 TEST_P(OutlierFilters, BearNothingTooLittleMemoryAndCancellation) {
   PointCloud nothing(std::pmr::get_default_resource());
-  StageBench small(1024, 1024, 1);
+  StageFixture small(1024, 1024, 1);
   EXPECT_TRUE(run_stage(small.context, [&](StageContext& c) { return filter()->reject(nothing, c); }));
   PointCloud cloud = sphere();
   const std::size_t all = cloud.points.size();
   const auto refused = run_stage(small.context, [&](StageContext& c) { return filter()->reject(cloud, c); });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::OutOfMemory);
-  StageBench bench(1 << 16, std::size_t{32} << 20, 2);
-  bench.cancelled = true;
-  const auto stopped = filter()->reject(cloud, bench.context);
+  StageFixture fixture(1 << 16, std::size_t{32} << 20, 2);
+  fixture.cancelled = true;
+  const auto stopped = filter()->reject(cloud, fixture.context);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
   EXPECT_EQ(cloud.points.size(), all);

@@ -10,7 +10,7 @@
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
 #include "pipeline/reconstruct/optimal_triangulator.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -40,8 +40,8 @@ class Triangulators : public testing::TestWithParam<const char*> {};
 
 TEST_P(Triangulators, FindPointsWhereTheyWere) {
   const RectifiedPair pair = rig();
-  test::StageBench bench(1 << 22, 1 << 20, 1);
-  MatchSet set(&bench.output);
+  test::StageFixture fixture(1 << 22, 1 << 20, 1);
+  MatchSet set(&fixture.output);
   std::vector<Vec3d> truth;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -57,8 +57,8 @@ TEST_P(Triangulators, FindPointsWhereTheyWere) {
     truth.push_back(apply(transposed(pair.rectified_from_left), p));
   }
   set.matches[3].rejected_by = 1;  // is left out
-  const auto cloud =
-      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud = run_stage(fixture.context,
+                               [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_TRUE(cloud);
   ASSERT_EQ(cloud->points.size(), 499U);
   for (std::size_t k = 0; k < cloud->points.size(); ++k) {
@@ -74,11 +74,11 @@ TEST_P(Triangulators, FindPointsWhereTheyWere) {
 
 TEST_P(Triangulators, RefuseNothingAndAllRejected) {
   const RectifiedPair pair = rig();
-  test::StageBench bench(1 << 20, 1 << 20, 1);
-  MatchSet set(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20, 1);
+  MatchSet set(&fixture.output);
   for (int pass = 0; pass < 2; ++pass) {
     const auto cloud = run_stage(
-        bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+        fixture.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
     ASSERT_FALSE(cloud);
     EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
     set.matches.assign(50, {{500, 400}, 600, 0, 0.1F, 1});
@@ -87,11 +87,11 @@ TEST_P(Triangulators, RefuseNothingAndAllRejected) {
 
 TEST_P(Triangulators, LeaveOutWhatIsOutsideTheVolume) {
   const RectifiedPair pair = rig();
-  test::StageBench bench(1 << 20, 1 << 20, 1);
-  MatchSet set(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20, 1);
+  MatchSet set(&fixture.output);
   set.matches.assign(50, {{500, 400}, static_cast<float>(pair.disparity_px(2000)), 0, 0.1F, 0});
-  const auto cloud =
-      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud = run_stage(fixture.context,
+                               [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
 }
@@ -99,16 +99,16 @@ TEST_P(Triangulators, LeaveOutWhatIsOutsideTheVolume) {
 TEST_P(Triangulators, SayWhenMemoryIsUsedUpAndWhenCancelled) {
   const RectifiedPair pair = rig();
   std::vector<Match> many(5000, {{500, 400}, static_cast<float>(pair.disparity_px(560)), 0, 0.1F, 0});
-  test::StageBench bench(4096, 4096, 1);
+  test::StageFixture fixture(4096, 4096, 1);
   MatchSet set(std::pmr::get_default_resource());
   set.matches.assign(many.begin(), many.end());
-  auto cloud =
-      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  auto cloud = run_stage(fixture.context,
+                         [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::OutOfMemory);
-  bench.cancelled = true;
-  cloud =
-      run_stage(bench.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  fixture.cancelled = true;
+  cloud = run_stage(fixture.context,
+                    [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::Cancelled);
 }
@@ -202,13 +202,13 @@ TEST(OptimalTriangulator, MovesThePlacesNoMoreThanItMust) {
 
 TEST(OptimalTriangulator, UsesTheRowsThatWereMeasured) {
   const RectifiedPair pair = rig();
-  test::StageBench bench(1 << 20, 1 << 20, 1);
-  MatchSet set(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20, 1);
+  MatchSet set(&fixture.output);
   set.matches.assign(10, {{700, 400}, static_cast<float>(pair.disparity_px(560)), 0, 0.1F, 0});
   set.epipolar_shift.offset_px = 2;
   set.epipolar_shift.sigma_px = 0.1;
   const auto cloud = run_stage(
-      bench.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
+      fixture.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
   ASSERT_TRUE(cloud);
   // Half of the two pixels go to each view: 1 / 1500 * 560 mm.
   EXPECT_NEAR(cloud->points[0].at_mm.y, 560.0 / 1500, 0.01);

@@ -16,7 +16,7 @@
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -26,8 +26,8 @@ using sim::Vec3;
 
 constexpr double kDepthMm = 560;
 
-struct Bench : relievo::test::StageBench {
-  Bench() : StageBench(std::size_t{16} << 20, std::size_t{64} << 20) {}
+struct ReliefFixture : relievo::test::StageFixture {
+  ReliefFixture() : StageFixture(std::size_t{16} << 20, std::size_t{64} << 20) {}
 };
 
 // A pair whose face is found in the middle of what lies kDepthMm away.
@@ -68,8 +68,8 @@ FaceMesh held(const sim::SheetBend& bend, double noise_mm, const Vec3& turn_deg 
 }
 
 Result<ReliefFigures> measured(const FaceMesh& mesh) {
-  Bench bench;
-  return run_stage(bench.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
+  ReliefFixture fixture;
+  return run_stage(fixture.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
 }
 
 ReliefFigures relief_of(const FaceMesh& mesh) {
@@ -182,7 +182,7 @@ TEST(ReliefCheck, WhatIsLessThanItsSigmaSaysIsNoFace) {
 // Chosen places lie 6 mm apart and more: what spans them is judged.
 TEST(ReliefCheck, ScatteredPointsAreJudgedByTheSurfaceThatSpansThem) {
   static ThreadPool pool(2);
-  Bench bench;
+  ReliefFixture fixture;
   const auto thinned = [](PointCloud cloud) {
     PointCloud few(std::pmr::get_default_resource());
     for (std::size_t k = 0; k < cloud.points.size(); k += 97) few.points.push_back(cloud.points[k]);
@@ -190,7 +190,7 @@ TEST(ReliefCheck, ScatteredPointsAreJudgedByTheSurfaceThatSpansThem) {
   };
   const auto verdict_of = [&](const PointCloud& cloud) {
     const auto mesh =
-        run_stage(bench.context, [&](StageContext& c) { return DelaunayMesher({}).mesh(cloud, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return DelaunayMesher({}).mesh(cloud, c); });
     EXPECT_TRUE(mesh);
     EXPECT_LT(mesh->vertices_mm.size(), 2000U);
     const ReliefFigures r = relief_of(*mesh);
@@ -225,14 +225,14 @@ TEST(ReliefCheck, KeepsTheStagesContract) {
   ASSERT_TRUE(empty);
   EXPECT_EQ(error_of(judge(*empty, {}), *empty, {}).code, Errc::PoorGeometry);
 
-  Bench bench;
-  bench.cancelled = true;
+  ReliefFixture fixture;
+  fixture.cancelled = true;
   const auto stopped =
-      run_stage(bench.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
+      run_stage(fixture.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
 
-  relievo::test::StageBench tiny(1 << 10, 1 << 16);
+  relievo::test::StageFixture tiny(1 << 10, 1 << 16);
   const auto full =
       run_stage(tiny.context, [&](StageContext& c) { return measure_relief(mesh, pair_of(), c); });
   ASSERT_FALSE(full);

@@ -12,21 +12,21 @@
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   const hal::sim::SimRig rig(hal::sim::make_rig(test::small_rig(0.45)));
-  test::StageBench bench;
+  test::StageFixture fixture;
   const auto scene =
-      hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(3), bench.pool), {}, bench.pool);
-  const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig.left, {}, bench.pool), {}, 1);
-  const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig.right, {}, bench.pool), {}, 2);
+      hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(3), fixture.pool), {}, fixture.pool);
+  const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig.left, {}, fixture.pool), {}, 1);
+  const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig.right, {}, fixture.pool), {}, 2);
   const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
-  StageContext& c = bench.context;
+  StageContext& c = fixture.context;
   auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
   ASSERT_TRUE(pair);
   const auto matches = pipeline->match(*pair, c);

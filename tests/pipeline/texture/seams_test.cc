@@ -17,7 +17,7 @@
 #include "tests/support/proof.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 #include "tests/support/texture_seams.h"
 
 namespace relievo::pipeline {
@@ -89,14 +89,14 @@ class SeamsOfAFace : public testing::Test {
   }
   // The right camera gets `right_exposure` times the left one's light.
   test::SeamReport seams(double right_exposure) {
-    test::StageBench bench;
+    test::StageFixture fixture;
     hal::sim::SensorOptions left, right;
     right.exposure = right_exposure;
-    const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig->left, left, bench.pool), left, 1);
-    const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig->right, right, bench.pool), right, 2);
+    const auto l = hal::sim::read_sensor(hal::sim::expose(*scene, rig->left, left, fixture.pool), left, 1);
+    const auto r = hal::sim::read_sensor(hal::sim::expose(*scene, rig->right, right, fixture.pool), right, 2);
     const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
     EXPECT_TRUE(pipeline);
-    StageContext& c = bench.context;
+    StageContext& c = fixture.context;
     auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
     EXPECT_TRUE(pair);
     const auto matches = pipeline->match(*pair, c);
@@ -162,9 +162,9 @@ void mirror_a_lamp(hal::Picture& picture, const hal::sim::Scene& scene, const ha
 }
 
 TEST_F(SeamsOfAFace, ALampMirroredByTheSkinIsNotPaintedOnIt) {
-  test::StageBench bench;
-  StageContext& c = bench.context;
-  auto pictures = hal::sim::render_pair(*scene, *rig, {}, 1, bench.pool);
+  test::StageFixture fixture;
+  StageContext& c = fixture.context;
+  auto pictures = hal::sim::render_pair(*scene, *rig, {}, 1, fixture.pool);
   const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
   ASSERT_TRUE(pipeline);
   auto dull = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);

@@ -201,7 +201,7 @@ TEST(SqliteAudit, FindsEveryEditDropSwapAndCut) {
     {
       const auto store = opened(folder.path());
       for (const char* detail : {"alpha", "adam", "abel", "anna", "abba"})
-        ASSERT_TRUE(store->append_audit({"door", {}, detail}));
+        ASSERT_TRUE(store->append_audit({"sign-in", {}, detail}));
       ASSERT_TRUE(store->check());
     }
     Raw(folder / "relievo.db").run(sql);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Killed processes, full disks, damaged files, and people who wish to be forgotten.
+// Killed processes, full disks, damaged files, and people who want to be forgotten.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>

@@ -221,7 +221,7 @@ TEST_F(SqliteStoreVerbs, AuditsWithoutNames) {
   const auto ada = store->add_subject({"Ada Canary"});
   ASSERT_TRUE(store->add_enrolment(*ada, sample_enrolment(model)));
   ASSERT_TRUE(store->set_setting("pin", "4711"));
-  ASSERT_TRUE(store->append_audit({"technician.entered", {}, "door"}));
+  ASSERT_TRUE(store->append_audit({"technician.entered", {}, "lock"}));
   ASSERT_TRUE(store->erase_subject(*ada));
   const auto lines = store->audit(0, 100);
   ASSERT_TRUE(lines);

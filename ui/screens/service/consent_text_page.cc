@@ -22,7 +22,7 @@ void titles(StaffFrame& page, const ConsentTexts& own) {
   }
 }
 
-void ended(StaffFrame& page, const ConsentShelfView& seen) {
+void ended(StaffFrame& page, const ConsentTextsView& seen) {
   const auto& tr = page.tr;
   if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
   if (seen.outcome == Outcome::None) return;

@@ -7,11 +7,11 @@ namespace {
 
 void face(Page& page) {
   Node node = page.grown(page.box(Flow::Column), 1.0F);
-  node.id = "showpiece";
+  node.id = "invitation_head";
   node.name = page.tr("A simulated head, as this device measures one");
   node.role = Role::Picture;
   node.mark = Mark::Face;
-  if (page.view.showpiece == nullptr) node.mark = Mark::Shape;
+  if (page.view.invitation_head == nullptr) node.mark = Mark::Shape;
   page.tree.leaf(node);
 }
 

@@ -42,7 +42,7 @@ void step_screen(Page& page) {
 
 // The machine wipes a model the moment it leaves Review; the page may be a frame late.
 const pipeline::FaceModel* face_of(const ViewState& view, const Visit& visit) {
-  return visit.step == Step::Attract ? view.showpiece : view.model;
+  return visit.step == Step::Attract ? view.invitation_head : view.model;
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ ImageView BoardTracker::reduced() const {
   return {grey_.data(), width_px_, height_px_, width_px_, PixelFormat::Grey8};
 }
 
-Result<BoardSighting> BoardTracker::look(const ImageView& picture) {
+Result<BoardDetection> BoardTracker::look(const ImageView& picture) {
   if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
   reduce(picture);
   const ImageView small = reduced();
@@ -122,11 +122,11 @@ Result<BoardSighting> BoardTracker::look(const ImageView& picture) {
     RELIEVO_TRY_ASSIGN(found, find_in({small}, pattern_));
   }
   last_ = found;
-  BoardSighting sighting;
+  BoardDetection detection;
   for (const Vec2d& at : last_)
-    sighting.corners.push_back({factor_ * (at.x + 0.5) - 0.5, factor_ * (at.y + 0.5) - 0.5});
-  if (!last_.empty()) sighting.edge_px = edge_width_px(picture, sighting.corners, pattern_);
-  return sighting;
+    detection.corners.push_back({factor_ * (at.x + 0.5) - 0.5, factor_ * (at.y + 0.5) - 0.5});
+  if (!last_.empty()) detection.edge_px = edge_width_px(picture, detection.corners, pattern_);
+  return detection;
 }
 
 Result<BoardCorners> BoardTracker::refine(const ImageView& picture) const {

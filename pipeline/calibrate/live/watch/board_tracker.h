@@ -15,7 +15,7 @@
 
 namespace relievo::pipeline {
 
-struct BoardSighting {
+struct BoardDetection {
   BoardCorners corners;  // px of the full picture, to a few tenths; empty where the board is not whole
   double edge_px = 0;    // edge_width.h
 };
@@ -24,7 +24,7 @@ class BoardTracker {
  public:
   explicit BoardTracker(const BoardPattern& pattern) : pattern_(pattern) {}
 
-  Result<BoardSighting> look(const ImageView& picture);
+  Result<BoardDetection> look(const ImageView& picture);
   // Precise corners of the board that look() has just seen in the same picture; empty where they are
   // not all found.
   Result<BoardCorners> refine(const ImageView& picture) const;

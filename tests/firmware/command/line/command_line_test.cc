@@ -79,14 +79,14 @@ TEST(CommandLine, VerbsOfCalibration) {
   EXPECT_EQ(args({"list"}).verb, Verb::List);
   EXPECT_EQ(args({"activate", "3", "--store", "s"}).revision, 3);
   const auto import = args({"import", "intrinsics.yml", "extrinsics.yml", "--image-size", "640x480",
-                            "--unit-mm", "25.4", "--note", "bench 2"});
+                            "--unit-mm", "25.4", "--note", "rig 2"});
   EXPECT_EQ(import.verb, Verb::Import);
   EXPECT_EQ(import.file, "intrinsics.yml");
   EXPECT_EQ(import.other, "extrinsics.yml");
   EXPECT_EQ(import.width_px, 640);
   EXPECT_EQ(import.height_px, 480);
   EXPECT_EQ(import.unit_mm, 25.4);
-  EXPECT_EQ(import.note, "bench 2");
+  EXPECT_EQ(import.note, "rig 2");
   const auto out = args({"export", "-o", "folder", "--as", "ros", "--calibration", "rig.yml"});
   EXPECT_TRUE(out.ros);
   EXPECT_EQ(out.source, "rig.yml");

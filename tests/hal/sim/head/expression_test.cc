@@ -51,7 +51,7 @@ TEST(Expression, ASmileIsWiderAndItsCornersAreHigher) {
 // A grey wall where the face would be.
 class Wall final : public Scene {
  public:
-  Sight look(Vec3, Vec3 d) const override { return {{0.3, 0.3, 0.3}, 560 / d.z, 0, false}; }
+  RayHit look(Vec3, Vec3 d) const override { return {{0.3, 0.3, 0.3}, 560 / d.z, 0, false}; }
   bool solid(Vec3, Vec3, SolidPoint&) const override { return true; }
   bool blocked(Vec3, Vec3, double) const override { return false; }
   Mesh solid_mesh() const override { return {}; }
@@ -67,7 +67,7 @@ TEST(Glasses, MirrorTheLampsAndDimTheRestALittle) {
   int glare = 0, dimmed = 0, rim = 0, other = 0;
   for (double x = 25; x < 115; x += 1.5)
     for (double y = -60; y < -10; y += 1.5) {
-      const Sight seen = worn->look({}, normalised({x, y, 545}));
+      const RayHit seen = worn->look({}, normalised({x, y, 545}));
       if (seen.body == 0) continue;
       if (seen.light.y < 0.15) ++rim;
       else if (seen.light.y > 0.5) ++glare;

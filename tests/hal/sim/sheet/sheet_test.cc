@@ -76,8 +76,8 @@ TEST(SheetScene, ShowsItsPictureTheRightWayRoundAtItsDistance) {
   o.look.screen = true;
   const auto made = make_sheet_scene(flag(), o);
   ASSERT_TRUE(made);
-  const auto sight = [&](double x, double y) { return (*made)->look({0, 0, 0}, normalised({x, y, 560})); };
-  const Sight red = sight(-40, -30), green = sight(40, -30), blue = sight(0, 80), beside = sight(90, 0);
+  const auto hit = [&](double x, double y) { return (*made)->look({0, 0, 0}, normalised({x, y, 560})); };
+  const RayHit red = hit(-40, -30), green = hit(40, -30), blue = hit(0, 80), beside = hit(90, 0);
   EXPECT_GT(red.light.x, 10 * red.light.y);
   EXPECT_GT(green.light.y, 10 * green.light.x);
   EXPECT_GT(blue.light.z, 10 * blue.light.x);

@@ -55,8 +55,8 @@ class HeldBoardCorners {
       : rig_(rig), pattern_(pattern), noise_px_(noise_px), random_(seed) {}
 
   // Without corners where the camera does not see all of it, squares around the outer corners included.
-  pipeline::BoardSighting seen(int eye, const BoardAt& at, double edge_px = 2) {
-    pipeline::BoardSighting sighting;
+  pipeline::BoardDetection seen(int eye, const BoardAt& at, double edge_px = 2) {
+    pipeline::BoardDetection detection;
     for (int row = -1; row <= pattern_.rows; ++row)
       for (int column = -1; column <= pattern_.columns; ++column) {
         const Point p = in_camera(eye, place(at, column, row));
@@ -65,13 +65,13 @@ class HeldBoardCorners {
             !(pixel.x > 1 && pixel.y > 1 && pixel.x < rig_.width_px - 2 && pixel.y < rig_.height_px - 2))
           return {};
         if (row < 0 || column < 0 || row == pattern_.rows || column == pattern_.columns) continue;
-        sighting.corners.push_back({pixel.x + normal(), pixel.y + normal()});
+        detection.corners.push_back({pixel.x + normal(), pixel.y + normal()});
       }
-    sighting.edge_px = edge_px;
-    return sighting;
+    detection.edge_px = edge_px;
+    return detection;
   }
   // A pair every tenth of a second.
-  pipeline::PairSighting pair(const BoardAt& at) {
+  pipeline::PairDetection pair(const BoardAt& at) {
     now_ += std::chrono::milliseconds(100);
     return {{seen(0, at), seen(1, at)}, now_};
   }

@@ -19,7 +19,7 @@ class Collector : public ::testing::Test {
     return *pipeline::ViewCollector::begin({7, 5, 28}, 1920, 1200, options);
   }
   // Shows the board and takes it where it is wanted.
-  PairVerdict show(const pipeline::PairSighting& pair) {
+  PairVerdict show(const pipeline::PairDetection& pair) {
     const auto wanted = collector_.consider(pair);
     EXPECT_TRUE(wanted);
     if (wanted && *wanted) {
@@ -33,7 +33,7 @@ class Collector : public ::testing::Test {
     show(at);
     return show(at);
   }
-  pipeline::PairSighting exchanged(const BoardAt& at) {
+  pipeline::PairDetection exchanged(const BoardAt& at) {
     auto pair = board_.pair(at);
     std::swap(pair.seen[0], pair.seen[1]);
     return pair;

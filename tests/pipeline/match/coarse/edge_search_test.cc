@@ -12,12 +12,12 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 constexpr int kWidth = 640, kHeight = 400;
 constexpr int kLeft = 260, kRight = 420;  // the ridge's columns in the left view
@@ -29,9 +29,9 @@ float ridge(int y) { return kPlane + kRise * std::clamp((static_cast<float>(y) -
 float truth(int x, int y) { return x >= kLeft && x < kRight ? ridge(y) : kPlane; }
 
 struct Scene {
-  StageBench bench{std::size_t{64} << 20, std::size_t{64} << 20};
-  RectifiedPair pair{&bench.output};
-  SurfaceField field{&bench.output, kWidth / 2, kHeight / 2, 2};
+  StageFixture fixture{std::size_t{64} << 20, std::size_t{64} << 20};
+  RectifiedPair pair{&fixture.output};
+  SurfaceField field{&fixture.output, kWidth / 2, kHeight / 2, 2};
 
   Scene() {
     const auto pixels = static_cast<std::size_t>(kWidth) * kHeight;
@@ -41,11 +41,11 @@ struct Scene {
       view->valid.assign(pixels, 1), view->grey.resize(pixels);
     std::mt19937 random(7);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> near(&bench.output, kWidth + 128, kHeight), far(&bench.output, kWidth + 128, kHeight),
-        across(&bench.output, kWidth + 128, kHeight);
+    Plane<float> near(&fixture.output, kWidth + 128, kHeight), far(&fixture.output, kWidth + 128, kHeight),
+        across(&fixture.output, kWidth + 128, kHeight);
     for (Plane<float>* skin : {&near, &far}) {
       for (float& v : skin->values) v = normal(random);
-      box_sum(*skin, 2, bench.context.pool, across, *skin);
+      box_sum(*skin, 2, fixture.context.pool, across, *skin);
     }
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
@@ -80,7 +80,7 @@ struct Scene {
   }
   void search(int threads = 2) {
     ThreadPool pool(threads);
-    StageContext context{bench.output, bench.scratch, pool, bench.progress, bench.cancelled};
+    StageContext context{fixture.output, fixture.scratch, pool, fixture.progress, fixture.cancelled};
     const Pyramids pyramids = build_pyramids(pair, 3, context);
     ASSERT_TRUE(search_edges(pair, pyramids, {}, context, field).has_value());
   }
@@ -153,9 +153,9 @@ TEST(EdgeSearch, IsTheSameForAnyNumberOfThreads) {
 TEST(EdgeSearch, StopsWhenAsked) {
   Scene scene;
   scene.lay(kBlanket);
-  const Pyramids pyramids = build_pyramids(scene.pair, 3, scene.bench.context);
-  scene.bench.cancelled = true;
-  const auto stopped = search_edges(scene.pair, pyramids, {}, scene.bench.context, scene.field);
+  const Pyramids pyramids = build_pyramids(scene.pair, 3, scene.fixture.context);
+  scene.fixture.cancelled = true;
+  const auto stopped = search_edges(scene.pair, pyramids, {}, scene.fixture.context, scene.field);
   ASSERT_FALSE(stopped.has_value());
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
 }

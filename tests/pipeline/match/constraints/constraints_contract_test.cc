@@ -11,13 +11,13 @@
 #include "pipeline/algorithms.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char* key = nullptr,
                                             const char* value = nullptr) {
@@ -34,12 +34,14 @@ std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char*
 // True matches of the bump scene with a little noise; every `wrong_every`-th is moved by 6 to 14 pixels.
 struct Planted {
   Planted(const BumpScene& from, int wrong_every, int step, std::uint32_t seed = 1)
-      : scene(from), bench(std::size_t{6} << 20, std::size_t{16} << 20), pair(scene.render(&bench.output)) {
+      : scene(from),
+        fixture(std::size_t{6} << 20, std::size_t{16} << 20),
+        pair(scene.render(&fixture.output)) {
     std::mt19937 random(seed);
     std::normal_distribution<float> noise(0, 0.1F);
     std::uniform_real_distribution<float> off(6, 14);
     int count = 0;
-    for (const Keypoint& k : test::lattice(pair, step, &bench.output).points) {
+    for (const Keypoint& k : test::lattice(pair, step, &fixture.output).points) {
       if (!scene.judged(k.at_px.x, k.at_px.y)) continue;
       const bool spoil = wrong_every > 0 && ++count % wrong_every == 0;
       const auto d = static_cast<float>(scene.disparity(k.at_px.x, k.at_px.y)) + noise(random);
@@ -59,7 +61,7 @@ struct Planted {
     return {bad_out / std::max(1.0, bad), good_out / std::max(1.0, good)};
   }
   BumpScene scene;
-  StageBench bench;
+  StageFixture fixture;
   RectifiedPair pair;
   std::vector<Match> matches;
   std::vector<bool> wrong;
@@ -70,7 +72,7 @@ class MatchConstraints : public testing::TestWithParam<std::string> {};
 TEST_P(MatchConstraints, LeaveATrueSurfaceAlone) {
   EXPECT_EQ(constraint(GetParam())->name(), GetParam());
   Planted planted({.width_px = 200, .height_px = 140}, 0, 2);
-  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.bench.context);
+  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.fixture.context);
   EXPECT_LT(planted.rejected().second, 0.02);
 }
 
@@ -78,7 +80,7 @@ TEST_P(MatchConstraints, SetOnlyTheirBitAndOnlyOnAcceptedMatches) {
   Planted planted({.width_px = 200, .height_px = 140}, 7, 2);
   for (std::size_t k = 0; k < planted.matches.size(); k += 5) planted.matches[k].rejected_by = 1;
   const std::vector<Match> before = planted.matches;
-  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.bench.context);
+  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.fixture.context);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const Match& m = planted.matches[k];
     EXPECT_TRUE(before[k].rejected_by == 1 ? m.rejected_by == 1 : m.rejected_by == 0 || m.rejected_by == 4);
@@ -93,8 +95,8 @@ TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
     std::vector<Match> first;
     for (const int threads : {1, 2, 3}) {
       planted.matches = before;
-      StageBench bench(1 << 20, std::size_t{32} << 20, threads);
-      constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, bench.context);
+      StageFixture fixture(1 << 20, std::size_t{32} << 20, threads);
+      constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, fixture.context);
       if (first.empty()) first = planted.matches;
       for (std::size_t k = 0; k < first.size(); ++k)
         ASSERT_EQ(first[k].rejected_by, planted.matches[k].rejected_by);
@@ -104,10 +106,10 @@ TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
 
 TEST_P(MatchConstraints, BearNothingAndTooLittleMemory) {
   Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
-  constraint(GetParam())->judge(planted.pair, {}, 2, 4, planted.bench.context);
+  constraint(GetParam())->judge(planted.pair, {}, 2, 4, planted.fixture.context);
   for (std::size_t size = 1024; size < (std::size_t{32} << 20); size *= 4) {
-    StageBench bench(1024, size, 2);
-    const auto judged = run_stage(bench.context, [&](StageContext& c) -> Result<void> {
+    StageFixture fixture(1024, size, 2);
+    const auto judged = run_stage(fixture.context, [&](StageContext& c) -> Result<void> {
       constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, c);
       return {};
     });
@@ -124,23 +126,24 @@ INSTANTIATE_TEST_SUITE_P(All, MatchConstraints, testing::ValuesIn(test::names_of
 // default limit any work; a limit of its own takes what was found there, and hardly anything else.
 TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
   const BumpScene scene{.width_px = 260, .height_px = 180};
-  StageBench bench(std::size_t{16} << 20, std::size_t{64} << 20);
-  RectifiedPair pair(&bench.output);
-  pair = scene.render(&bench.output);
-  const RectifiedPair other = BumpScene{.width_px = 260, .height_px = 180, .seed = 99}.render(&bench.output);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
+  RectifiedPair pair(&fixture.output);
+  pair = scene.render(&fixture.output);
+  const RectifiedPair other =
+      BumpScene{.width_px = 260, .height_px = 180, .seed = 99}.render(&fixture.output);
   for (std::size_t k = 0; k < pair.right.grey.size() / 2; ++k)
     pair.right.grey[k] = other.right.grey[k];  // its upper half
   AlgorithmSet set;
   ASSERT_TRUE(set.set("matcher", "zmncc"));
   const auto matcher = make_matcher(set);
-  auto found = run_stage(bench.context, [&](StageContext& c) {
-    return (*matcher)->match(pair, test::lattice(pair, 4, &bench.output), c);
+  auto found = run_stage(fixture.context, [&](StageContext& c) {
+    return (*matcher)->match(pair, test::lattice(pair, 4, &fixture.output), c);
   });
   ASSERT_TRUE(found);
   std::vector<Match> matches(found->matches.begin(), found->matches.end());
   const auto reject = [&](const char* limit) {
     std::vector<Match> judged = matches;
-    constraint("similarity", "similarity.max_cost", limit)->judge(pair, judged, 4, 4, bench.context);
+    constraint("similarity", "similarity.max_cost", limit)->judge(pair, judged, 4, 4, fixture.context);
     double bad = 0, bad_out = 0, good = 0, good_out = 0;
     for (const Match& m : judged) {
       const bool in_both = std::abs(m.left_px.y - 90) <= 13;  // the window lies across the seam
@@ -162,7 +165,7 @@ TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
 }
 
 TEST(OrderingConstraint, TheLargestOrderedSetStays) {
-  StageBench bench(1024, 1 << 20, 1);
+  StageFixture fixture(1024, 1 << 20, 1);
   RectifiedPair pair(std::pmr::get_default_resource());
   pair.width_px = 200;
   pair.height_px = 40;
@@ -173,7 +176,7 @@ TEST(OrderingConstraint, TheLargestOrderedSetStays) {
     matches.push_back(
         {{static_cast<float>(60 + 10 * k), 4}, static_cast<float>(60 + 10 * k) - right[k], 0, 0.1F, 0});
   matches.push_back({{65, 5}, 0, 0, 0.1F, 0});  // another row
-  constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
+  constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, fixture.context);
   for (std::size_t k = 0; k < matches.size(); ++k)
     EXPECT_EQ(matches[k].rejected_by, k == 2 || k == 5 ? 2 : 0) << k;
 }
@@ -184,11 +187,11 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
   std::uniform_real_distribution<float> unit(0, 40);
   RectifiedPair pair(std::pmr::get_default_resource());
   for (int trial = 0; trial < 50; ++trial) {
-    StageBench bench(1024, 1 << 16, 1);
+    StageFixture fixture(1024, 1 << 16, 1);
     std::vector<Match> matches;
     for (int k = 0; k < 12; ++k)
       matches.push_back({{static_cast<float>(50 + 3 * k), 4}, unit(random), 0, 0.1F, 0});
-    constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, bench.context);
+    constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, fixture.context);
     int kept = 0;
     float last = -1e9F;
     for (const Match& m : matches) {
@@ -217,7 +220,7 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
 TEST(LeftRightConstraint, TakesWhatIsNotFoundFromTheOtherSide) {
   for (const int step : {2, 5}) {
     Planted planted({.width_px = 240, .height_px = 160}, 9, step);
-    constraint("left-right")->judge(planted.pair, planted.matches, step, 4, planted.bench.context);
+    constraint("left-right")->judge(planted.pair, planted.matches, step, 4, planted.fixture.context);
     EXPECT_GT(planted.rejected().first, 0.95);
     EXPECT_LT(planted.rejected().second, 0.01);
   }
@@ -230,7 +233,7 @@ TEST(LeftRightConstraint, CatchesAPixelBetweenPixels) {
     planted.matches[k].left_px = {planted.matches[k].left_px.x + 0.25F, planted.matches[k].left_px.y + 0.5F};
     planted.wrong[k] = true;
   }
-  constraint("left-right")->judge(planted.pair, planted.matches, 0, 4, planted.bench.context);
+  constraint("left-right")->judge(planted.pair, planted.matches, 0, 4, planted.fixture.context);
   EXPECT_GT(planted.rejected().first, 0.95);
   EXPECT_LT(planted.rejected().second, 0.01);
 }
@@ -238,14 +241,14 @@ TEST(LeftRightConstraint, CatchesAPixelBetweenPixels) {
 TEST(StatisticalConstraint, TakesWhatStandsOutFromItsNeighboursAndFromAll) {
   Planted near({.width_px = 240, .height_px = 160}, 9, 2);
   constraint("statistical", "statistical.global_sigmas", "0")
-      ->judge(near.pair, near.matches, 2, 4, near.bench.context);
+      ->judge(near.pair, near.matches, 2, 4, near.fixture.context);
   EXPECT_GT(near.rejected().first, 0.99);
   EXPECT_LT(near.rejected().second, 0.005);
   Planted all({.width_px = 240, .height_px = 160}, 9, 2);
   for (std::size_t k = 0; k < all.matches.size(); ++k)
     if (all.wrong[k]) all.matches[k].disparity_px += all.matches[k].disparity_px > 20 ? 60.0F : -60.0F;
   constraint("statistical", "statistical.local_sigmas", "0")
-      ->judge(all.pair, all.matches, 2, 4, all.bench.context);
+      ->judge(all.pair, all.matches, 2, 4, all.fixture.context);
   EXPECT_GT(all.rejected().first, 0.99);
   EXPECT_LT(all.rejected().second, 0.005);
 }

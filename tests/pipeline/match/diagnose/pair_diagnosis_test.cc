@@ -15,7 +15,7 @@
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "tests/support/rig_calibration.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -88,14 +88,14 @@ TEST(PairDiagnosis, TellsWhatWasDoneToThePictures) {
                {"the same twice", left, left, PairFault::SamePicture},
                {"one higher", left, lifted(right, 24), PairFault::Shifted}};
   for (const auto& row : kRows) {
-    test::StageBench bench{std::size_t{64} << 20, std::size_t{64} << 20};
+    test::StageFixture fixture{std::size_t{64} << 20, std::size_t{64} << 20};
     const auto fault = diagnose_pair({view_of(row.left), view_of(row.right)}, test::true_calibration(rig), {},
-                                     bench.context);
+                                     fixture.context);
     EXPECT_EQ(fault, row.fault) << row.what;
     EXPECT_TRUE(!fault || !error_of(*fault).what.view().empty());
-    EXPECT_EQ(bench.output.used(), 0U);
+    EXPECT_EQ(fixture.output.used(), 0U);
   }
-  test::StageBench tiny{1024, 1024};
+  test::StageFixture tiny{1024, 1024};
   EXPECT_THROW(static_cast<void>(diagnose_pair({view_of(left), view_of(right)}, test::true_calibration(rig),
                                                {}, tiny.context)),
                std::bad_alloc);

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 Pyramids pyramids_of(const RectifiedPair& pair, Arena& memory) {
   Pyramids pyramids{std::pmr::vector<PyramidLevel>(&memory), std::pmr::vector<PyramidLevel>(&memory)};
@@ -35,25 +35,25 @@ Pyramids pyramids_of(const RectifiedPair& pair, Arena& memory) {
 }
 
 // On the true surface, or one that is `wrong_px` off in stripes.
-EpipolarShift measured(const BumpScene& scene, StageBench& bench, double wrong_px = 0) {
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Pyramids pyramids = pyramids_of(pair, bench.output);
-  SurfaceField field(&bench.output, pyramids.left[1].grey.width, pyramids.left[1].grey.height, 2);
+EpipolarShift measured(const BumpScene& scene, StageFixture& fixture, double wrong_px = 0) {
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Pyramids pyramids = pyramids_of(pair, fixture.output);
+  SurfaceField field(&fixture.output, pyramids.left[1].grey.width, pyramids.left[1].grey.height, 2);
   for (int j = 0; j < field.domain.height; ++j)
     for (int i = 0; i < field.domain.width; ++i) {
       field.domain.row(j)[i] = scene.judged(2 * i, 2 * j) ? 1 : 0;
       field.disparity_px.row(j)[i] =
           static_cast<float>(scene.disparity(2 * i, 2 * j) + (j / 12 % 2 == 0 ? wrong_px : -wrong_px));
     }
-  return measure_epipolar_shift(pair, pyramids, field, EpipolarSearch::Search, bench.context);
+  return measure_epipolar_shift(pair, pyramids, field, EpipolarSearch::Search, fixture.context);
 }
 
 TEST(EpipolarAlignment, FindsOffsetAndTilt) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20);
   for (const double rows : {-6.0, -0.5, -0.07, 0.0, 0.2, 1.3, 4.0}) {
-    bench.output.reset();
+    fixture.output.reset();
     const BumpScene scene{.width_px = 240, .height_px = 200, .rows_px = rows, .rows_tilt = 1e-3};
-    const EpipolarShift shift = measured(scene, bench);
+    const EpipolarShift shift = measured(scene, fixture);
     ASSERT_TRUE(shift.measured()) << rows;
     EXPECT_NEAR(shift.at(scene.width_px / 2.0, scene.height_px / 2.0), rows, 0.015 + 0.01 * std::abs(rows))
         << rows;
@@ -68,10 +68,10 @@ TEST(EpipolarAlignment, NoiseDoesNotBiasIt) {
     double bias = 0, variance = 0;
     constexpr int kSeeds = 6;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
-      StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20);
+      StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20);
       const EpipolarShift shift = measured(
           {.width_px = 240, .height_px = 200, .contrast = 5, .noise = 4, .seed = seed, .rows_px = rows},
-          bench);
+          fixture);
       ASSERT_TRUE(shift.measured());
       bias += (shift.offset_px - rows) / kSeeds;
       variance += shift.covariance_px2[0] / (kSeeds * kSeeds);
@@ -82,29 +82,29 @@ TEST(EpipolarAlignment, NoiseDoesNotBiasIt) {
 }
 
 TEST(EpipolarAlignment, ExposureAndAWrongSurfaceDoNotMatter) {
-  StageBench bench(std::size_t{32} << 20, std::size_t{16} << 20);
+  StageFixture fixture(std::size_t{32} << 20, std::size_t{16} << 20);
   const EpipolarShift unequal = measured(
-      {.width_px = 240, .height_px = 200, .right_gain = 0.6, .right_offset = 25, .rows_px = 0.2}, bench);
+      {.width_px = 240, .height_px = 200, .right_gain = 0.6, .right_offset = 25, .rows_px = 0.2}, fixture);
   EXPECT_NEAR(unequal.offset_px, 0.2, 0.03);
-  const EpipolarShift beside = measured({.width_px = 240, .height_px = 200, .rows_px = 0.2}, bench, 0.8);
+  const EpipolarShift beside = measured({.width_px = 240, .height_px = 200, .rows_px = 0.2}, fixture, 0.8);
   EXPECT_NEAR(beside.offset_px, 0.2, 0.05);
 }
 
 TEST(EpipolarAlignment, APlainWallIsNotMeasured) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20);
-  EXPECT_FALSE(measured({.width_px = 200, .height_px = 160, .contrast = 0, .noise = 0}, bench).measured());
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20);
+  EXPECT_FALSE(measured({.width_px = 200, .height_px = 160, .contrast = 0, .noise = 0}, fixture).measured());
 }
 
 TEST(EpipolarAlignment, ShiftedRowsAgree) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20);
   BumpScene scene{.width_px = 200, .height_px = 160, .noise = 0, .rows_px = 1.4, .rows_tilt = -2e-3};
-  const RectifiedPair moved = scene.render(&bench.output);
+  const RectifiedPair moved = scene.render(&fixture.output);
   scene.rows_px = scene.rows_tilt = 0;
-  const RectifiedPair still = scene.render(&bench.output);
-  Plane<float> right(&bench.output, moved.width_px, moved.height_px);
+  const RectifiedPair still = scene.render(&fixture.output);
+  Plane<float> right(&fixture.output, moved.width_px, moved.height_px);
   EpipolarShift shift;
   shift.offset_px = 1.4, shift.slope_x = -2e-3, shift.middle_x_px = moved.width_px / 2.0;
-  shift_rows({shift}, moved.right.grey, right, bench.context);
+  shift_rows({shift}, moved.right.grey, right, fixture.context);
   double worst = 0;
   for (int y = 12; y < moved.height_px - 12; ++y)
     for (int x = 12; x < moved.width_px - 12; ++x)

@@ -9,12 +9,12 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 640;
@@ -44,18 +44,18 @@ struct Face {
     shift.offset_px = 0.4, shift.slope_x = 1e-3;
     return shift;
   }
-  RowMotion fit(StageBench& bench) const {
-    RowMotion motion(&bench.output, kWidth, kHeight);
-    fit_row_motion(locals, linear(), 480, bench.context, motion);
+  RowMotion fit(StageFixture& fixture) const {
+    RowMotion motion(&fixture.output, kWidth, kHeight);
+    fit_row_motion(locals, linear(), 480, fixture.context, motion);
     return motion;
   }
 };
 
 TEST(RowMotion, NoiseIsNoMotion) {
-  StageBench bench;
+  StageFixture fixture;
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
-    bench.output.reset();
-    const RowMotion motion = Face(0, 0.3, seed).fit(bench);
+    fixture.output.reset();
+    const RowMotion motion = Face(0, 0.3, seed).fit(fixture);
     EXPECT_FALSE(motion.seen) << seed;
     EXPECT_EQ(motion.at(320, 460), 0);
     EXPECT_EQ(motion.rms_px, 0);
@@ -63,12 +63,12 @@ TEST(RowMotion, NoiseIsNoMotion) {
 }
 
 TEST(RowMotion, AHillIsFoundAndTheRestStays) {
-  StageBench bench;
+  StageFixture fixture;
   for (const double height : {-5.0, -1.5, 1.5, 5.0})
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
-      bench.output.reset();
+      fixture.output.reset();
       const Face face(height, 0.3, seed);
-      const RowMotion motion = face.fit(bench);
+      const RowMotion motion = face.fit(fixture);
       ASSERT_TRUE(motion.seen) << height;
       double square = 0;
       double own = 0;
@@ -87,19 +87,19 @@ TEST(RowMotion, AHillIsFoundAndTheRestStays) {
 }
 
 TEST(RowMotion, TooLittleToTell) {
-  StageBench bench;
+  StageFixture fixture;
   Face face(5, 0.3, 1);
   face.locals.resize(30);
-  EXPECT_FALSE(face.fit(bench).seen);
+  EXPECT_FALSE(face.fit(fixture).seen);
   face.locals.clear();
-  EXPECT_FALSE(face.fit(bench).seen);
+  EXPECT_FALSE(face.fit(fixture).seen);
 }
 
 TEST(RowMotion, NeedsNoMoreThanItsMemoryAndSaysWhenItIsShort) {
-  StageBench bench(std::size_t{1} << 20, 4096);
+  StageFixture fixture(std::size_t{1} << 20, 4096);
   const Face face(5, 0.3, 1);
-  RowMotion motion(&bench.output, kWidth, kHeight);
-  EXPECT_THROW(fit_row_motion(face.locals, Face::linear(), 480, bench.context, motion), std::bad_alloc);
+  RowMotion motion(&fixture.output, kWidth, kHeight);
+  EXPECT_THROW(fit_row_motion(face.locals, Face::linear(), 480, fixture.context, motion), std::bad_alloc);
 }
 
 }  // namespace

@@ -12,17 +12,17 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 class FileMatcherTest : public testing::Test {
  protected:
   Result<MatchSet> read(const std::string& text, std::size_t output_bytes = 1 << 22) {
-    bench_ = std::make_unique<StageBench>(output_bytes, 1 << 22, 1);
-    return match({"matches.txt", std::make_shared<const std::string>(text)}, *bench_);
+    fixture_ = std::make_unique<StageFixture>(output_bytes, 1 << 22, 1);
+    return match({"matches.txt", std::make_shared<const std::string>(text)}, *fixture_);
   }
-  Result<MatchSet> match(TextFile file, StageBench& bench) {
+  Result<MatchSet> match(TextFile file, StageFixture& fixture) {
     const Keypoints none(std::pmr::get_default_resource());
-    return run_stage(bench.context, [&](StageContext& c) {
+    return run_stage(fixture.context, [&](StageContext& c) {
       return FileMatcher({.file = std::move(file), .sigma_px = 0.4F}).match(pair_, none, c);
     });
   }
@@ -37,7 +37,7 @@ class FileMatcherTest : public testing::Test {
   std::vector<std::byte> block_ = std::vector<std::byte>(std::size_t{2} << 20);
   Arena memory_{block_};
   RectifiedPair pair_ = scene_.render(&memory_);
-  std::unique_ptr<StageBench> bench_;
+  std::unique_ptr<StageFixture> fixture_;
 };
 
 TEST_F(FileMatcherTest, ReadsWhatAHandWrites) {
@@ -82,10 +82,10 @@ TEST_F(FileMatcherTest, HostileFilesAreRefusedByTheirLine) {
 }
 
 TEST_F(FileMatcherTest, WhatHoldsNoMatchSaysSo) {
-  StageBench bench(1 << 22, 1 << 22, 1);
-  EXPECT_EQ(match({}, bench).error().where(), "file-matches.path");
-  EXPECT_EQ(match({"gone.txt"}, bench).error().code, Errc::NotFound);
-  EXPECT_EQ(match({"gone.txt"}, bench).error().where(), "gone.txt");
+  StageFixture fixture(1 << 22, 1 << 22, 1);
+  EXPECT_EQ(match({}, fixture).error().where(), "file-matches.path");
+  EXPECT_EQ(match({"gone.txt"}, fixture).error().code, Errc::NotFound);
+  EXPECT_EQ(match({"gone.txt"}, fixture).error().where(), "gone.txt");
   EXPECT_EQ(read("").error().code, Errc::TooFewMatches);
   EXPECT_EQ(read("# nothing\n\n").error().code, Errc::TooFewMatches);
 }
@@ -104,7 +104,7 @@ TEST_F(FileMatcherTest, MemoryThatIsUsedUpAndCancellationAreReported) {
   std::string many;
   for (int k = 0; k < 2000; ++k) many += "80 50 20\n";
   EXPECT_EQ(read(many, 1024).error().code, Errc::OutOfMemory);
-  StageBench roomy(1 << 20, 1 << 20, 1);
+  StageFixture roomy(1 << 20, 1 << 20, 1);
   roomy.cancelled = true;
   const auto matches = match({"matches.txt", std::make_shared<const std::string>(many)}, roomy);
   ASSERT_FALSE(matches);

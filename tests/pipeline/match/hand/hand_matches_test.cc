@@ -16,7 +16,7 @@
 #include "pipeline/pipeline.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -28,9 +28,9 @@ class HandMatches : public testing::Test {
  protected:
   // What a good matcher would say: the truth, and its sigma.
   MatchSet true_matches(int step = kStep) {
-    MatchSet set(&bench.output);
+    MatchSet set(&fixture.output);
     set.lattice_step_px = step;
-    for (const Keypoint& k : test::lattice(pair, std::max(1, step), &bench.output).points)
+    for (const Keypoint& k : test::lattice(pair, std::max(1, step), &fixture.output).points)
       set.matches.push_back({k.at_px, truth(k.at_px), 0.05F, 0.05F, 0});
     return set;
   }
@@ -45,7 +45,7 @@ class HandMatches : public testing::Test {
   }
   Match by_hand(float error_px) const { return {place, truth(place) + error_px, 0, 0.3F, 0}; }
   Result<MatchSet> join(const MatchSet& matches, std::span<const Match> hand) {
-    return join_by_hand(pair, matches, hand, bench.context);
+    return join_by_hand(pair, matches, hand, fixture.context);
   }
   struct Patch {
     std::size_t known = 0, wrong = 0;  // of the places of the patch; wrong: by more than half a pixel
@@ -58,8 +58,8 @@ class HandMatches : public testing::Test {
   }
 
   test::BumpScene scene;
-  test::StageBench bench{std::size_t{48} << 20, std::size_t{96} << 20, 2};
-  RectifiedPair pair = scene.render(&bench.output);
+  test::StageFixture fixture{std::size_t{48} << 20, std::size_t{96} << 20, 2};
+  RectifiedPair pair = scene.render(&fixture.output);
   const Vec2f place{151.4F, 120.7F};  // on the bump's flank, between the nodes
 };
 
@@ -124,7 +124,7 @@ TEST_F(HandMatches, AWrongOneDoesHarmWithinItsReachAlone) {
 // Without texture nothing grows; the surface goes through the hand's place all the same, without a step.
 TEST_F(HandMatches, WithoutTextureTheSurfaceBendsToIt) {
   scene.contrast = 0;
-  pair = scene.render(&bench.output);
+  pair = scene.render(&fixture.output);
   const MatchSet matches = true_matches();
   const std::array hand{by_hand(4)};
   const auto joined = join(matches, hand);
@@ -175,7 +175,7 @@ TEST_F(HandMatches, NoFilterTakesItAway) {
       ASSERT_TRUE(stages) << stages.error().what.view();
       MatchSet given = true_matches(step);
       std::erase_if(given.matches, [&](const Match& m) { return from(m, alone) < 20; });
-      const auto cloud = stages->reconstruct(pair, given, bench.context, hand);
+      const auto cloud = stages->reconstruct(pair, given, fixture.context, hand);
       ASSERT_TRUE(cloud);
       for (const Match& h : hand) {
         double best = 1e9;
@@ -186,8 +186,8 @@ TEST_F(HandMatches, NoFilterTakesItAway) {
         EXPECT_LT(best, 0.01) << filter << " step " << step;
       }
       EXPECT_EQ(cloud->lattice_step_px, step);
-      bench.output.reset();
-      pair = scene.render(&bench.output);
+      fixture.output.reset();
+      pair = scene.render(&fixture.output);
     }
 }
 
@@ -204,7 +204,7 @@ TEST_F(HandMatches, OutsideThePicturesThereIsNone) {
     EXPECT_EQ(joined.error().code, Errc::InvalidInput);
     EXPECT_EQ(joined.error().where(), "by hand 2");
   }
-  bench.cancelled = true;
+  fixture.cancelled = true;
   const std::array hand{by_hand(0)};
   MatchSet wrong = true_matches();
   for (Match& m : wrong.matches) m.disparity_px += 9;
@@ -222,7 +222,7 @@ TEST_F(HandMatches, TheRowProposesThePartner) {
       << "what lies beyond the end is not found";
   EXPECT_FALSE(match_on_row(pair, {2, 2}, 0, 60, 7)) << "a window that leaves the picture";
   scene.contrast = scene.noise = 0;
-  pair = scene.render(&bench.output);
+  pair = scene.render(&fixture.output);
   EXPECT_FALSE(match_on_row(pair, place, 0, 60, 7)) << "plain";
 }
 

@@ -6,19 +6,20 @@
 
 #include <random>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 TEST(BoxSum, EqualsTheSlowTwinForEveryRadius) {
-  test::StageBench bench(1 << 20, 1 << 20, 3);
+  test::StageFixture fixture(1 << 20, 1 << 20, 3);
   for (const int radius : {0, 1, 3, 7, 40}) {
-    Arena::Mark mark(bench.scratch);
-    Plane<float> from(&bench.scratch, 37, 23), across(&bench.scratch, 37, 23), to(&bench.scratch, 37, 23);
+    Arena::Mark mark(fixture.scratch);
+    Plane<float> from(&fixture.scratch, 37, 23), across(&fixture.scratch, 37, 23),
+        to(&fixture.scratch, 37, 23);
     std::mt19937 random(9);
     for (float& value : from.values) value = std::uniform_real_distribution<float>(-100, 100)(random);
-    box_sum(from, radius, bench.pool, across, to);
+    box_sum(from, radius, fixture.pool, across, to);
     for (int y = 0; y < 23; ++y)
       for (int x = 0; x < 37; ++x) {
         double sum = 0;

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "tests/pipeline/match/preprocess/shining_skin.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -17,12 +17,12 @@ namespace {
 using test::kLeftLamp;
 using test::kRightLamp;
 using test::Lamp;
-using test::StageBench;
+using test::StageFixture;
 const test::BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
-struct Bench : StageBench {
-  explicit Bench(std::size_t scratch_bytes = std::size_t{1} << 20)
-      : StageBench(std::size_t{8} << 20, scratch_bytes) {}
+struct HighlightFixture : StageFixture {
+  explicit HighlightFixture(std::size_t scratch_bytes = std::size_t{1} << 20)
+      : StageFixture(std::size_t{8} << 20, scratch_bytes) {}
   RectifiedPair skin(double light = kLeftLamp.light) { return test::shining_skin(kScene, &output, light); }
   // A pair without a region is a face all over.
   Result<void> remove(RectifiedPair& pair) {
@@ -45,10 +45,10 @@ double rms_apart(const RectifiedView& a, const RectifiedView& b, int width_px, c
 }
 
 TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
-  Bench bench;
-  const RectifiedPair dull = bench.skin(0), shining = bench.skin();
-  RectifiedPair done = bench.skin();
-  ASSERT_TRUE(bench.remove(done));
+  HighlightFixture fixture;
+  const RectifiedPair dull = fixture.skin(0), shining = fixture.skin();
+  RectifiedPair done = fixture.skin();
+  ASSERT_TRUE(fixture.remove(done));
   const double added = rms_apart(shining.left, dull.left, dull.width_px, kLeftLamp, 2);
   EXPECT_GT(added, 18);
   // What `least` leaves of it.
@@ -67,11 +67,11 @@ TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
 
 // Against the ratio of the whole face a lamp upon red lips would be no brighter than dull skin.
 TEST(HighlightRemover, RedLipsAreAskedByTheirOwnColour) {
-  Bench bench;
+  HighlightFixture fixture;
   constexpr test::Lips kLips{90, 80, 40, 14};
   constexpr Lamp kLamp{90, 80, 5, 0.12};
   const auto painted = [&](double light) {
-    RectifiedPair pair = kScene.render(&bench.output);
+    RectifiedPair pair = kScene.render(&fixture.output);
     for (RectifiedView* view : {&pair.left, &pair.right})
       paint_skin(*view, pair.width_px, {kLamp.x_px, kLamp.y_px, kLamp.radius_px, light}, kLips);
     pair.face_centre_px = {90, 80};
@@ -80,21 +80,21 @@ TEST(HighlightRemover, RedLipsAreAskedByTheirOwnColour) {
   };
   const RectifiedPair dull = painted(0), shining = painted(kLamp.light);
   RectifiedPair done = painted(kLamp.light);
-  ASSERT_TRUE(bench.remove(done));
+  ASSERT_TRUE(fixture.remove(done));
   const double added = rms_apart(shining.left, dull.left, dull.width_px, kLamp, 2);
   EXPECT_GT(added, 9);
   EXPECT_LT(rms_apart(done.left, dull.left, dull.width_px, kLamp, 2), 0.7 * added);
 }
 
 TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
-  Bench bench;
-  const RectifiedPair shining = bench.skin();
+  HighlightFixture fixture;
+  const RectifiedPair shining = fixture.skin();
   for (const int top : {10, 70}) {
-    RectifiedPair done = bench.skin();
+    RectifiedPair done = fixture.skin();
     done.region.assign(done.left.grey.size(), 0);
     for (int y = top; y < top + 20; ++y)
       std::fill_n(done.region.begin() + y * done.width_px + 40, 100, std::uint8_t{1});
-    ASSERT_TRUE(bench.remove(done));
+    ASSERT_TRUE(fixture.remove(done));
     const double changed = rms_apart(done.left, shining.left, shining.width_px, kLeftLamp, 1);
     if (top == 10) EXPECT_EQ(changed, 0);
     else EXPECT_GT(changed, 5);
@@ -102,12 +102,12 @@ TEST(HighlightRemover, LooksOnlyWhereAFaceMayBe) {
 }
 
 TEST(HighlightRemover, WhereNoFaceIsLookedForNothingIsSkin) {
-  Bench bench;
-  RectifiedPair pair = bench.skin();
+  HighlightFixture fixture;
+  RectifiedPair pair = fixture.skin();
   pair.region.clear();
   const auto left = pair.left.grey, right = pair.right.grey;
   ASSERT_TRUE(
-      run_stage(bench.context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); }));
+      run_stage(fixture.context, [&](StageContext& c) { return HighlightRemover({}).process(pair, c); }));
   EXPECT_EQ(pair.left.grey, left);
   EXPECT_EQ(pair.right.grey, right);
 }
@@ -115,8 +115,8 @@ TEST(HighlightRemover, WhereNoFaceIsLookedForNothingIsSkin) {
 // Of two cameras exposed unlike, the brighter one sees skin whose red has reached its end: paler than it is,
 // as under a lamp.
 TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
-  Bench bench;
-  RectifiedPair pair = bench.skin(0);
+  HighlightFixture fixture;
+  RectifiedPair pair = fixture.skin(0);
   std::vector<std::uint8_t> reds;
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k) reds.push_back(pair.left.rgb[3 * k]);
   const double gain = 262.0 / median(reds);
@@ -128,15 +128,15 @@ TEST(HighlightRemover, SkinWhoseRedIsOverexposedIsNoHighlight) {
   for (std::size_t k = 0; k < pair.left.grey.size(); ++k) ended += pair.left.rgb[3 * k] == 255 ? 1U : 0U;
   ASSERT_GT(ended, pair.left.grey.size() / 4);
   const auto before = pair.left.grey;
-  ASSERT_TRUE(bench.remove(pair));
+  ASSERT_TRUE(fixture.remove(pair));
   for (std::size_t k = 0; k < before.size(); ++k)
     ASSERT_NEAR(pair.left.grey[k], before[k], 0.75) << "x " << k % 200 << " y " << k / 200;
 }
 
 // The white of an eye, teeth: no skin. Right beside them two or three levels may go.
 TEST(HighlightRemover, WhiteThingsStay) {
-  Bench bench;
-  RectifiedPair pair = bench.skin(0);
+  HighlightFixture fixture;
+  RectifiedPair pair = fixture.skin(0);
   for (int y = 60; y < 80; ++y)
     for (int x = 60; x < 90; ++x) {
       const auto k = static_cast<std::size_t>(y * pair.width_px + x);
@@ -144,28 +144,28 @@ TEST(HighlightRemover, WhiteThingsStay) {
       std::fill_n(pair.left.rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, std::uint8_t{200});
     }
   const auto before = pair.left.grey;
-  ASSERT_TRUE(bench.remove(pair));
+  ASSERT_TRUE(fixture.remove(pair));
   for (std::size_t k = 0; k < before.size(); ++k)
     ASSERT_NEAR(pair.left.grey[k], before[k], 3) << "x " << k % 200 << " y " << k / 200;
 }
 
 TEST(HighlightRemover, WithoutColourThereIsNothingToGoBy) {
-  Bench bench;
-  RectifiedPair pair = bench.skin();
+  HighlightFixture fixture;
+  RectifiedPair pair = fixture.skin();
   for (RectifiedView* view : {&pair.left, &pair.right})
     for (std::size_t k = 0; k < view->grey.size(); ++k)
       std::fill_n(view->rgb.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
                   static_cast<std::uint8_t>(view->grey[k]));
   const auto left = pair.left.grey, right = pair.right.grey;
-  ASSERT_TRUE(bench.remove(pair));
+  ASSERT_TRUE(fixture.remove(pair));
   EXPECT_EQ(pair.left.grey, left);
   EXPECT_EQ(pair.right.grey, right);
 }
 
 TEST(HighlightRemover, TooLittleMemoryIsAnError) {
-  Bench bench(std::size_t{64} << 10);
-  RectifiedPair pair = bench.skin();
-  const auto done = bench.remove(pair);
+  HighlightFixture fixture(std::size_t{64} << 10);
+  RectifiedPair pair = fixture.skin();
+  const auto done = fixture.remove(pair);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, Errc::OutOfMemory);
 }

@@ -17,13 +17,13 @@
 #include "tests/pipeline/match/preprocess/shining_skin.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 // A scene small enough for the slowest sanitizer, rendered once.
 const BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
@@ -33,8 +33,9 @@ const RectifiedPair& rendered() {
   return pair;
 }
 
-struct Bench : StageBench {
-  explicit Bench(int threads = 2) : StageBench(std::size_t{8} << 20, std::size_t{1} << 20, threads) {}
+struct PreprocessFixture : StageFixture {
+  explicit PreprocessFixture(int threads = 2)
+      : StageFixture(std::size_t{8} << 20, std::size_t{1} << 20, threads) {}
   RectifiedPair scene() {
     RectifiedPair pair(&output);
     pair = rendered();
@@ -53,8 +54,9 @@ std::unique_ptr<Preprocessor> make(const std::string& name, const Settings& sett
   return *std::move(made);
 }
 
-Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair& pair, StageBench& bench) {
-  return run_stage(bench.context, [&](StageContext& c) -> Result<RectifiedPair> {
+Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair& pair,
+                          StageFixture& fixture) {
+  return run_stage(fixture.context, [&](StageContext& c) -> Result<RectifiedPair> {
     RectifiedPair mine(&c.output);
     mine = pair;
     RELIEVO_TRY(preprocessor.process(mine, c));
@@ -65,11 +67,11 @@ Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair&
 class PreprocessorContract : public testing::TestWithParam<std::string> {};
 
 TEST_P(PreprocessorContract, ChangesGreyValuesAndNothingElse) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
+  PreprocessFixture fixture;
+  RectifiedPair pair = fixture.scene();
   pair.region.assign(pair.left.grey.size(), 1);
   pair.region[5] = 0;
-  const auto done = run(*make(GetParam()), pair, bench);
+  const auto done = run(*make(GetParam()), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_EQ(done->left.rgb, pair.left.rgb);
   EXPECT_EQ(done->right.valid, pair.right.valid);
@@ -77,36 +79,36 @@ TEST_P(PreprocessorContract, ChangesGreyValuesAndNothingElse) {
   EXPECT_EQ(done->width_px, pair.width_px);
   EXPECT_EQ(done->focal_px, pair.focal_px);
   EXPECT_NE(done->right.grey, pair.right.grey);
-  EXPECT_EQ(done->left.grey.get_allocator().resource(), &bench.output);
+  EXPECT_EQ(done->left.grey.get_allocator().resource(), &fixture.output);
   for (const RectifiedView* view : {&done->left, &done->right})
     for (const float grey : view->grey) ASSERT_TRUE(grey >= 0 && grey <= 255) << grey;
 }
 
 TEST_P(PreprocessorContract, APairWithoutPixelsIsRefused) {
-  Bench bench;
-  const auto done = run(*make(GetParam()), RectifiedPair(&bench.output), bench);
+  PreprocessFixture fixture;
+  const auto done = run(*make(GetParam()), RectifiedPair(&fixture.output), fixture);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, Errc::InvalidInput);
 }
 
 TEST_P(PreprocessorContract, AViewThatSeesNothingStays) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
+  PreprocessFixture fixture;
+  RectifiedPair pair = fixture.scene();
   std::fill(pair.right.valid.begin(), pair.right.valid.end(), std::uint8_t{0});
-  const auto done = run(*make(GetParam()), pair, bench);
+  const auto done = run(*make(GetParam()), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_EQ(done->right.grey, pair.right.grey);
 }
 
 TEST_P(PreprocessorContract, FlatPicturesStayFinite) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
+  PreprocessFixture fixture;
+  RectifiedPair pair = fixture.scene();
   for (const float level : {0.0F, 128.0F, 255.0F}) {
     std::fill(pair.left.grey.begin(), pair.left.grey.end(), level);
     std::fill(pair.right.grey.begin(), pair.right.grey.end(), 255 - level);
     std::fill(pair.left.rgb.begin(), pair.left.rgb.end(), static_cast<std::uint8_t>(level));
     std::fill(pair.right.rgb.begin(), pair.right.rgb.end(), static_cast<std::uint8_t>(255 - level));
-    const auto done = run(*make(GetParam()), pair, bench);
+    const auto done = run(*make(GetParam()), pair, fixture);
     ASSERT_TRUE(done);
     for (const float grey : done->right.grey) ASSERT_EQ(grey, done->right.grey.front());
     ASSERT_TRUE(std::isfinite(done->right.grey.front()));
@@ -114,10 +116,10 @@ TEST_P(PreprocessorContract, FlatPicturesStayFinite) {
 }
 
 TEST_P(PreprocessorContract, StopsWhenAsked) {
-  Bench bench;
-  RectifiedPair pair = bench.scene();
-  bench.cancelled = true;
-  const auto done = make(GetParam())->process(pair, bench.context);
+  PreprocessFixture fixture;
+  RectifiedPair pair = fixture.scene();
+  fixture.cancelled = true;
+  const auto done = make(GetParam())->process(pair, fixture.context);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, Errc::Cancelled);
 }
@@ -125,8 +127,8 @@ TEST_P(PreprocessorContract, StopsWhenAsked) {
 TEST_P(PreprocessorContract, GivesTheSameBytesForAnyNumberOfThreads) {
   std::vector<float> first;
   for (const int threads : {1, 2, 3, 2}) {
-    Bench bench(threads);
-    const auto done = run(*make(GetParam()), bench.scene(), bench);
+    PreprocessFixture fixture(threads);
+    const auto done = run(*make(GetParam()), fixture.scene(), fixture);
     ASSERT_TRUE(done);
     std::vector<float> all(done->left.grey.begin(), done->left.grey.end());
     all.insert(all.end(), done->right.grey.begin(), done->right.grey.end());
@@ -179,18 +181,18 @@ TEST(Preprocessors, ExposuresAreUndone) {
     scene.noise = 0.3;
     scene.right_gain = 1;
     scene.seed = seed;
-    Bench bench;
-    const RectifiedPair alike = scene.render(&bench.output);
+    PreprocessFixture fixture;
+    const RectifiedPair alike = scene.render(&fixture.output);
     const double least = unlikeness(scene, alike);  // noise and interpolation
     EXPECT_LT(least, 0.12);
     for (const Exposure& exposure : kExposures) {
-      Arena::Mark mark(bench.output);
-      RectifiedPair pair(&bench.output);
+      Arena::Mark mark(fixture.output);
+      RectifiedPair pair(&fixture.output);
       pair = alike;
       expose(pair, exposure);
       EXPECT_GT(unlikeness(scene, pair), 3 * least) << "this exposure is no trial";
       for (const std::string name : {"histogram-normalise", "histogram-match"}) {
-        const auto done = run(*make(name), pair, bench);
+        const auto done = run(*make(name), pair, fixture);
         ASSERT_TRUE(done);
         // The views show a slightly different part of the scene: their histograms are not the same.
         EXPECT_LT(unlikeness(scene, *done), 0.15) << name << " gain " << exposure.gain << " offset "
@@ -204,10 +206,10 @@ TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
   BumpScene scene = kScene;
   scene.noise = 0.3;
   scene.right_gain = 1;
-  Bench bench;
-  RectifiedPair pair = scene.render(&bench.output);
+  PreprocessFixture fixture;
+  RectifiedPair pair = scene.render(&fixture.output);
   expose(pair, {0.5, 90, 1});
-  const auto done = run(*make("histogram-normalise", {{"histogram-normalise.equalise", "0"}}), pair, bench);
+  const auto done = run(*make("histogram-normalise", {{"histogram-normalise.equalise", "0"}}), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_LT(unlikeness(scene, *done), 0.15);
   // Three grey values in a row keep the ratio of their distances.
@@ -228,8 +230,8 @@ TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
 }
 
 TEST(Preprocessors, TheEqualisedHistogramIsFlat) {
-  Bench bench;
-  const auto done = run(*make("histogram-normalise"), bench.scene(), bench);
+  PreprocessFixture fixture;
+  const auto done = run(*make("histogram-normalise"), fixture.scene(), fixture);
   ASSERT_TRUE(done);
   std::vector<double> tenths(10);
   for (const float grey : done->left.grey)
@@ -241,10 +243,10 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
   BumpScene scene = kScene;
   scene.noise = 0.3;
   scene.right_gain = 1;
-  Bench bench;
-  RectifiedPair pair = scene.render(&bench.output);
+  PreprocessFixture fixture;
+  RectifiedPair pair = scene.render(&fixture.output);
   expose(pair, {0.7, 30, 1.4});
-  const auto clean = run(*make("histogram-match"), pair, bench);
+  const auto clean = run(*make("histogram-match"), pair, fixture);
   ASSERT_TRUE(clean);
   // A white wall in what is marked as not seen, and a black one outside of the face's region.
   pair.region.assign(pair.left.grey.size(), 1);
@@ -260,7 +262,7 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
         pair.region[k] = 0;
       }
     }
-  const auto done = run(*make("histogram-match"), pair, bench);
+  const auto done = run(*make("histogram-match"), pair, fixture);
   ASSERT_TRUE(done);
   double worst = 0;
   for (int y = 50; y < pair.height_px; ++y)
@@ -273,11 +275,11 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
 
 // The curve against its slow twin: sorting.
 TEST(GreyHistogram, AgreesWithCounting) {
-  Bench bench;
-  const RectifiedPair pair = bench.scene();
+  PreprocessFixture fixture;
+  const RectifiedPair pair = fixture.scene();
   const auto all = [](int, int) { return true; };
   const GreyHistogram histogram =
-      GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, all, bench.pool);
+      GreyHistogram::of(pair.left.grey, pair.width_px, pair.height_px, all, fixture.pool);
   std::vector<float> sorted(pair.left.grey.begin(), pair.left.grey.end());
   std::sort(sorted.begin(), sorted.end());
   ASSERT_EQ(histogram.count(), sorted.size());

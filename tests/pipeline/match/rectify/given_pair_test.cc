@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -30,8 +30,8 @@ struct Pictures {
 
 TEST(GivenPair, TakesEveryPixelAsItIs) {
   const Pictures pictures;
-  test::StageBench bench(std::size_t{1} << 20, std::size_t{1} << 16, 2);
-  const auto pair = take_rectified(pictures.frame(), {0, 64}, bench.context);
+  test::StageFixture fixture(std::size_t{1} << 20, std::size_t{1} << 16, 2);
+  const auto pair = take_rectified(pictures.frame(), {0, 64}, fixture.context);
   ASSERT_TRUE(pair);
   ASSERT_EQ(pair->width_px, kWidth);
   for (const std::size_t k : {0U, 777U, 3499U}) {
@@ -46,10 +46,10 @@ TEST(GivenPair, TakesEveryPixelAsItIs) {
 
 TEST(GivenPair, TheNominalRigHoldsTheRangeWhateverItsSign) {
   const Pictures pictures;
-  test::StageBench bench(std::size_t{4} << 20, std::size_t{1} << 16, 1);
+  test::StageFixture fixture(std::size_t{4} << 20, std::size_t{1} << 16, 1);
   for (const DisparityRange range :
        {DisparityRange{0, 256}, DisparityRange{-40, 30}, DisparityRange{12, 60}, DisparityRange{-90, -20}}) {
-    const auto pair = take_rectified(pictures.frame(), range, bench.context);
+    const auto pair = take_rectified(pictures.frame(), range, fixture.context);
     ASSERT_TRUE(pair);
     EXPECT_GT(pair->near_mm, 0);
     EXPECT_LT(pair->near_mm, pair->far_mm);
@@ -61,15 +61,15 @@ TEST(GivenPair, TheNominalRigHoldsTheRangeWhateverItsSign) {
 
 TEST(GivenPair, RefusesWhatIsNoPair) {
   const Pictures pictures;
-  test::StageBench bench(std::size_t{1} << 20, std::size_t{1} << 16, 1);
+  test::StageFixture fixture(std::size_t{1} << 20, std::size_t{1} << 16, 1);
   StereoFrame frame = pictures.frame();
-  EXPECT_FALSE(take_rectified(frame, {9, 9}, bench.context));
-  EXPECT_FALSE(take_rectified(frame, {0, 5000}, bench.context));
+  EXPECT_FALSE(take_rectified(frame, {9, 9}, fixture.context));
+  EXPECT_FALSE(take_rectified(frame, {0, 5000}, fixture.context));
   frame.right.width_px = 60;
-  EXPECT_EQ(take_rectified(frame, {0, 64}, bench.context).error().code, Errc::InvalidInput);
+  EXPECT_EQ(take_rectified(frame, {0, 64}, fixture.context).error().code, Errc::InvalidInput);
   frame.right = {};
-  EXPECT_EQ(take_rectified(frame, {0, 64}, bench.context).error().code, Errc::InvalidInput);
-  test::StageBench tiny(1024, 1024, 1);
+  EXPECT_EQ(take_rectified(frame, {0, 64}, fixture.context).error().code, Errc::InvalidInput);
+  test::StageFixture tiny(1024, 1024, 1);
   const auto starved = run_stage(tiny.context, [&](StageContext& c) {
     return take_rectified(pictures.frame(), {0, 64}, c);
   });

@@ -9,7 +9,7 @@
 
 #include "pipeline/match/rectify/rectified_geometry.h"
 #include "tests/support/lying_sensor.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -43,8 +43,8 @@ Vec2d project(const CameraIntrinsics& camera, const Vec3d& p) {
 
 TEST(RectifiedGeometry, APointLiesOnTheSameRowInBothViewsAtTheStatedDepth) {
   const StereoCalibration c = toed_in(640, 480);
-  test::StageBench bench(1 << 20, 1 << 20);
-  RectifiedPair pair(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair pair(&fixture.output);
   ASSERT_TRUE(lay_windows(c, {}, pair));
   for (double z = 420; z < 700; z += 40)
     for (double x = -60; x <= 100; x += 20)
@@ -70,8 +70,8 @@ TEST(RectifiedGeometry, APointLiesOnTheSameRowInBothViewsAtTheStatedDepth) {
 
 TEST(RectifiedGeometry, TheWindowsHoldBothWholePictures) {
   const StereoCalibration c = toed_in(640, 480);
-  test::StageBench bench(1 << 20, 1 << 20);
-  RectifiedPair pair(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair pair(&fixture.output);
   ASSERT_TRUE(lay_windows(c, {}, pair));
   // Neither zoomed (the scale is the cameras' own) nor cut: the centre of each picture is well inside.
   EXPECT_NEAR(pair.focal_px, 900, 10);
@@ -82,8 +82,8 @@ TEST(RectifiedGeometry, TheWindowsHoldBothWholePictures) {
 // Sensors that lie on their side see what upright ones see: the windows are the same.
 TEST(RectifiedGeometry, LyingSensorsGiveUprightWindows) {
   const StereoCalibration c = toed_in(480, 640);
-  test::StageBench bench(1 << 20, 1 << 20);
-  RectifiedPair upright(&bench.output), pair(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair upright(&fixture.output), pair(&fixture.output);
   ASSERT_TRUE(lay_windows(c, {}, upright));
   for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
     const StereoCalibration lying = test::laid(c, side);
@@ -106,8 +106,8 @@ TEST(RectifiedGeometry, CamerasBehindEachOtherAreRefused) {
   StereoCalibration c = toed_in(640, 480);
   c.right_from_left.translation_mm = {-20, 0, -100};
   c.right_from_left.rotation = {};
-  test::StageBench bench(1 << 20, 1 << 20);
-  RectifiedPair pair(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair pair(&fixture.output);
   const auto laid = lay_windows(c, {}, pair);
   ASSERT_FALSE(laid);
   EXPECT_NE(laid.error().what.view().find("not behind"), std::string_view::npos);
@@ -116,8 +116,8 @@ TEST(RectifiedGeometry, CamerasBehindEachOtherAreRefused) {
 TEST(RectifiedGeometry, SwappedCamerasAreNamed) {
   StereoCalibration c = toed_in(640, 480);
   c.right_from_left = inverse(c.right_from_left);
-  test::StageBench bench(1 << 20, 1 << 20);
-  RectifiedPair pair(&bench.output);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair pair(&fixture.output);
   const auto laid = lay_windows(c, {}, pair);
   ASSERT_FALSE(laid);
   EXPECT_NE(laid.error().what.view().find("swapped"), std::string_view::npos);
@@ -135,8 +135,8 @@ TEST(Rectifier, ResamplesASmoothPictureToItsAnalyticValues) {
       picture[static_cast<std::size_t>(y * w + x)] =
           static_cast<std::uint16_t>(std::lround(257 * shade(x, y)));
   const ImageView view{reinterpret_cast<const std::byte*>(picture.data()), w, h, 2 * w, PixelFormat::Grey16};
-  test::StageBench bench;
-  const auto pair = run_stage(bench.context, [&](StageContext& ctx) {
+  test::StageFixture fixture;
+  const auto pair = run_stage(fixture.context, [&](StageContext& ctx) {
     return Rectifier({}).rectify({view, view}, c, ctx);
   });
   ASSERT_TRUE(pair);
@@ -159,10 +159,10 @@ TEST(Rectifier, RefusesWhatIsNotThisCalibrations) {
   std::vector<std::byte> bytes(160 * 120 * 3);
   const ImageView right_size{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
   const ImageView wrong_size{bytes.data(), 152, 120, 456, PixelFormat::Rgb8};
-  test::StageBench bench(1 << 22, 1 << 22);
+  test::StageFixture fixture(1 << 22, 1 << 22);
   for (const auto& [left, right] : {std::pair{wrong_size, right_size}, std::pair{right_size, wrong_size},
                                     std::pair{ImageView{}, right_size}}) {
-    const auto pair = run_stage(bench.context, [&, l = left, r = right](StageContext& ctx) {
+    const auto pair = run_stage(fixture.context, [&, l = left, r = right](StageContext& ctx) {
       return Rectifier({}).rectify({l, r}, c, ctx);
     });
     ASSERT_FALSE(pair);
@@ -177,8 +177,8 @@ TEST(Rectifier, EveryArenaTooSmallSaysSo) {
   const ImageView view{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
   bool succeeded = false;
   for (std::size_t size = 512; size < (1U << 24) && !succeeded; size += size / 3) {
-    test::StageBench bench(size, size, 1);
-    const auto pair = run_stage(bench.context, [&](StageContext& ctx) {
+    test::StageFixture fixture(size, size, 1);
+    const auto pair = run_stage(fixture.context, [&](StageContext& ctx) {
       return Rectifier({}).rectify({view, view}, c, ctx);
     });
     succeeded = pair.has_value();

@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -58,16 +58,16 @@ void fill(BendingSystem& s, std::uint32_t seed) {
 }
 
 TEST(BendingSystem, AppliesLikeItsDenseTwin) {
-  test::StageBench bench(1 << 20, 1 << 20);
-  BendingSystem s(&bench.scratch, 13, 11);
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  BendingSystem s(&fixture.scratch, 13, 11);
   fill(s, 1);
-  Plane<float> x(&bench.scratch, 13, 11);
+  Plane<float> x(&fixture.scratch, 13, 11);
   std::mt19937 random(2);
   for (int j = 1; j < 10; ++j)
     for (int i = 1; i < 12; ++i)
       x.row(j)[i] = s.data.row(j)[i] > 0 ? std::uniform_real_distribution<float>(-1, 1)(random) : 0.0F;
-  Plane<float> out(&bench.scratch, 13, 11);
-  Plane<float> rolling(&bench.scratch, rolling_floats(13), 1);
+  Plane<float> out(&fixture.scratch, 13, 11);
+  Plane<float> rolling(&fixture.scratch, rolling_floats(13), 1);
   // In two bands, as threads do it.
   apply_system(s, x, true, out, 0, 4, rolling.row(0));
   apply_system(s, x, true, out, 4, 11, rolling.row(0));
@@ -81,11 +81,11 @@ TEST(BendingSystem, AppliesLikeItsDenseTwin) {
 }
 
 TEST(BendingSystem, SolvesLikeItsDenseTwin) {
-  test::StageBench bench(1 << 20, 1 << 22);
-  BendingSystem s(&bench.scratch, 13, 11);
+  test::StageFixture fixture(1 << 20, 1 << 22);
+  BendingSystem s(&fixture.scratch, 13, 11);
   fill(s, 3);
-  Plane<float> x(&bench.scratch, 13, 11);
-  solve(s, 400, kToTheEnd, bench.pool, bench.scratch, x);
+  Plane<float> x(&fixture.scratch, 13, 11);
+  solve(s, 400, kToTheEnd, fixture.pool, fixture.scratch, x);
   Eigen::MatrixXd m = dense(s);
   Eigen::VectorXd b(13 * 11);
   for (std::size_t k = 0; k < s.rhs.values.size(); ++k) {
@@ -114,11 +114,11 @@ void fill_sparsely(BendingSystem& s) {
 
 TEST(BendingSystem, IsSolvedInFewStepsWhereLittleIsKnown) {
   constexpr int kWidth = 45, kHeight = 38;
-  test::StageBench bench(1 << 20, 1 << 22);
-  BendingSystem s(&bench.scratch, kWidth, kHeight);
+  test::StageFixture fixture(1 << 20, 1 << 22);
+  BendingSystem s(&fixture.scratch, kWidth, kHeight);
   fill_sparsely(s);
-  Plane<float> x(&bench.scratch, kWidth, kHeight);
-  solve(s, 40, kToTheEnd, bench.pool, bench.scratch, x);
+  Plane<float> x(&fixture.scratch, kWidth, kHeight);
+  solve(s, 40, kToTheEnd, fixture.pool, fixture.scratch, x);
   Eigen::MatrixXd m = dense(s);
   Eigen::VectorXd b(kWidth * kHeight);
   for (std::size_t k = 0; k < s.rhs.values.size(); ++k) {
@@ -135,12 +135,12 @@ TEST(BendingSystem, IsSolvedInFewStepsWhereLittleIsKnown) {
 // As the header has it: four planes of its own and the preconditioner's, and a tenth for borders and rows.
 TEST(BendingSystem, TakesThePlanesItSays) {
   constexpr int kWidth = 400, kHeight = 300;
-  test::StageBench bench(4 << 20, 8 << 20);
-  BendingSystem s(&bench.output, kWidth, kHeight);
+  test::StageFixture fixture(4 << 20, 8 << 20);
+  BendingSystem s(&fixture.output, kWidth, kHeight);
   fill(s, 5);
-  Plane<float> x(&bench.output, kWidth, kHeight);
-  solve(s, 2, kToTheEnd, bench.pool, bench.scratch, x);
-  EXPECT_LT(static_cast<double>(bench.scratch.used()), 1.1 * 25 / 3 * kWidth * kHeight * sizeof(float));
+  Plane<float> x(&fixture.output, kWidth, kHeight);
+  solve(s, 2, kToTheEnd, fixture.pool, fixture.scratch, x);
+  EXPECT_LT(static_cast<double>(fixture.scratch.used()), 1.1 * 25 / 3 * kWidth * kHeight * sizeof(float));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -18,11 +18,11 @@ constexpr int kMiddle = kSize / 2;
 const BendingExpectation kExpected{.lambda = 100, .crease = 0.07, .wrinkle = 0.017};
 
 struct Weighed {
-  test::StageBench bench{std::size_t{1} << 20, std::size_t{1} << 20, 2};
-  Plane<float> d{&bench.output, kSize, kSize};
-  Plane<std::uint8_t> domain{&bench.output, kSize, kSize};
-  Plane<float> across{&bench.output, kSize, kSize}, wrinkled{&bench.output, kSize, kSize};
-  BendingSystem system{&bench.output, kSize, kSize};
+  test::StageFixture fixture{std::size_t{1} << 20, std::size_t{1} << 20, 2};
+  Plane<float> d{&fixture.output, kSize, kSize};
+  Plane<std::uint8_t> domain{&fixture.output, kSize, kSize};
+  Plane<float> across{&fixture.output, kSize, kSize}, wrinkled{&fixture.output, kSize, kSize};
+  BendingSystem system{&fixture.output, kSize, kSize};
 
   explicit Weighed(const std::function<float(int, int)>& surface,
                    const BendingExpectation& expected = kExpected) {
@@ -31,7 +31,7 @@ struct Weighed {
         d.row(y)[x] = surface(x, y);
         domain.row(y)[x] = x > 0 && y > 0 && x < kSize - 1 && y < kSize - 1 ? 1 : 0;
       }
-    weigh_bending(d, domain, expected, bench.pool, across, wrinkled, system);
+    weigh_bending(d, domain, expected, fixture.pool, across, wrinkled, system);
   }
   float least(int from, int to) const {
     float least = system.bend_xx.row(kMiddle)[from];
@@ -85,7 +85,7 @@ TEST(BendingWeights, LittleWavesAllOverAreNoRelief) {
 TEST(BendingWeights, OutsideTheDomainNothingIsHeld) {
   Weighed scene([](int x, int y) { return static_cast<float>((x * 7 + y * 3) % 5); });
   scene.domain.row(kMiddle)[kMiddle] = 0;
-  weigh_bending(scene.d, scene.domain, kExpected, scene.bench.pool, scene.across, scene.wrinkled,
+  weigh_bending(scene.d, scene.domain, kExpected, scene.fixture.pool, scene.across, scene.wrinkled,
                 scene.system);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle], 0);
   EXPECT_EQ(scene.system.bend_xx.row(kMiddle)[kMiddle - 1], 0);

@@ -10,12 +10,12 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 200;
@@ -26,17 +26,17 @@ constexpr double kSpot = 22;  // sigma of the highlight
 
 // Both views, noise and all.
 struct Scene {
-  StageBench bench{std::size_t{16} << 20, std::size_t{32} << 20};
-  Plane<float> left{&bench.output, kWidth, kHeight}, right{&bench.output, kWidth, kHeight};
-  Plane<std::uint8_t> valid{&bench.output, kWidth, kHeight, 1};
-  SurfaceField field{&bench.output, kWidth, kHeight, 1 << kLevel};
+  StageFixture fixture{std::size_t{16} << 20, std::size_t{32} << 20};
+  Plane<float> left{&fixture.output, kWidth, kHeight}, right{&fixture.output, kWidth, kHeight};
+  Plane<std::uint8_t> valid{&fixture.output, kWidth, kHeight, 1};
+  SurfaceField field{&fixture.output, kWidth, kHeight, 1 << kLevel};
 
   explicit Scene(float texture, float noise = 0.7F, unsigned seed = 3) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> skin(&bench.output, kWidth + 64, kHeight), across(&bench.output, kWidth + 64, kHeight);
+    Plane<float> skin(&fixture.output, kWidth + 64, kHeight), across(&fixture.output, kWidth + 64, kHeight);
     for (float& v : skin.values) v = normal(random);
-    box_sum(skin, 1, bench.context.pool, across, skin);  // pores of three pixels, as strong as a third
+    box_sum(skin, 1, fixture.context.pool, across, skin);  // pores of three pixels, as strong as a third
     const auto spot = [](double x, int y) {
       return 40 * std::exp(-((x - 160) * (x - 160) + (y - 100.0) * (y - 100.0)) / (2 * kSpot * kSpot));
     };
@@ -76,29 +76,31 @@ struct Scene {
 TEST(DetailSearch, ComesBackFromAHighlightToTheSkin) {
   Scene scene(2);
   ASSERT_GT(scene.error(), 2.9);
-  EXPECT_TRUE(search_by_detail(scene.views(), scene.bench.context, scene.field));
+  EXPECT_TRUE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_LT(scene.error(), 0.3);
 }
 
 TEST(DetailSearch, LeavesWhatIsRight) {
   Scene scene(2);
   for (float& d : scene.field.disparity_px.values) d = kSkin * (1 << kLevel);
-  EXPECT_FALSE(search_by_detail(scene.views(), scene.bench.context, scene.field));
+  EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_EQ(scene.error(), 0);
 }
 
 TEST(DetailSearch, FindsNothingInNoise) {
   Scene scene(0);
   const double before = scene.error();
-  EXPECT_FALSE(search_by_detail(scene.views(), scene.bench.context, scene.field));
+  EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_EQ(scene.error(), before);
 }
 
 TEST(DetailSearch, IsTheSameForAnyNumberOfThreads) {
   Scene one(2), two(2);
   ThreadPool alone(1), many(3);
-  StageContext first{one.bench.output, one.bench.scratch, alone, one.bench.progress, one.bench.cancelled};
-  StageContext second{two.bench.output, two.bench.scratch, many, two.bench.progress, two.bench.cancelled};
+  StageContext first{one.fixture.output, one.fixture.scratch, alone, one.fixture.progress,
+                     one.fixture.cancelled};
+  StageContext second{two.fixture.output, two.fixture.scratch, many, two.fixture.progress,
+                      two.fixture.cancelled};
   EXPECT_TRUE(search_by_detail(one.views(), first, one.field));
   EXPECT_TRUE(search_by_detail(two.views(), second, two.field));
   EXPECT_EQ(one.field.disparity_px.values, two.field.disparity_px.values);
@@ -106,8 +108,8 @@ TEST(DetailSearch, IsTheSameForAnyNumberOfThreads) {
 
 TEST(DetailSearch, WantsNodesOnThePixels) {
   Scene scene(2);
-  SurfaceField other(&scene.bench.output, kWidth / 2, kHeight / 2, 4);
-  EXPECT_FALSE(search_by_detail(scene.views(), scene.bench.context, other));
+  SurfaceField other(&scene.fixture.output, kWidth / 2, kHeight / 2, 4);
+  EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, other));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 #include "pipeline/match/refine/refined_matcher.h"
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -105,10 +105,10 @@ TEST(EnlargedScene, BarsSixPixelsWideStandBeforeTheirWall) {
       at(pair.right, kWidth, x, y) = on_bar(x + kBars) ? bars[k + kBars] : wall[k + kWall];
     }
   }
-  test::StageBench bench(std::size_t{64} << 20, std::size_t{256} << 20);
-  const Keypoints keypoints = test::lattice(pair, 1, &bench.output);
-  const auto found =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  test::StageFixture fixture(std::size_t{64} << 20, std::size_t{256} << 20);
+  const Keypoints keypoints = test::lattice(pair, 1, &fixture.output);
+  const auto found = run_stage(fixture.context,
+                               [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(found);
   int right = 0, asked = 0, of_wall = 0, wrong_of_wall = 0;
   for (const Match& m : found->matches) {

@@ -8,7 +8,7 @@
 
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/hanging_noise.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -17,21 +17,21 @@ constexpr int kSide = 240;
 
 // Residuals of so many grey levels summed over (2 box + 1)^2 pixels, gradients over 3 x 3.
 float hanging(int box, float grey, bool masked = false) {
-  test::StageBench bench{std::size_t{16} << 20, std::size_t{16} << 20};
-  WarpTerms terms(&bench.output, kSide, kSide);
-  Plane<float> across(&bench.output, kSide, kSide);
+  test::StageFixture fixture{std::size_t{16} << 20, std::size_t{16} << 20};
+  WarpTerms terms(&fixture.output, kSide, kSide);
+  Plane<float> across(&fixture.output, kSide, kSide);
   std::mt19937 random(11);
   std::normal_distribution<float> normal(0, 1);
   for (float& r : terms.residual.values) r = grey * normal(random);
   for (float& g : terms.gradient.values) g = normal(random);
   const auto smooth = [&](Plane<float>& plane, int radius) {
-    box_sum(plane, radius, bench.context.pool, across, plane);
+    box_sum(plane, radius, fixture.context.pool, across, plane);
     for (float& v : plane.values) v /= static_cast<float>(2 * radius + 1);
   };
   if (box > 0) smooth(terms.residual, box);
   smooth(terms.gradient, 1);
   for (float& m : terms.mask.values) m = masked ? 0.0F : 1.0F;
-  return hanging_noise(terms, bench.context.pool);
+  return hanging_noise(terms, fixture.context.pool);
 }
 
 TEST(HangingNoise, WhiteNoiseStandsAlone) {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -34,13 +34,13 @@ void fill(BendingSystem& s) {
 }
 
 // The operator, column by column.
-Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageBench& bench) {
+Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageFixture& fixture) {
   const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(kWidth * kHeight, kWidth * kHeight);
   for (int k = 0; k < kWidth * kHeight; ++k) {
-    Arena::Mark mark(bench.scratch);
-    Plane<float> r(&bench.scratch, kWidth, kHeight);
-    Plane<float> z(&bench.scratch, kWidth, kHeight);
+    Arena::Mark mark(fixture.scratch);
+    Plane<float> r(&fixture.scratch, kWidth, kHeight);
+    Plane<float> z(&fixture.scratch, kWidth, kHeight);
     if (!known(k % kWidth, k / kWidth)) continue;
     r.values[static_cast<std::size_t>(k)] = 1;
     preconditioner.apply(r, whole, z);
@@ -52,11 +52,11 @@ Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageBench
 
 // Conjugate gradients converge with no other kind.
 TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
-  test::StageBench bench(1 << 20, 1 << 22);
-  BendingSystem s(&bench.scratch, kWidth, kHeight);
+  test::StageFixture fixture(1 << 20, 1 << 22);
+  BendingSystem s(&fixture.scratch, kWidth, kHeight);
   fill(s);
-  MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
-  const Eigen::MatrixXd m = dense(preconditioner, bench);
+  MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
+  const Eigen::MatrixXd m = dense(preconditioner, fixture);
   EXPECT_LT((m - m.transpose()).cwiseAbs().maxCoeff(), 1e-4 * m.cwiseAbs().maxCoeff());
   for (int k = 0; k < kWidth * kHeight; ++k)
     EXPECT_EQ(m(k, k) > 0, known(k % kWidth, k / kWidth)) << k % kWidth << ", " << k / kWidth;
@@ -72,13 +72,13 @@ TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
 
 // What one node says reaches one that is ten nodes away: the diagonal alone would leave 0 there.
 TEST(MultilevelPreconditioner, CarriesFar) {
-  test::StageBench bench(1 << 20, 1 << 22);
-  BendingSystem s(&bench.scratch, kWidth, kHeight);
+  test::StageFixture fixture(1 << 20, 1 << 22);
+  BendingSystem s(&fixture.scratch, kWidth, kHeight);
   fill(s);
-  MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
+  MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
   const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
-  Plane<float> r(&bench.scratch, kWidth, kHeight);
-  Plane<float> z(&bench.scratch, kWidth, kHeight);
+  Plane<float> r(&fixture.scratch, kWidth, kHeight);
+  Plane<float> z(&fixture.scratch, kWidth, kHeight);
   r.row(15)[5] = 1;
   preconditioner.apply(r, whole, z);
   EXPECT_GT(z.row(15)[15], 0);
@@ -87,11 +87,11 @@ TEST(MultilevelPreconditioner, CarriesFar) {
 TEST(MultilevelPreconditioner, IsTheSameWhateverTheThreads) {
   std::vector<float> found[2];
   for (const int threads : {1, 4}) {
-    test::StageBench bench(1 << 20, 1 << 20, threads);
-    BendingSystem s(&bench.scratch, kWidth, kHeight);
+    test::StageFixture fixture(1 << 20, 1 << 20, threads);
+    BendingSystem s(&fixture.scratch, kWidth, kHeight);
     fill(s);
-    MultilevelPreconditioner preconditioner(s, bench.pool, &bench.scratch);
-    Plane<float> z(&bench.scratch, kWidth, kHeight);
+    MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
+    Plane<float> z(&fixture.scratch, kWidth, kHeight);
     preconditioner.apply(s.data, std::pmr::vector<ColumnSpan>(kHeight, ColumnSpan{0, kWidth}), z);
     found[threads == 1 ? 0 : 1].assign(z.values.begin(), z.values.end());
   }
@@ -101,10 +101,10 @@ TEST(MultilevelPreconditioner, IsTheSameWhateverTheThreads) {
 // Four and a third while it is made, and a tenth for the lattices' borders.
 TEST(MultilevelPreconditioner, TakesThePlanesItSays) {
   constexpr int kWide = 400, kHigh = 300;
-  test::StageBench bench(4 << 20, 4 << 20);
-  const BendingSystem system(&bench.output, kWide, kHigh);
-  const MultilevelPreconditioner preconditioner(system, bench.pool, &bench.scratch);
-  EXPECT_LT(static_cast<double>(bench.scratch.used()), 1.1 * 13 / 3 * kWide * kHigh * sizeof(float));
+  test::StageFixture fixture(4 << 20, 4 << 20);
+  const BendingSystem system(&fixture.output, kWide, kHigh);
+  const MultilevelPreconditioner preconditioner(system, fixture.pool, &fixture.scratch);
+  EXPECT_LT(static_cast<double>(fixture.scratch.used()), 1.1 * 13 / 3 * kWide * kHigh * sizeof(float));
 }
 
 }  // namespace

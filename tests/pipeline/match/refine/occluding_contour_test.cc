@@ -10,12 +10,12 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 160;
@@ -28,20 +28,20 @@ constexpr int kHang = 6;                 // nodes the curtain reaches to either 
 int contour(int y) { return 100 + (y - kTop) / 4; }
 
 struct Scene {
-  StageBench bench{std::size_t{16} << 20, std::size_t{32} << 20};
-  Plane<float> left{&bench.output, kWidth, kHeight}, right{&bench.output, kWidth, kHeight};
-  Plane<std::uint8_t> valid{&bench.output, kWidth, kHeight, 1};
-  SurfaceField field{&bench.output, kWidth, kHeight, 1 << kLevel};
+  StageFixture fixture{std::size_t{16} << 20, std::size_t{32} << 20};
+  Plane<float> left{&fixture.output, kWidth, kHeight}, right{&fixture.output, kWidth, kHeight};
+  Plane<std::uint8_t> valid{&fixture.output, kWidth, kHeight, 1};
+  SurfaceField field{&fixture.output, kWidth, kHeight, 1 << kLevel};
 
   // `brighter`: of the right view; `texture`, `noise`: standard deviations, grey levels.
   explicit Scene(float texture = 4, float brighter = 6, float noise = 0.7F) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> near(&bench.output, kWidth + 64, kHeight), far(&bench.output, kWidth + 64, kHeight),
-        across(&bench.output, kWidth + 64, kHeight);
+    Plane<float> near(&fixture.output, kWidth + 64, kHeight), far(&fixture.output, kWidth + 64, kHeight),
+        across(&fixture.output, kWidth + 64, kHeight);
     for (Plane<float>* skin : {&near, &far}) {
       for (float& v : skin->values) v = normal(random);
-      box_sum(*skin, 1, bench.context.pool, across, *skin);
+      box_sum(*skin, 1, fixture.context.pool, across, *skin);
     }
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
@@ -60,7 +60,7 @@ struct Scene {
       }
   }
   RefinerScene views() const { return {left, right, valid, kLevel, 1}; }
-  int cut() { return cut_at_occluding_contours(views(), bench.context, field); }
+  int cut() { return cut_at_occluding_contours(views(), fixture.context, field); }
   float true_disparity(int x, int y) const {
     return static_cast<float>((1 << kLevel) * (x < contour(y) ? kNear : kFar));
   }
@@ -140,10 +140,10 @@ TEST_P(LyingContour, IsFoundWhicheverSideIsNear) {
   Scene scene(4, 6, 0.5F);
   std::mt19937 random(9);
   std::normal_distribution<float> normal(0, 1);
-  Plane<float> skin(&scene.bench.output, kWidth + 64, kHeight),
-      across(&scene.bench.output, kWidth + 64, kHeight);
+  Plane<float> skin(&scene.fixture.output, kWidth + 64, kHeight),
+      across(&scene.fixture.output, kWidth + 64, kHeight);
   for (float& v : skin.values) v = normal(random);
-  box_sum(skin, 1, scene.bench.context.pool, across, skin);
+  box_sum(skin, 1, scene.fixture.context.pool, across, skin);
   const auto level_px = [](int y) { return (y < kRow) == GetParam() ? kNear : kFar; };
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
@@ -174,8 +174,10 @@ INSTANTIATE_TEST_SUITE_P(Both, LyingContour, testing::Bool());
 TEST(OccludingContour, IsTheSameForAnyNumberOfThreads) {
   Scene one, two;
   ThreadPool alone(1), many(3);
-  StageContext first{one.bench.output, one.bench.scratch, alone, one.bench.progress, one.bench.cancelled};
-  StageContext second{two.bench.output, two.bench.scratch, many, two.bench.progress, two.bench.cancelled};
+  StageContext first{one.fixture.output, one.fixture.scratch, alone, one.fixture.progress,
+                     one.fixture.cancelled};
+  StageContext second{two.fixture.output, two.fixture.scratch, many, two.fixture.progress,
+                      two.fixture.cancelled};
   EXPECT_EQ(cut_at_occluding_contours(one.views(), first, one.field),
             cut_at_occluding_contours(two.views(), second, two.field));
   EXPECT_EQ(one.field.disparity_px.values, two.field.disparity_px.values);

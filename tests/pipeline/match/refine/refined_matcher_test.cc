@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 struct Errors {
   double rms = 0;
@@ -28,11 +28,11 @@ struct Errors {
 };
 
 Errors measure(const BumpScene& scene, int threads = 2) {
-  StageBench bench(std::size_t{64} << 20, std::size_t{256} << 20, threads);
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  StageFixture fixture(std::size_t{64} << 20, std::size_t{256} << 20, threads);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto matches = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   EXPECT_TRUE(matches);
   Errors errors;
   if (!matches) return errors;
@@ -91,11 +91,11 @@ TEST(RefinedMatcher, GivesTheSameBytesForAnyNumberOfThreads) {
   std::vector<Match> first;
   EpipolarShift shift;
   for (const int threads : {1, 2, 3, 2}) {
-    StageBench bench(std::size_t{64} << 20, std::size_t{128} << 20, threads);
-    const RectifiedPair pair = scene.render(&bench.output);
-    const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+    StageFixture fixture(std::size_t{64} << 20, std::size_t{128} << 20, threads);
+    const RectifiedPair pair = scene.render(&fixture.output);
+    const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
     const auto matches = run_stage(
-        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+        fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     if (first.empty()) {
       first.assign(matches->matches.begin(), matches->matches.end());
@@ -114,25 +114,25 @@ TEST(RefinedMatcher, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST(RefinedMatcher, RefusesAPlainWall) {
   BumpScene scene{.contrast = 0, .noise = 0};
-  StageBench bench;
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  StageFixture fixture;
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto matches = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
 
 TEST(RefinedMatcher, AFewPlacesAreMatchedAsWellAsMany) {
   const BumpScene scene;
-  StageBench bench;
-  const RectifiedPair pair = scene.render(&bench.output);
-  Keypoints keypoints(&bench.output);
+  StageFixture fixture;
+  const RectifiedPair pair = scene.render(&fixture.output);
+  Keypoints keypoints(&fixture.output);
   for (int k = 0; k < 5; ++k)
     keypoints.points.push_back(
         {{100.5F + 30 * static_cast<float>(k), 80.25F + 20 * static_cast<float>(k)}, 1});
-  const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto matches = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   ASSERT_EQ(matches->matches.size(), 5U);
   for (const Match& m : matches->matches)
@@ -140,13 +140,13 @@ TEST(RefinedMatcher, AFewPlacesAreMatchedAsWellAsMany) {
 }
 
 TEST(RefinedMatcher, SaysThatUnrelatedViewsAreUnlike) {
-  StageBench bench;
-  RectifiedPair pair = BumpScene{.seed = 21}.render(&bench.output);
-  const RectifiedPair other = BumpScene{.seed = 22}.render(&bench.output);
+  StageFixture fixture;
+  RectifiedPair pair = BumpScene{.seed = 21}.render(&fixture.output);
+  const RectifiedPair other = BumpScene{.seed = 22}.render(&fixture.output);
   pair.right.grey = other.right.grey;
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto matches = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   // What chance leaves must say itself that it is unlike: the similarity rule takes it away.
   ASSERT_TRUE(matches);
   std::size_t alike = 0;
@@ -163,9 +163,9 @@ TEST(RefinedMatcher, EveryArenaTooSmallSaysSo) {
   int refusals = 0;
   bool succeeded = false;
   for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
-    StageBench bench(size, size);
+    StageFixture fixture(size, size);
     const auto matches = run_stage(
-        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+        fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     succeeded = matches.has_value();
     if (succeeded) break;
     EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
@@ -176,27 +176,27 @@ TEST(RefinedMatcher, EveryArenaTooSmallSaysSo) {
 }
 
 TEST(RefinedMatcher, StopsWhenAsked) {
-  StageBench bench;
-  const RectifiedPair pair = BumpScene{}.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  bench.cancelled = true;
+  StageFixture fixture;
+  const RectifiedPair pair = BumpScene{}.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  fixture.cancelled = true;
   // Not through run_stage, which would not even begin.
-  const auto matches = RefinedMatcher({}).match(pair, keypoints, bench.context);
+  const auto matches = RefinedMatcher({}).match(pair, keypoints, fixture.context);
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }
 
 TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
   const BumpScene scene{.noise = 0.5, .seed = 31, .rows_px = 0.8, .rows_tilt = 0.002};
-  StageBench bench;
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto aligned =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  StageFixture fixture;
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto aligned = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   RefinedMatcherOptions off;
   off.align_beyond_px = 100;
   const auto unaligned = run_stage(
-      bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+      fixture.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
   ASSERT_TRUE(aligned);
   ASSERT_TRUE(unaligned);
   EXPECT_NEAR(aligned->epipolar_shift.residual_px, 0.8, 0.15);
@@ -218,15 +218,15 @@ TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
 // direction is in sigma.
 TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   const BumpScene scene{.noise = 0.5, .seed = 32, .moved_px = 4};
-  StageBench bench;
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+  StageFixture fixture;
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   RefinedMatcherOptions off;
   off.follow_motion = 0;
-  const auto followed =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const auto followed = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   const auto ignored = run_stage(
-      bench.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
+      fixture.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
   ASSERT_TRUE(followed);
   ASSERT_TRUE(ignored);
   EXPECT_GT(followed->motion_px, 0.3);
@@ -254,13 +254,13 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
 // Where no face was looked for every surface is wanted: a strip in front of a wall, and the wall on both
 // sides.
 TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
-  StageBench bench;
+  StageFixture fixture;
   BumpScene wall{.base_px = 12, .tilt = 0, .bump_px = 0, .seed = 41, .face = false};
   BumpScene strip = wall;
   strip.base_px = 30;
   strip.seed = 42;
-  RectifiedPair pair = wall.render(&bench.output);
-  const RectifiedPair front = strip.render(&bench.output);
+  RectifiedPair pair = wall.render(&fixture.output);
+  const RectifiedPair front = strip.render(&fixture.output);
   constexpr int kLeft = 140, kRight = 190;  // of the strip, in the left view
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = kLeft; x < kRight; ++x) {
@@ -269,9 +269,9 @@ TEST(RefinedMatcher, OfASceneItKeepsEverySurface) {
       pair.right.grey[row + static_cast<std::size_t>(x - 30)] =
           front.right.grey[row + static_cast<std::size_t>(x - 30)];
     }
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches =
-      run_stage(bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto matches = run_stage(
+      fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   int seen[3] = {}, right[3] = {};
   for (const Match& m : matches->matches) {
@@ -301,11 +301,11 @@ TEST(RefinedMatcher, KeepsTheReliefOfSkin) {
   for (const Row& row : {Row{31, 0.8}, Row{21, 0.5}}) {
     const BumpScene scene{
         .ripple_px = 0.39, .ripple_period_px = row.period_px, .contrast = 8, .noise = 1.5, .seed = 51};
-    StageBench bench;
-    const RectifiedPair pair = scene.render(&bench.output);
-    const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
+    StageFixture fixture;
+    const RectifiedPair pair = scene.render(&fixture.output);
+    const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
     const auto matches = run_stage(
-        bench.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+        fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     double seen = 0;
     double all = 0;

@@ -9,12 +9,12 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::StageBench;
+using test::StageFixture;
 
 constexpr int kSide = 112;
 constexpr int kMargin = 16;
@@ -24,8 +24,8 @@ struct Fitted {
   BendingSystem system;
   Plane<float> pull;
 
-  Fitted(StageBench& bench, float data, float bend, int box, std::uint32_t seed = 7)
-      : system(&bench.output, kSide, kSide), pull(&bench.output, kSide, kSide) {
+  Fitted(StageFixture& fixture, float data, float bend, int box, std::uint32_t seed = 7)
+      : system(&fixture.output, kSide, kSide), pull(&fixture.output, kSide, kSide) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal(0, std::sqrt(data));
     for (int y = 1; y < kSide - 1; ++y)
@@ -36,22 +36,22 @@ struct Fitted {
         system.bend_xy.row(y)[x] = x < kSide - 2 && y < kSide - 2 ? 2 * bend : 0;
         pull.row(y)[x] = normal(random);
       }
-    Plane<float> across(&bench.output, kSide, kSide);
+    Plane<float> across(&fixture.output, kSide, kSide);
     if (box > 0) {
-      box_sum(pull, box, bench.context.pool, across, pull);
+      box_sum(pull, box, fixture.context.pool, across, pull);
       const auto side = static_cast<float>(2 * box + 1);
       for (float& v : pull.values) v /= side;  // as loud as before, a pixel
     }
     for (std::size_t k = 0; k < pull.values.size(); ++k)
       system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
-    Plane<float> fit(&bench.output, kSide, kSide);
-    solve(system, 120, kToTheEnd, bench.context.pool, bench.context.scratch, fit);
+    Plane<float> fit(&fixture.output, kSide, kSide);
+    solve(system, 120, kToTheEnd, fixture.context.pool, fixture.context.scratch, fit);
     for (std::size_t k = 0; k < pull.values.size(); ++k)
       pull.values[k] += system.data.values[k] * fit.values[k];
   }
-  double mean_excess(StageBench& bench) {
-    Plane<float> excess(&bench.output, kSide, kSide);
-    measure_score_excess(system, pull, system.data, 1, bench.context.pool, bench.context.scratch, excess);
+  double mean_excess(StageFixture& fixture) {
+    Plane<float> excess(&fixture.output, kSide, kSide);
+    measure_score_excess(system, pull, system.data, 1, fixture.context.pool, fixture.context.scratch, excess);
     EXPECT_GE(*std::min_element(excess.values.begin(), excess.values.end()), 0.5F);
     double sum = 0;
     for (int y = kMargin; y < kSide - kMargin; ++y)
@@ -65,9 +65,9 @@ TEST(ScoreExcess, WhiteNoiseHasNone) {
   for (const float reach : {0.1F, 0.3F, 0.6F}) {
     double excess = 0;
     for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
-      StageBench bench;
-      Fitted fitted(bench, 2, 2 / (reach * reach * reach * reach), 0, seed);
-      excess += fitted.mean_excess(bench) / kDraws;
+      StageFixture fixture;
+      Fitted fitted(fixture, 2, 2 / (reach * reach * reach * reach), 0, seed);
+      excess += fitted.mean_excess(fixture) / kDraws;
     }
     EXPECT_NEAR(excess, 1, 0.06) << reach;
   }
@@ -76,19 +76,19 @@ TEST(ScoreExcess, WhiteNoiseHasNone) {
 // Summed over a block, noise whose neighbours are the same counts as often as there are neighbours: nine
 // for 3 x 3, less what falls over the block's edge and what the fit follows.
 TEST(ScoreExcess, NoiseThatHangsTogetherHasAsMuchAsItHangsTogether) {
-  StageBench bench;
-  Fitted fitted(bench, 2, 2 / std::pow(0.2F, 4.0F), 1);
-  const double excess = fitted.mean_excess(bench);
+  StageFixture fixture;
+  Fitted fitted(fixture, 2, 2 / std::pow(0.2F, 4.0F), 1);
+  const double excess = fitted.mean_excess(fixture);
   EXPECT_GT(excess, 4.5);
   EXPECT_LT(excess, 9);
 }
 
 TEST(ScoreExcess, WhereNothingWasMeasuredItIsOne) {
-  StageBench bench;
-  BendingSystem system(&bench.output, 32, 32);
-  const Plane<float> pull(&bench.output, 32, 32);
-  Plane<float> excess(&bench.output, 32, 32);
-  measure_score_excess(system, pull, system.data, 2, bench.context.pool, bench.context.scratch, excess);
+  StageFixture fixture;
+  BendingSystem system(&fixture.output, 32, 32);
+  const Plane<float> pull(&fixture.output, 32, 32);
+  Plane<float> excess(&fixture.output, 32, 32);
+  measure_score_excess(system, pull, system.data, 2, fixture.context.pool, fixture.context.scratch, excess);
   for (const float e : excess.values) ASSERT_EQ(e, 1);
 }
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -19,9 +19,9 @@ constexpr double kWall = 600;  // mm
 constexpr double kTip = 570;
 
 struct Wall {
-  test::StageBench bench{std::size_t{8} << 20, std::size_t{8} << 20};
-  RectifiedPair pair{&bench.output};
-  SurfaceField field{&bench.output, 240, 150, kStep};
+  test::StageFixture fixture{std::size_t{8} << 20, std::size_t{8} << 20};
+  RectifiedPair pair{&fixture.output};
+  SurfaceField field{&fixture.output, 240, 150, kStep};
 
   Wall() {
     pair.width_px = 960;
@@ -54,7 +54,7 @@ struct Wall {
 
 TEST(FaceReach, KeepsWhatIsNearTheTipAndNothingElse) {
   Wall wall;
-  keep_within_reach(wall.pair, wall.bench.context, wall.field);
+  keep_within_reach(wall.pair, wall.fixture.context, wall.field);
   for (int j = 0; j < wall.field.domain.height; ++j)
     for (int i = 0; i < wall.field.domain.width; ++i) {
       const double far = wall.from_tip_mm(i, j);
@@ -62,7 +62,7 @@ TEST(FaceReach, KeepsWhatIsNearTheTipAndNothingElse) {
       EXPECT_TRUE(far >= 117 || in == 1) << far;
       EXPECT_TRUE(far <= 123 || in == 0) << far;
     }
-  EXPECT_EQ(wall.bench.scratch.used(), 0U);
+  EXPECT_EQ(wall.fixture.scratch.used(), 0U);
 }
 
 TEST(FaceReach, LeavesAloneWhatHasNoFaceOrNoReach) {
@@ -70,7 +70,7 @@ TEST(FaceReach, LeavesAloneWhatHasNoFaceOrNoReach) {
     Wall wall;
     (face ? wall.pair.face_reach_mm : wall.pair.face_width_px) = 0;
     const long before = wall.kept();
-    keep_within_reach(wall.pair, wall.bench.context, wall.field);
+    keep_within_reach(wall.pair, wall.fixture.context, wall.field);
     EXPECT_EQ(wall.kept(), before);
   }
 }
@@ -81,7 +81,7 @@ TEST(FaceReach, AHoleInTheMiddleSaysNothing) {
     for (int i = 0; i < wall.field.domain.width; ++i)
       if (std::hypot(i * kStep - 480, j * kStep - 340) < 120) wall.field.domain.row(j)[i] = 0;
   const long before = wall.kept();
-  keep_within_reach(wall.pair, wall.bench.context, wall.field);
+  keep_within_reach(wall.pair, wall.fixture.context, wall.field);
   EXPECT_EQ(wall.kept(), before);
 }
 

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "pipeline/match/file/number_lines.h"
-#include "tests/pipeline/match/select/selection_bench.h"
+#include "tests/pipeline/match/select/selection_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::SelectionBench;
+using test::SelectionFixture;
 
 class FilePoints : public testing::Test {
  protected:
@@ -18,8 +18,8 @@ class FilePoints : public testing::Test {
     return choose((here_ / "points.csv").string());
   }
   Result<Keypoints> choose(const std::string& path) {
-    return bench_.select(*test::make_selector("file-points", {{"file-points.path", path}}),
-                         SelectionBench::rendered());
+    return fixture_.select(*test::make_selector("file-points", {{"file-points.path", path}}),
+                           SelectionFixture::rendered());
   }
   void refused(const std::string& text, const std::string& place) {
     const auto chosen = read(text);
@@ -29,7 +29,7 @@ class FilePoints : public testing::Test {
     EXPECT_EQ(where.substr(where.size() - std::min(where.size(), place.size())), place) << text;
   }
   test::TemporaryFolder here_;
-  SelectionBench bench_;  // 200 x 160
+  SelectionFixture fixture_;  // 200 x 160
 };
 
 TEST_F(FilePoints, EveryFormIsRead) {
@@ -85,7 +85,7 @@ TEST_F(FilePoints, WhatWasNotReadIsNamed) {
   ASSERT_TRUE(set.set("selector", "file-points") && set.set("file-points.path", "gone.csv"));
   const auto made = make_selector(set);
   ASSERT_TRUE(made);
-  const auto chosen = bench_.select(**made, SelectionBench::rendered());
+  const auto chosen = fixture_.select(**made, SelectionFixture::rendered());
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::NotFound);
   EXPECT_EQ(chosen.error().where(), "gone.csv");

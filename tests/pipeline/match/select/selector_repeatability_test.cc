@@ -8,13 +8,13 @@
 #include <cstdio>
 #include <numbers>
 
-#include "tests/pipeline/match/select/selection_bench.h"
+#include "tests/pipeline/match/select/selection_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 constexpr double kNearPx = 1.5;
 const BumpScene kScene{.width_px = 400,
@@ -39,13 +39,13 @@ struct Figures {
 };
 
 Figures figures_of(const std::string& name) {
-  StageBench bench(std::size_t{32} << 20, std::size_t{96} << 20);
+  StageFixture fixture(std::size_t{32} << 20, std::size_t{96} << 20);
   const auto selector = test::make_selector(name, {{name + ".max_points", "1500"}});
   const auto& pair = rendered();
-  RectifiedPair swapped(&bench.output);
+  RectifiedPair swapped(&fixture.output);
   swapped = pair;
   std::swap(swapped.left, swapped.right);
-  const auto run = [&](auto&& stage) { return run_stage(bench.context, stage); };
+  const auto run = [&](auto&& stage) { return run_stage(fixture.context, stage); };
   const auto left = run([&](StageContext& c) { return selector->select(pair, c); });
   const auto right = run([&](StageContext& c) { return selector->select(swapped, c); });
   EXPECT_TRUE(left && right) << name;

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/pipeline/match/select/selection_bench.h"
+#include "tests/pipeline/match/select/selection_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-using test::SelectionBench;
+using test::SelectionFixture;
 
 class SelectorContract : public testing::TestWithParam<std::string> {
  protected:
@@ -21,9 +21,9 @@ class SelectorContract : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
-  SelectionBench bench;
-  RectifiedPair pair(&bench.output);
-  pair = SelectionBench::rendered();
+  SelectionFixture fixture;
+  RectifiedPair pair(&fixture.output);
+  pair = SelectionFixture::rendered();
   pair.region.assign(pair.left.grey.size(), 0);
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x) {
@@ -32,7 +32,7 @@ TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
       if (x + y < 130)
         pair.left.valid[k] = 0, pair.left.grey[k] = 0;  // an edge and corners, but no picture's
     }
-  const auto chosen = bench.select(*selector(), pair);
+  const auto chosen = fixture.select(*selector(), pair);
   ASSERT_TRUE(chosen);
   ASSERT_GT(chosen->points.size(), 20U);
   double edge = 0;
@@ -47,11 +47,11 @@ TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
 }
 
 TEST_P(SelectorContract, PointsStandInRowsFromTheTopEachOnce) {
-  SelectionBench bench;
-  const auto chosen = bench.select(*selector(), SelectionBench::rendered());
+  SelectionFixture fixture;
+  const auto chosen = fixture.select(*selector(), SelectionFixture::rendered());
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->lattice_step_px > 0, selector()->on_lattice());
-  EXPECT_EQ(chosen->points.get_allocator().resource(), &bench.output);
+  EXPECT_EQ(chosen->points.get_allocator().resource(), &fixture.output);
   const auto& points = chosen->points;
   for (std::size_t k = 1; k < points.size(); ++k) {
     const Vec2f a = points[k - 1].at_px, b = points[k].at_px;
@@ -60,12 +60,12 @@ TEST_P(SelectorContract, PointsStandInRowsFromTheTopEachOnce) {
 }
 
 TEST_P(SelectorContract, NoMoreThanAskedFor) {
-  SelectionBench bench;
+  SelectionFixture fixture;
   const std::string key = GetParam() + ".max_points";
   AlgorithmSet set;
   if (!set.set(key, "40")) return;  // it says where its points are, not how many
   const auto chosen =
-      bench.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionBench::rendered());
+      fixture.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionFixture::rendered());
   ASSERT_TRUE(chosen);
   EXPECT_LE(chosen->points.size(), 40U);
   EXPECT_GE(chosen->points.size(), 20U);
@@ -75,25 +75,25 @@ TEST_P(SelectorContract, NoMoreThanAskedFor) {
 }
 
 TEST_P(SelectorContract, AnEmptyRegionIsNoFace) {
-  SelectionBench bench;
-  RectifiedPair pair(&bench.output);
-  pair = SelectionBench::rendered();
+  SelectionFixture fixture;
+  RectifiedPair pair(&fixture.output);
+  pair = SelectionFixture::rendered();
   pair.region.assign(pair.left.grey.size(), 0);
-  const auto chosen = bench.select(*selector(), pair);
+  const auto chosen = fixture.select(*selector(), pair);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::NoFace);
 }
 
 TEST_P(SelectorContract, APairWithoutPixelsIsRefused) {
-  SelectionBench bench;
-  const auto chosen = bench.select(*selector(), RectifiedPair(&bench.output));
+  SelectionFixture fixture;
+  const auto chosen = fixture.select(*selector(), RectifiedPair(&fixture.output));
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::InvalidInput);
 }
 
 TEST_P(SelectorContract, APlainWallHasPointsOnlyWhereTheyDoNotDependOnIt) {
-  SelectionBench bench;
-  const auto chosen = bench.select(*selector(), bench.plain());
+  SelectionFixture fixture;
+  const auto chosen = fixture.select(*selector(), fixture.plain());
   if (chosen) {
     EXPECT_TRUE(selector()->on_lattice() || GetParam() == "random" || GetParam() == "file-points");
     return;
@@ -102,9 +102,9 @@ TEST_P(SelectorContract, APlainWallHasPointsOnlyWhereTheyDoNotDependOnIt) {
 }
 
 TEST_P(SelectorContract, TinyPicturesAreNoTrouble) {
-  SelectionBench bench;
+  SelectionFixture fixture;
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(2, 9), std::pair(9, 2), std::pair(5, 5)}) {
-    RectifiedPair pair(&bench.output);
+    RectifiedPair pair(&fixture.output);
     pair.width_px = width;
     pair.height_px = height;
     for (RectifiedView* view : {&pair.left, &pair.right}) {
@@ -112,17 +112,17 @@ TEST_P(SelectorContract, TinyPicturesAreNoTrouble) {
       view->grey[0] = 200;
       view->valid.assign(static_cast<std::size_t>(width * height), 1);
     }
-    const auto chosen = bench.select(*selector(), pair);
+    const auto chosen = fixture.select(*selector(), pair);
     EXPECT_TRUE(!chosen || !chosen->points.empty());
   }
 }
 
 TEST_P(SelectorContract, TooLittleMemoryIsAnError) {
-  const RectifiedPair& pair = SelectionBench::rendered();
+  const RectifiedPair& pair = SelectionFixture::rendered();
   for (const std::size_t output : {std::size_t{16}, std::size_t{1} << 20}) {
-    test::StageBench bench(output, output == 16 ? std::size_t{8} << 20 : 64);
+    test::StageFixture fixture(output, output == 16 ? std::size_t{8} << 20 : 64);
     const auto chosen =
-        run_stage(bench.context, [&](StageContext& c) { return selector()->select(pair, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return selector()->select(pair, c); });
     if (chosen && output > 16) continue;  // a lattice asks for no scratch memory
     ASSERT_FALSE(chosen);
     EXPECT_EQ(chosen.error().code, Errc::OutOfMemory);
@@ -130,9 +130,9 @@ TEST_P(SelectorContract, TooLittleMemoryIsAnError) {
 }
 
 TEST_P(SelectorContract, StopsWhenAsked) {
-  SelectionBench bench;
-  bench.cancelled = true;
-  const auto chosen = selector()->select(SelectionBench::rendered(), bench.context);
+  SelectionFixture fixture;
+  fixture.cancelled = true;
+  const auto chosen = selector()->select(SelectionFixture::rendered(), fixture.context);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::Cancelled);
 }
@@ -140,8 +140,8 @@ TEST_P(SelectorContract, StopsWhenAsked) {
 TEST_P(SelectorContract, GivesTheSameForAnyNumberOfThreads) {
   std::vector<float> first;
   for (const int threads : {1, 2, 3, 2}) {
-    SelectionBench bench(threads);
-    const auto chosen = bench.select(*selector(), SelectionBench::rendered());
+    SelectionFixture fixture(threads);
+    const auto chosen = fixture.select(*selector(), SelectionFixture::rendered());
     ASSERT_TRUE(chosen);
     std::vector<float> all;
     for (const Keypoint& p : chosen->points) all.insert(all.end(), {p.at_px.x, p.at_px.y, p.strength});

@@ -13,14 +13,14 @@
 #include "pipeline/match/select/response/fast_hessian.h"
 #include "pipeline/match/select/response/salient_tracks.h"
 #include "pipeline/pipeline.h"
-#include "tests/pipeline/match/select/selection_bench.h"
+#include "tests/pipeline/match/select/selection_fixture.h"
 #include "tests/support/rig_calibration.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::make_selector;
-using test::SelectionBench;
+using test::SelectionFixture;
 
 float& pixel(RectifiedPair& pair, int x, int y) {
   return pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)];
@@ -51,10 +51,10 @@ class Corners : public testing::TestWithParam<const char*> {};
 
 // The corner lies in the window of what is found: 7 pixels square, half a diagonal and half a pixel.
 TEST_P(Corners, OfSquaresAreFoundAndTheirEdgesAreNot) {
-  SelectionBench bench;
-  RectifiedPair pair = bench.plain();
+  SelectionFixture fixture;
+  RectifiedPair pair = fixture.plain();
   const auto corners = paint_squares(pair);
-  const auto found = bench.select(
+  const auto found = fixture.select(
       *make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), corners.size());
@@ -65,13 +65,13 @@ INSTANTIATE_TEST_SUITE_P(Both, Corners, testing::Values("good-features", "harris
                          [](const auto& name) { return test::test_name(name.param); });
 
 TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
-  SelectionBench bench;
-  const auto& pair = SelectionBench::rendered();
+  SelectionFixture fixture;
+  const auto& pair = SelectionFixture::rendered();
   using Place = std::pair<float, float>;
   const auto places = [&](const char* levels) {
     std::set<Place> all;
     const auto chosen =
-        bench.select(*make_selector("good-features", {{"good-features.levels", levels}}), pair);
+        fixture.select(*make_selector("good-features", {{"good-features.levels", levels}}), pair);
     EXPECT_TRUE(chosen);
     for (const Keypoint& p : chosen->points) all.insert({p.at_px.x, p.at_px.y});
     return all;
@@ -88,14 +88,15 @@ TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
 }
 
 TEST(GoodFeatures, BinaryThresholdsFindOutlinesTheGreyPictureHides) {
-  SelectionBench bench;
-  RectifiedPair pair = bench.plain();
+  SelectionFixture fixture;
+  RectifiedPair pair = fixture.plain();
   paint_squares(pair);
   for (int y = 10; y < 20; ++y)
     for (int x = 150; x < 175; ++x) pixel(pair, x, y) = 44;  // four grey levels above the ground
   const Vec2f corner{149.5F, 9.5F};
-  const auto grey = bench.select(*make_selector("good-features", {{"good-features.levels", "0.3:4"}}), pair);
-  const auto binary = bench.select(
+  const auto grey =
+      fixture.select(*make_selector("good-features", {{"good-features.levels", "0.3:4"}}), pair);
+  const auto binary = fixture.select(
       *make_selector("good-features",
                      {{"good-features.levels", "0.3:4"}, {"good-features.binary_thresholds", "42+100"}}),
       pair);
@@ -122,12 +123,12 @@ TEST(GoodFeatures, WrongLevelsAreRefused) {
 
 // The structure tensor summed pixel by pixel.
 TEST(CornerResponse, AgreesWithItsSlowTwin) {
-  SelectionBench bench;
-  const RectifiedPair& pair = SelectionBench::rendered();
-  const Selectable selectable(pair, &bench.scratch);
-  Plane<float> response(&bench.scratch, pair.width_px, pair.height_px);
+  SelectionFixture fixture;
+  const RectifiedPair& pair = SelectionFixture::rendered();
+  const Selectable selectable(pair, &fixture.scratch);
+  Plane<float> response(&fixture.scratch, pair.width_px, pair.height_px);
   ASSERT_TRUE(
-      corner_response(pair.left.grey, selectable, {3, 1}, smaller_eigenvalue, 0, bench.context, response));
+      corner_response(pair.left.grey, selectable, {3, 1}, smaller_eigenvalue, 0, fixture.context, response));
   const auto grey = [&](int x, int y) {
     return static_cast<double>(pair.left.grey[static_cast<std::size_t>(y * pair.width_px + x)]);
   };
@@ -157,8 +158,8 @@ TEST(CornerResponse, HarrisTellsCornersEdgesAndPlainsApart) {
 }
 
 TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
-  SelectionBench bench;
-  RectifiedPair pair = bench.plain(100);
+  SelectionFixture fixture;
+  RectifiedPair pair = fixture.plain(100);
   struct Blob {
     double x, y, sigma, height;
   };
@@ -168,8 +169,8 @@ TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
       for (const Blob& b : blobs)
         pixel(pair, x, y) += static_cast<float>(
             b.height * std::exp(-(std::pow(x - b.x, 2) + std::pow(y - b.y, 2)) / (2 * b.sigma * b.sigma)));
-  const auto found =
-      bench.select(*make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
+  const auto found = fixture.select(
+      *make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), std::size(blobs));
   for (const Blob& b : blobs)
@@ -177,9 +178,9 @@ TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
 }
 
 TEST(Haar, TheIntegralImageAgreesWithItsSlowTwin) {
-  SelectionBench bench;
-  const RectifiedPair& pair = SelectionBench::rendered();
-  const FastHessian fast(pair.left.grey, pair.width_px, pair.height_px, &bench.scratch);
+  SelectionFixture fixture;
+  const RectifiedPair& pair = SelectionFixture::rendered();
+  const FastHessian fast(pair.left.grey, pair.width_px, pair.height_px, &fixture.scratch);
   const auto box = [&](int x0, int y0, int x1, int y1) {  // both ends included
     double sum = 0;
     for (int y = y0; y <= y1; ++y)
@@ -207,7 +208,7 @@ TEST(Haar, TheIntegralImageAgreesWithItsSlowTwin) {
 }
 
 TEST(WaveletSalient, TheTransformKeepsTheEnergy) {
-  SelectionBench bench;
+  SelectionFixture fixture;
   constexpr int kSide = 64;
   std::pmr::vector<float> grey(kSide * kSide);
   std::mt19937 random(4);
@@ -216,7 +217,7 @@ TEST(WaveletSalient, TheTransformKeepsTheEnergy) {
     g = static_cast<float>(random() % 256) - 128;
     energy += static_cast<double>(g) * static_cast<double>(g);
   }
-  const SalientTracks tracks(grey, kSide, kSide, 6, &bench.scratch);
+  const SalientTracks tracks(grey, kSide, kSide, 6, &fixture.scratch);
   double mean = 0, found = 0;
   for (const float g : grey) mean += static_cast<double>(g) / kSide;
   found = mean * mean;  // the one approximation left at the coarsest scale
@@ -229,11 +230,11 @@ TEST(WaveletSalient, TheTransformKeepsTheEnergy) {
 }
 
 TEST(WaveletSalient, TracksEndWhereThePictureVaries) {
-  SelectionBench bench;
-  RectifiedPair pair = bench.plain();
+  SelectionFixture fixture;
+  RectifiedPair pair = fixture.plain();
   paint_squares(pair);
   pixel(pair, 95, 21) = 200;  // a speck varies at every scale, too
-  const auto found = bench.select(*make_selector("wavelet-salient"), pair);
+  const auto found = fixture.select(*make_selector("wavelet-salient"), pair);
   ASSERT_TRUE(found);
   EXPECT_LT(nearest({95, 21}, *found), 2.3F);
   for (const Keypoint& p : found->points) {
@@ -249,10 +250,10 @@ TEST(WaveletSalient, TracksEndWhereThePictureVaries) {
 }
 
 TEST(WaveletSalient, SaliencyIsTheSumAlongTheTrack) {
-  SelectionBench bench;
+  SelectionFixture fixture;
   std::pmr::vector<float> grey(64, 10.0F);
   grey[8 * 5 + 2] = 110;  // (2, 5)
-  const SalientTracks tracks(grey, 8, 8, 3, &bench.scratch);
+  const SalientTracks tracks(grey, 8, 8, 3, &fixture.scratch);
   // One pixel h above the rest has |h| / 2^s in each orientation of scale s.
   for (int o = 0; o < SalientTracks::kOrientations; ++o) {
     EXPECT_FLOAT_EQ(tracks.follow(3, o, 0, 0).strength, 100 / 2.0F + 100 / 4.0F + 100 / 8.0F);
@@ -262,11 +263,11 @@ TEST(WaveletSalient, SaliencyIsTheSumAlongTheTrack) {
 }
 
 TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
-  SelectionBench bench;
-  const auto& pair = SelectionBench::rendered();
+  SelectionFixture fixture;
+  const auto& pair = SelectionFixture::rendered();
   const auto draw = [&](const char* seed) {
-    return bench.select(*make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}),
-                        pair);
+    return fixture.select(*make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}),
+                          pair);
   };
   const auto one = draw("1"), again = draw("1"), other = draw("2");
   ASSERT_TRUE(one && again && other);
@@ -286,18 +287,18 @@ TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
 }
 
 TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
-  SelectionBench bench;
-  const auto& pair = SelectionBench::rendered();  // 200 x 160
-  const auto whole = bench.select(*make_selector("grid-points"), pair);
+  SelectionFixture fixture;
+  const auto& pair = SelectionFixture::rendered();  // 200 x 160
+  const auto whole = fixture.select(*make_selector("grid-points"), pair);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->lattice_step_px, 8);
   EXPECT_EQ(whole->points.size(), 25U * 20U);
-  const auto part = bench.select(*make_selector("grid-points", {{"grid-points.step_px", "7"},
-                                                                {"grid-points.left_px", "31"},
-                                                                {"grid-points.top_px", "12"},
-                                                                {"grid-points.width_px", "22"},
-                                                                {"grid-points.height_px", "14"}}),
-                                 pair);
+  const auto part = fixture.select(*make_selector("grid-points", {{"grid-points.step_px", "7"},
+                                                                  {"grid-points.left_px", "31"},
+                                                                  {"grid-points.top_px", "12"},
+                                                                  {"grid-points.width_px", "22"},
+                                                                  {"grid-points.height_px", "14"}}),
+                                   pair);
   ASSERT_TRUE(part);
   EXPECT_EQ(part->lattice_step_px, 7);
   ASSERT_EQ(part->points.size(), 8U);
@@ -306,13 +307,13 @@ TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
     EXPECT_EQ(part->points[k].at_px.y, 12.0F + 7.0F * static_cast<float>(k / 4));
   }
   // Down to the view's edge, and what lies beyond it.
-  const auto corner = bench.select(
+  const auto corner = fixture.select(
       *make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->points.size(), 2U);
   for (const char* option :
        {"grid-points.left_px", "grid-points.top_px", "grid-points.width_px", "grid-points.height_px"}) {
-    const auto beyond = bench.select(*make_selector("grid-points", {{option, "201"}}), pair);
+    const auto beyond = fixture.select(*make_selector("grid-points", {{option, "201"}}), pair);
     ASSERT_FALSE(beyond) << option;
     EXPECT_EQ(beyond.error().code, Errc::InvalidInput);
     EXPECT_EQ(beyond.error().where(), "grid-points (200 x 160)");
@@ -320,16 +321,16 @@ TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
 }
 
 TEST(GridPoints, ARectangleBesideTheFaceSaysSo) {
-  SelectionBench bench;
-  RectifiedPair pair(&bench.output);
-  pair = SelectionBench::rendered();
+  SelectionFixture fixture;
+  RectifiedPair pair(&fixture.output);
+  pair = SelectionFixture::rendered();
   pair.region.assign(pair.left.grey.size(), 0);
   for (std::size_t k = 0; k < 200U * 40U; ++k) pair.region[k] = 1;  // its upper quarter
-  const auto beside = bench.select(*make_selector("grid-points", {{"grid-points.top_px", "40"}}), pair);
+  const auto beside = fixture.select(*make_selector("grid-points", {{"grid-points.top_px", "40"}}), pair);
   ASSERT_FALSE(beside);
   EXPECT_EQ(beside.error().code, Errc::NoFace);
   EXPECT_NE(beside.error().what.view().find("rectangle"), std::string_view::npos);
-  const auto across = bench.select(
+  const auto across = fixture.select(
       *make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->points.size(), 25U);

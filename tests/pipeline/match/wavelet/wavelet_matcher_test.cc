@@ -16,7 +16,7 @@ namespace {
 using test::BumpScene;
 using test::MatchErrors;
 using test::measure;
-using test::StageBench;
+using test::StageFixture;
 
 // The slow twin: every scale straight from its definition, by recursion.
 struct Twin {
@@ -48,9 +48,9 @@ struct Twin {
 };
 
 TEST(DyadicWavelet, IsItsDefinition) {
-  StageBench bench(1 << 22, 1 << 22, 3);
-  const RectifiedPair pair = BumpScene{.width_px = 48, .height_px = 40}.render(&bench.output);
-  const auto scales = transform_dyadic(pair.left.grey, 48, 40, 3, bench.context);
+  StageFixture fixture(1 << 22, 1 << 22, 3);
+  const RectifiedPair pair = BumpScene{.width_px = 48, .height_px = 40}.render(&fixture.output);
+  const auto scales = transform_dyadic(pair.left.grey, 48, 40, 3, fixture.context);
   const Twin twin{pair.left.grey, 48, 40};
   ASSERT_EQ(scales.size(), 3U);
   for (int s = 1; s <= 3; ++s)

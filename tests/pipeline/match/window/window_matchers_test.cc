@@ -16,7 +16,7 @@ using test::BumpScene;
 using test::MatchErrors;
 using test::MatchTrial;
 using test::measure;
-using test::StageBench;
+using test::StageFixture;
 
 // Most of it is the window's own: it flattens the bump by up to 0.08 px.
 TEST(WindowMatchers, FindTheSurfaceToATenthOfAPixel) {
@@ -129,7 +129,7 @@ struct Twin {
 };
 
 TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{32} << 20);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{32} << 20);
   const BumpScene scene{.width_px = 140,
                         .height_px = 70,
                         .base_px = 18,
@@ -137,10 +137,10 @@ TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
                         .bump_radius_px = 25,
                         .noise = 2,
                         .seed = 8};
-  const RectifiedPair pair = scene.render(&bench.output);
-  const Keypoints keypoints = test::lattice(pair, 3, &bench.output);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const Keypoints keypoints = test::lattice(pair, 3, &fixture.output);
   for (const bool correlate : {false, true}) {
-    const auto fast = run_stage(bench.context, [&](StageContext& c) {
+    const auto fast = run_stage(fixture.context, [&](StageContext& c) {
       return correlate ? ZmnccMatcher({.window_px = 7, .min_score = 0, .sigma_limit_px = 10})
                              .match(pair, keypoints, c)
                        : SsdMatcher({.window_px = 7, .max_difference = 255, .sigma_limit_px = 10})
@@ -167,13 +167,13 @@ TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
 }
 
 TEST(WindowMatchers, NoWindowLooksAtPixelsThatAreNotThere) {
-  StageBench bench(std::size_t{16} << 20, std::size_t{32} << 20);
-  RectifiedPair pair = BumpScene{.width_px = 160, .height_px = 96}.render(&bench.output);
+  StageFixture fixture(std::size_t{16} << 20, std::size_t{32} << 20);
+  RectifiedPair pair = BumpScene{.width_px = 160, .height_px = 96}.render(&fixture.output);
   for (int y = 0; y < 96; ++y)
     for (int x = 60; x < 64; ++x)
       pair.right.valid[static_cast<std::size_t>(y) * 160 + static_cast<std::size_t>(x)] = 0;
-  const Keypoints keypoints = test::lattice(pair, 2, &bench.output);
-  const auto matches = run_stage(bench.context, [&](StageContext& c) {
+  const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+  const auto matches = run_stage(fixture.context, [&](StageContext& c) {
     return ZmnccMatcher({.window_px = 9}).match(pair, keypoints, c);
   });
   ASSERT_TRUE(matches);

@@ -90,7 +90,7 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
   }
 }
 
-TEST(LevelOfDetail, TheErrorIsABoundAndNotAWish) {
+TEST(LevelOfDetail, TheErrorIsATrueBound) {
   const FaceModel model = ball();
   DetailOptions options;
   options.triangles = 300;

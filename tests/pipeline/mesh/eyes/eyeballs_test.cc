@@ -20,19 +20,19 @@
 #include "pipeline/pipeline.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
 // A person before the rig, and the face as the mesher leaves it.
 struct Sitter {
-  explicit Sitter(const hal::sim::HeadTraits& traits) : model(hal::sim::make_head(traits, bench.pool)) {
+  explicit Sitter(const hal::sim::HeadTraits& traits) : model(hal::sim::make_head(traits, fixture.pool)) {
     const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(0.8));
-    const auto scene = hal::sim::make_head_scene(model, pose, bench.pool);
-    const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, bench.pool);
+    const auto scene = hal::sim::make_head_scene(model, pose, fixture.pool);
+    const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, fixture.pool);
     const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
-    StageContext& c = bench.context;
+    StageContext& c = fixture.context;
     pair.emplace(*pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c));
     const auto matches = pipeline->match(*pair, c);
     const auto cloud = pipeline->reconstruct(*pair, *matches, c);
@@ -51,7 +51,7 @@ struct Sitter {
     return std::nullopt;
   }
 
-  test::StageBench bench;
+  test::StageFixture fixture;
   hal::sim::HeadPose pose;
   std::shared_ptr<const hal::sim::HeadModel> model;
   std::optional<RectifiedPair> pair;
@@ -65,7 +65,7 @@ TEST(Eyeballs, LieWhereThePersonsOwnDo) {
   for (const std::uint32_t seed : {4U, 7U}) {  // fair skin, dark skin
     Sitter s(hal::sim::traits_of(seed));
     const FaceMesh before = *s.mesh;
-    lay_eyeballs(*s.mesh, s.head, *s.pair, s.bench.context);
+    lay_eyeballs(*s.mesh, s.head, *s.pair, s.fixture.context);
     ASSERT_EQ(s.mesh->vertices_mm.size(), before.vertices_mm.size());
     double then = 0, now = 0;
     int moved = 0;
@@ -91,7 +91,7 @@ TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
   traits.expression.lids_open = 0;
   Sitter closed(traits);
   FaceMesh before = *closed.mesh;
-  lay_eyeballs(*closed.mesh, closed.head, *closed.pair, closed.bench.context);
+  lay_eyeballs(*closed.mesh, closed.head, *closed.pair, closed.fixture.context);
   EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(),
                          closed.mesh->vertices_mm.begin(), same));
 
@@ -99,7 +99,7 @@ TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
   for (std::size_t k = 0; k < grey.pair->left.rgb.size(); k += 3)
     grey.pair->left.rgb[k] = grey.pair->left.rgb[k + 2] = grey.pair->left.rgb[k + 1];
   before = *grey.mesh;
-  lay_eyeballs(*grey.mesh, grey.head, *grey.pair, grey.bench.context);
+  lay_eyeballs(*grey.mesh, grey.head, *grey.pair, grey.fixture.context);
   EXPECT_TRUE(
       std::equal(before.vertices_mm.begin(), before.vertices_mm.end(), grey.mesh->vertices_mm.begin(), same));
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::firmware::compare {
 namespace {
@@ -97,9 +97,9 @@ TEST(SelectorFigures, TheRightViewIsShownWithItsOwnRegion) {
   pair.region.assign(pair.left.valid.size(), 1);
   DisparityMap map(scene.width_px, scene.height_px);
   map.values[map.index(150, 40)] = 25;
-  test::StageBench bench(std::size_t{8} << 20, std::size_t{1} << 20, 1);
+  test::StageFixture fixture(std::size_t{8} << 20, std::size_t{1} << 20, 1);
   const Witness witness;
-  const auto right = select_in_right(witness, pair, map, bench.context);
+  const auto right = select_in_right(witness, pair, map, fixture.context);
   ASSERT_TRUE(right);
   EXPECT_EQ(witness.shown, pair.right.grey[100 * static_cast<std::size_t>(pair.width_px) + 100]);
   ASSERT_EQ(right->points.size(), 3U) << "where the left's region went, a pixel around";

@@ -8,14 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bump_scene.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::firmware::compare {
 namespace {
 
 using pipeline::RectifiedPair;
 using test::BumpScene;
-using test::StageBench;
+using test::StageFixture;
 
 // The scene's own disparities, moved by `off_px`.
 DisparityMap truth_of(const BumpScene& scene, const RectifiedPair& pair, float off_px) {
@@ -27,9 +27,9 @@ DisparityMap truth_of(const BumpScene& scene, const RectifiedPair& pair, float o
 }
 
 TEST(SelfAgreement, TwiceMirroredIsThePairItself) {
-  StageBench bench;
+  StageFixture fixture;
   const BumpScene scene{.seed = 4};
-  const RectifiedPair pair = scene.render(&bench.output);
+  const RectifiedPair pair = scene.render(&fixture.output);
   const DisparityMap map = truth_of(scene, pair, 0);
   const RectifiedPair once = mirrored(pair, map);
   const RectifiedPair twice = mirrored(once, map);
@@ -41,12 +41,12 @@ TEST(SelfAgreement, TwiceMirroredIsThePairItself) {
 }
 
 TEST(SelfAgreement, LeftAndRightAgreeOnATrueMapAndNotOnAWrongOne) {
-  StageBench bench;
+  StageFixture fixture;
   const BumpScene scene{.contrast = 30, .noise = 1, .seed = 5};
-  const RectifiedPair pair = scene.render(&bench.output);
+  const RectifiedPair pair = scene.render(&fixture.output);
   const auto figures = [&](float off_px) {
     auto found = left_right_figures(pair, pipeline::AlgorithmSet{}, truth_of(scene, pair, off_px),
-                                    std::nullopt, bench.context);
+                                    std::nullopt, fixture.context);
     EXPECT_TRUE(found) << (found ? "" : found.error().what.view());
     return found ? *found : LeftRightFigures{};
   };
@@ -60,11 +60,11 @@ TEST(SelfAgreement, LeftAndRightAgreeOnATrueMapAndNotOnAWrongOne) {
 }
 
 TEST(SelfAgreement, ThePhotographFollowsATrueModelOnly) {
-  StageBench bench;
+  StageFixture fixture;
   const BumpScene scene{.contrast = 30, .noise = 1, .seed = 6};
-  const RectifiedPair pair = scene.render(&bench.output);
-  const PhotoFigures honest = photo_figures(pair, truth_of(scene, pair, 0), bench.context);
-  const PhotoFigures wrong = photo_figures(pair, truth_of(scene, pair, 6), bench.context);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  const PhotoFigures honest = photo_figures(pair, truth_of(scene, pair, 0), fixture.context);
+  const PhotoFigures wrong = photo_figures(pair, truth_of(scene, pair, 6), fixture.context);
   EXPECT_GT(honest.asked, 10'000U);
   EXPECT_GT(honest.median, 0.95);
   EXPECT_LT(wrong.median, 0.6);
@@ -73,10 +73,10 @@ TEST(SelfAgreement, ThePhotographFollowsATrueModelOnly) {
 
 // A plane at a known depth, drawn as two triangles, and a nearer patch that hides part of it.
 TEST(SelfAgreement, TheModelsViewIsItsNearestSurface) {
-  StageBench bench;
+  StageFixture fixture;
   const BumpScene scene{.seed = 7};
-  const RectifiedPair pair = scene.render(&bench.output);
-  pipeline::FaceMesh mesh(&bench.output);
+  const RectifiedPair pair = scene.render(&fixture.output);
+  pipeline::FaceMesh mesh(&fixture.output);
   const auto square = [&](double half_px, double z_mm) {
     const auto half_mm = static_cast<float>(half_px * z_mm / pair.focal_px);
     const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());

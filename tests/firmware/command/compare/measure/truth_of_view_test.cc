@@ -11,7 +11,7 @@
 #include "firmware/measure/disparity_truth.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/rectify/rectifier.h"
-#include "tests/support/stage_bench.h"
+#include "tests/support/stage_fixture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::compare {
@@ -62,10 +62,10 @@ TEST(TruthOfView, DisparitiesOfATiltedPlaneAreThoseOfGeometry) {
   const auto view = measure::TruthView::read(here.path());
   ASSERT_TRUE(view) << view.error().where();
 
-  test::StageBench bench(std::size_t{16} << 20, std::size_t{16} << 20, 1);
+  test::StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20, 1);
   const std::vector<std::byte> blank(static_cast<std::size_t>(kWidth * kHeight));
   const ImageView picture{blank.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8};
-  const auto pair = pipeline::Rectifier({}).rectify({picture, picture}, c, bench.context);
+  const auto pair = pipeline::Rectifier({}).rectify({picture, picture}, c, fixture.context);
   ASSERT_TRUE(pair) << pair.error().what.view();
   const DisparityTruth truth = truth_of_view(*view, *pair);
   int known = 0;

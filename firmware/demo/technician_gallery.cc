@@ -1,0 +1,384 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/demo/technician_gallery.h"
+
+#include <array>
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/technician/algorithm_controller.h"
+#include "ui/technician/technician_view.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::StaffPage;
+using ui::TechnicianAct;
+using ui::TechnicianPhase;
+using ui::TechnicianStage;
+using ui::TechnicianView;
+
+constexpr std::array<std::string_view, 8> kHeads{"n",    "x₁ px", "y₁ px", "x₂ px",
+                                                 "d px", "σ px",  "1 − ρ", "×"};
+constexpr std::array<std::string_view, 80> kCells{
+    "11",      "812.00",     "304.00",  "771.318", "40.682",  "0.041",      "0.012",   "",        "12",
+    "814.00",  "304.00",     "773.297", "40.703",  "0.044",   "0.015",      "",        "13",      "816.00",
+    "304.00",  "779.911",    "36.089",  "0.310",   "0.428",   "similarity", "14",      "818.00",  "304.00",
+    "777.269", "40.731",     "0.043",   "0.014",   "",        "15",         "820.00",  "304.00",  "779.256",
+    "40.744",  "0.042",      "0.011",   "",        "16",      "822.00",     "304.00",  "781.240", "40.760",
+    "0.045",   "0.016",      "",        "17",      "824.00",  "304.00",     "782.098", "41.902",  "0.188",
+    "0.093",   "uniqueness", "18",      "826.00",  "304.00",  "785.219",    "40.781",  "0.044",   "0.013",
+    "",        "19",         "828.00",  "304.00",  "787.203", "40.797",     "0.041",   "0.012",   "",
+    "20",      "830.00",     "304.00",  "789.185", "40.815",  "0.046",      "0.017",   ""};
+constexpr std::array<std::string_view, 4> kCalibrationHeads{"", "1", "2", "1 → 2"};
+constexpr std::array<std::string_view, 40> kCalibrationCells{
+    "fx px", "2318.442",    "2321.107",    "R  +0.98172  +0.00218  -0.19030",
+    "fy px", "2317.905",    "2320.664",    "R  -0.00301  +0.99999  -0.00409",
+    "cx px", "958.310",     "961.774",     "R  +0.19029  +0.00459  +0.98172",
+    "cy px", "601.228",     "598.913",     "t  -108.114  +0.062  +10.530 mm",
+    "k₁",    "-0.081427",   "-0.080966",   "rms  0.118 px",
+    "k₂",    "+0.104310",   "+0.101772",   "№  4",
+    "p₁",    "+0.000214",   "-0.000087",   "",
+    "p₂",    "-0.000391",   "+0.000146",   "",
+    "k₃",    "-0.021508",   "-0.019944",   "",
+    "px",    "1920 × 1200", "1920 × 1200", ""};
+
+ui::TechnicianResult made_up_result() {
+  ui::TechnicianResult r;
+  r.there = true;
+  r.name = "2026-03-12_09-14-07";
+  r.seconds = {1.42F, 0.18F, 0.31F, 0.42F, 0.24F};
+  r.made = {148220, 141873, 97342, 1048576};
+  r.arena_peak_mib = 147;
+  r.matches = 171004;
+  r.accepted = 148220;
+  constexpr std::array<std::string_view, 3> kNames{"similarity", "uniqueness", "continuity"};
+  constexpr std::array<std::uint64_t, 3> kRejected{17310, 2204, 3270};
+  constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{
+      {{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
+  r.rule_count = 3;
+  for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kNames[i], kColours[i], kRejected[i]};
+  r.median_sigma_mm = 0.061F;
+  r.coverage = 0.957F;
+  r.epipolar_px = 0.082F;
+  r.photo_correlation = 0.972F;
+  r.photo_windows = 2318;
+  return r;
+}
+
+// The rectified pair looks nearly as the pictures do; stages after it are the visitor's own pictures.
+void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& view) {
+  view.stage = stage;
+  view.shown = {};
+  if (stage <= TechnicianStage::Rectified) {
+    if (review.frame != nullptr)
+      view.shown = {ui::TechnicianPicture{review.frame->left, 900001},
+                    ui::TechnicianPicture{review.frame->right, 900002}};
+    return;
+  }
+  const std::size_t last =
+      stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
+          ? 0
+          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1;
+  view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
+}
+
+TechnicianView ready(const ui::ViewState& review) {
+  TechnicianView view;
+  view.phase = TechnicianPhase::Ready;
+  view.result = made_up_result();
+  view.model = review.model;
+  view.model_number = 900003;
+  lend(review, TechnicianStage::Rectified, view);
+  return view;
+}
+
+ui::TechnicianPoint touched() {
+  ui::TechnicianPoint p;
+  p.touched = p.matched = true;
+  p.left_px = {812, 604};
+  p.right_px = {771.318F, 604};
+  p.left_x = 0.46F;
+  p.right_x = 0.52F;
+  p.y = 0.52F;
+  p.disparity_px = 40.68F;
+  p.sigma_px = 0.04F;
+  p.cost = 0.012F;
+  p.at_mm = {-12.4F, 31.8F, 557.2F};
+  p.sigma_mm = 0.052F;
+  return p;
+}
+
+// The first is the chosen one.
+std::vector<ui::TechnicianPoint> by_hand() {
+  std::vector<ui::TechnicianPoint> pairs(3, touched());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    ui::TechnicianPoint& p = pairs[i];
+    p.by_hand = true;
+    p.moved_mm = -1.84F;
+    p.left_x += 0.05F * static_cast<float>(i);
+    p.right_x += 0.05F * static_cast<float>(i);
+    p.y -= 0.12F * static_cast<float>(i);
+  }
+  return pairs;
+}
+
+AlgorithmController edited(bool typing) {
+  AlgorithmController controller;
+  controller.act({TechnicianAct::ChooseKind, 2});
+  controller.act({TechnicianAct::ChooseName, 2});
+  if (!typing) return controller;
+  controller.act({TechnicianAct::EditOption, 0});
+  for (const char digit : {'9', '9', '9'}) controller.act({TechnicianAct::TypeDigit, digit});
+  controller.act({TechnicianAct::UseTyped, 0});
+  return controller;
+}
+
+ui::TechnicianCameras watched(const ui::ViewState& review) {
+  ui::TechnicianCameras c;
+  c.watched = c.can_be_set = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (review.frame != nullptr)
+      c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right,
+                             900020 + static_cast<std::uint32_t>(i)};
+    c.camera[i].mean = i == 0 ? 0.46F : 0.44F;
+    c.camera[i].clipped = i == 0 ? 0.004F : 0.031F;
+    c.camera[i].focus = i == 0 ? 0.98F : 0.84F;
+    c.camera[i].frames = 1204;
+  }
+  c.skew_us = 18;
+  c.pairs = 1203;
+  c.pairs_per_second = 9.6F;
+  c.exposure_us = 4000;
+  c.gain = 1;
+  return c;
+}
+
+ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) {
+  ui::TechnicianCalibration c;
+  c.running = running;
+  c.ended = !running;
+  c.advice = ui::BoardAdvice::TiltRight;
+  c.end = ui::BoardEnd::GoalReached;
+  for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
+    c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right,
+                     900030 + static_cast<std::uint32_t>(i)};
+  c.pairs = 88;
+  c.views = 11;
+  c.bars = {0.82F, 0.64F, 1, 0.37F};
+  for (std::size_t i = 0; i < 64; ++i)
+    c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : static_cast<std::uint32_t>(i % 24) * 3;
+  c.error_mm = 0.118F;
+  c.goal_mm = 0.1F;
+  c.verdict = ui::TechnicianVerdict::Good;
+  c.depth_error_mm = 0.094F;
+  c.rms_px = 0.021F;
+  c.baseline_mm = 108.63F;
+  static const std::vector<std::string> kGood{
+      "all figures are good: reprojection error 0.021 px; epipolar error 0.018 px on views not used; at 560 mm depth is uncertain by 0.094 mm and was found within 0.061 mm of "
+      "where the known squares put it; lengths are uncertain by 0.0113 %"};
+  if (!running) c.reasons = kGood;
+  c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
+  c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
+  c.history_count = 2;
+  return c;
+}
+
+// Refused, for more than one reason.
+ui::TechnicianCalibration refused(const ui::ViewState& review) {
+  static const std::vector<std::string> kReasons{
+      "left and right do not hold still relative to each other: they disagree 4.2 times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant",
+      "the cameras come out 102.11 mm apart, -6.0 % from the 108.63 mm they are known to be; measure a square of the board again: it would have to be 1.064 of what was said",
+      "only 5 of 14 pairs agree with each other"};
+  ui::TechnicianCalibration c = calibrated(review, false);
+  c.end = ui::BoardEnd::Plateau;
+  c.verdict = ui::TechnicianVerdict::Refuse;
+  c.depth_error_mm = 3.412F;
+  c.rms_px = 0.41F;
+  c.baseline_mm = 102.11F;
+  c.reasons = kReasons;
+  return c;
+}
+
+struct Lent {
+  std::string_view name;
+  StaffPage page;
+  TechnicianView view;
+  ui::ServiceView staff;
+  ui::Fault note;  // said against the calibration
+  bool edges = false;
+};
+
+// What is lent to the pages, for as long as they are looked at.
+struct Lender {
+  std::deque<Lent> lent;
+  void add(std::string_view name, StaffPage page, const TechnicianView& view) {
+    lent.push_back({name, page, view, {}, {}, false});
+  }
+};
+
+void add_stages(Lender& all, const ui::ViewState& review) {
+  TechnicianView view;
+  all.add("technician_empty", StaffPage::Stages, view);
+  view.calibrated = false;
+  all.add("technician_uncalibrated", StaffPage::Stages, view);
+  view.calibrated = true;
+  view.phase = TechnicianPhase::Running;
+  view.working_on = 1;
+  view.progress = 0.4F;
+  all.add("technician_running", StaffPage::Stages, view);
+  view = ready(review);
+  view.point = touched();
+  all.add("technician_rectified", StaffPage::Stages, view);
+  static const std::vector<ui::TechnicianPoint> pairs = by_hand();
+  view.by_hand = view.pairs_changed = true;
+  view.pairs = pairs;
+  view.point = pairs[0];
+  view.change = {true, 143, 21, -1.84F, 1.84F};
+  all.add("technician_by_hand", StaffPage::Stages, view);
+  lend(review, TechnicianStage::Mesh, view);
+  view.shown[1] = view.shown[0];
+  all.add("technician_change", StaffPage::Stages, view);
+  view = ready(review);
+  view.point = touched();
+  view.can_record = true;
+  view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
+  all.add("technician_recording", StaffPage::Stages, view);
+  view.recording = {false, false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  all.add("technician_recorded", StaffPage::Stages, view);
+  view.recording = {true, true, 0.3F, ui::Outcome::None, {}};
+  all.add("technician_loading", StaffPage::Stages, view);
+  view.recording = {};
+  static const std::vector<std::string> saved{"2026-03-12_09-14-07.relievo", "2026-03-11_16-40-52.relievo"};
+  view.saved = {true, saved};
+  all.add("technician_saved", StaffPage::Stages, view);
+  view.saved = {true, {}};
+  all.add("technician_none_saved", StaffPage::Stages, view);
+  view.saved = {};
+  for (const auto& [name, stage] : {std::pair{"technician_pictures", TechnicianStage::Input},
+                                    std::pair{"technician_matches", TechnicianStage::Matches},
+                                    std::pair{"technician_surface", TechnicianStage::Mesh}}) {
+    lend(review, stage, view);
+    all.add(name, StaffPage::Stages, view);
+  }
+}
+
+// The same capture by other algorithms, another document, and one whose matcher gave up.
+void add_comparisons(Lender& all, const ui::ViewState& review, TechnicianView view) {
+  const auto put_aside = [&view] {
+    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number};
+  };
+  const auto add_with_present = [&](std::string_view name) {
+    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number};
+    all.add(name, StaffPage::Compare, view);
+  };
+  lend(review, TechnicianStage::Mesh, view);
+  put_aside();
+  view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
+  view.result.seconds[0] = 3.87F;
+  view.result.accepted = view.result.made[0] = 96114;
+  add_with_present("technician_compare");
+  put_aside();
+  view.result.name = "2026-03-11_16-40-52";
+  view.result.algorithms = {};
+  add_with_present("technician_compare_three");
+  lend(review, TechnicianStage::Disparity, view);
+  for (std::size_t i = 0; i < view.put_aside; ++i) view.compared[i].picture = view.shown[0];
+  put_aside();
+  view.result.algorithms = "matcher = sgm";
+  view.result.failure = {
+      Errc::NoFace,
+      "the points form no surface of a face's size: look straight into the cameras and try again"};
+  view.result.failed_at = 2;
+  view.result.coverage = 0;
+  view.model = nullptr;
+  add_with_present("technician_compare_four");
+}
+
+// The model, the tables, the choice of algorithms, and results beside each other.
+void add_results(Lender& all, const ui::ViewState& review) {
+  static const AlgorithmController chosen = edited(false), typing = edited(true);
+  TechnicianView view = ready(review);
+  all.add("technician_model", StaffPage::Model, view);
+  all.add("technician_model_edges", StaffPage::Model, view);
+  all.lent.back().edges = true;
+  view.rows = {ui::TechnicianTable::Matches, kHeads, kCells, 1, 17101, 171004};
+  all.add("technician_table", StaffPage::Tables, view);
+  view.rows = {ui::TechnicianTable::Calibration, kCalibrationHeads, kCalibrationCells, 0, 1, 10};
+  all.add("technician_calibration_table", StaffPage::Tables, view);
+  view.choice = chosen.view();
+  all.add("technician_algorithms", StaffPage::Algorithms, view);
+  view.choice = typing.view();
+  all.add("technician_option", StaffPage::Algorithms, view);
+  add_comparisons(all, review, view);
+}
+
+void add_cameras(Lender& all, const ui::ViewState& review) {
+  TechnicianView view = ready(review);
+  view.cameras = watched(review);
+  all.add("technician_cameras", StaffPage::Cameras, view);
+  view.cameras.relief_shown = true;
+  view.cameras.relief = {review.stages[0].picture, 900022};
+  all.add("technician_relief", StaffPage::Cameras, view);
+}
+
+void add_calibrations(Lender& all, const ui::ViewState& review) {
+  TechnicianView view = ready(review);
+  view.calibration = calibrated(review, true);
+  all.add("technician_calibrating", StaffPage::Calibrate, view);
+  view.calibration = calibrated(review, false);
+  all.add("technician_calibrated", StaffPage::Calibrate, view);
+  view.calibration = refused(review);
+  all.add("technician_refused", StaffPage::Calibrate, view);
+  view.calibration = calibrated(review, false);
+  view.calibration.ended = false;
+  all.add("technician_moved", StaffPage::Calibrate, view);
+  all.lent.back().note = {
+      Errc::NotCalibrated,
+      "the rows of both views disagree by 2.47 px (more than 1.5 px is refused): a camera has moved, calibrate again"};
+  all.add("technician_exchanged", StaffPage::Calibrate, view);
+  all.lent.back().note = {
+      Errc::NotCalibrated,
+      "serial 4061 → serial 4088: the left camera is not the one that was calibrated: put that one back, or calibrate again"};
+}
+
+void add_failures(Lender& all, const ui::ViewState& review) {
+  TechnicianView view = ready(review);
+  lend(review, TechnicianStage::Rectified, view);
+  view.result.failed_at = 3;
+  view.result.failure = {
+      Errc::PoorGeometry,
+      "1.84 mm off a plane; 0.31 mm off a bent sheet, a face at least 1.2, sigma 0.07; curved by 0.2 sr, a face at least 1.5: that looks like a picture of a face: please look into the cameras yourself"};
+  view.result.made = {};
+  all.add("technician_failed", StaffPage::Stages, view);
+  view.model = nullptr;
+  all.add("technician_no_model", StaffPage::Model, view);
+}
+
+}  // namespace
+
+void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
+                             const ui::ViewState& idle, const ui::Visit& visit) {
+  static Lender all;
+  all.lent.clear();
+  add_stages(all, review);
+  add_results(all, review);
+  add_cameras(all, review);
+  add_calibrations(all, review);
+  add_failures(all, review);
+  for (Lent& one : all.lent) {
+    one.staff.role = ui::StaffRole::Technician;
+    one.staff.technician = &one.view;
+    Exhibit exhibit{one.name, idle, visit, {}};
+    exhibit.view.screen = ui::Screen::Staff;
+    exhibit.view.calibration_note = one.note;
+    exhibit.view.service = &one.staff;
+    exhibit.visit.look.edges = one.edges;
+    exhibit.service.show(one.page);
+    exhibits.push_back(exhibit);
+  }
+}
+
+}  // namespace relievo::firmware

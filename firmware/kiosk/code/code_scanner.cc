@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/code/code_scanner.h"
+
+#include <string.h>
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "firmware/base/budget.h"
+#include "firmware/kiosk/code/code_text.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::chrono::seconds kRest{1};  // after a look that ended by itself
+
+bool wanted(const ui::Visit& visit, const Appliance& appliance) {
+  return visit.step == ui::Step::Name && visit.overlay == ui::Overlay::None && visit.name().empty() &&
+         appliance.state() == State::Idle;
+}
+
+}  // namespace
+
+CodeScanner::CodeScanner(Appliance& appliance, hal::Device& device)
+    : appliance_(appliance), look_(appliance, device) {}
+
+CodeScanner::~CodeScanner() {
+  if (running_) appliance_.end_side_job(JobLane::Capture);
+}
+
+std::optional<std::string> CodeScanner::turn(const ui::Visit& visit, hal::Instant now) {
+  const bool wants = wanted(visit, appliance_);
+  if (running_ && look_.ended.load(std::memory_order_acquire)) {
+    running_ = false;
+    next_try_ = now + kRest;
+  }
+  std::optional<std::string> text = look_.take();
+  if (running_ && !wants) appliance_.cancel_side_job(JobLane::Capture);
+  if (!running_ && wants && now >= next_try_) {
+    look_.ended.store(false);
+    running_ = appliance_.start_side_job(JobLane::Capture, look_).has_value();
+    if (!running_) look_.ended.store(true);
+  }
+  if (text && !wants) {  // read in the moment the page was left
+    explicit_bzero(
+        text->data(),
+        text->size());  // NOLINT(clang-analyzer-cplusplus.InnerPointer): the string is whole until reset()
+    text.reset();
+  }
+  return text;
+}
+
+std::optional<std::string> CodeScanner::Look::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(text_, std::nullopt);
+}
+
+Result<void> CodeScanner::Look::run(JobControl& control) {
+  Result<void> looked = look(control);
+  appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
+  ended.store(true, std::memory_order_release);
+  return looked;
+}
+
+// Left and right by turns: a code may lie in one camera's mirror image of a lamp.
+Result<void> CodeScanner::Look::look(JobControl& control) {
+  RELIEVO_TRY(appliance_.grabber().start(device_.preferred_mode()));
+  for (int pair = 0; !control.cancelled.load(std::memory_order_relaxed); ++pair) {
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
+                       appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));
+    const auto raw = reader_->read(pair % 2 == 0 ? frame.left : frame.right);
+    if (auto text = raw ? code_text(*raw) : std::nullopt) {
+      const std::lock_guard lock(mutex_);
+      text_ = std::move(text);
+      return {};
+    }
+    std::this_thread::sleep_for(budget::kLivePause);
+  }
+  return Error{Errc::Cancelled, "no code is looked for any more"};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CodeScanner: looks for a QR code with both cameras while a visitor could type: on the page for the name,
+// with nothing typed and nothing over it. The job runs on the capture thread beside the states' own and
+// gives way to them. Thread: main; the job inside is capture's. Errors: none are told: a camera that does
+// not answer is the next page's to say; it is tried again a second later.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "firmware/appliance/appliance.h"
+#include "firmware/kiosk/code/code_reader.h"
+#include "ui/view/visit.h"
+
+namespace relievo::firmware {
+
+class CodeScanner {
+ public:
+  CodeScanner(Appliance& appliance, hal::Device& device);
+  ~CodeScanner();
+  CodeScanner(const CodeScanner&) = delete;
+  CodeScanner& operator=(const CodeScanner&) = delete;
+
+  // Once a frame. Something that was read and could be a name; the caller wipes it.
+  std::optional<std::string> turn(const ui::Visit& visit, hal::Instant now);
+
+ private:
+  class Look final : public Job {
+   public:
+    Look(Appliance& appliance, hal::Device& device)
+        : appliance_(appliance), device_(device), reader_(CodeReader::make()) {}
+    Result<void> run(JobControl& control) override;
+    std::optional<std::string> take();
+    std::atomic<bool> ended{true};
+
+   private:
+    Result<void> look(JobControl& control);
+    Appliance& appliance_;
+    hal::Device& device_;
+    std::unique_ptr<CodeReader> reader_;
+    std::mutex mutex_;
+    std::optional<std::string> text_;
+  };
+
+  Appliance& appliance_;
+  Look look_;
+  bool running_ = false;
+  hal::Instant next_try_{};
+};
+
+}  // namespace relievo::firmware

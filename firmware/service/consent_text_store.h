@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ConsentTextStore: the consent text that is in force, and how the operator's own comes from a stick:
+//
+//   stick: consent/VERSION/LANGUAGE.txt --take()--> the store's consent/VERSION/ --adopt()--> in force
+//
+// It is checked on the stick (records/consent_files.h), written beside what is in force, read back, and
+// gets its name then: whatever goes wrong, the text before stays. A version never changes its words,
+// because records name it.
+// Thread: main; the stick is read on the keeper. Errors of look(): see consent_files.h.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware/records/event_log.h"
+#include "firmware/service/side_tasks.h"
+#include "hal/removable_media.h"
+#include "ui/view/consent_text.h"
+#include "ui/view/staff_views.h"
+
+namespace relievo::firmware {
+
+class ConsentTextStore {
+ public:
+  // `folder` is the store's.
+  ConsentTextStore(const std::filesystem::path& folder, hal::RemovableMedia& media, SideTasks& side_tasks,
+                   EventLog& log)
+      : folder_(folder / "consent"), media_(media), side_tasks_(side_tasks), log_(log) {}
+
+  // Before any thread uses it.
+  Result<void> look();
+  // None: our sample, which nobody has reviewed. Valid until adopt().
+  const ui::ConsentTexts* now() const { return now_ ? &*now_ : nullptr; }
+  // Takes over what the stick has; show() tells how it ended.
+  void take();
+  // What was taken is in force from here on: while no visitor is in the middle of reading the one before.
+  void adopt();
+  // The last try is no news to who comes now.
+  void opened();
+  void show(ui::ConsentTextsView& view) const;
+
+ private:
+  void ended(const std::optional<Error>& error);
+
+  std::filesystem::path folder_;
+  hal::RemovableMedia& media_;
+  SideTasks& side_tasks_;
+  EventLog& log_;
+  std::optional<ui::ConsentTexts> now_, next_;
+  bool taking_ = false;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  ui::Fault fault_;  // why the last try failed
+};
+
+}  // namespace relievo::firmware

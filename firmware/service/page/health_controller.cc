@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/page/health_controller.h"
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+
+#include "firmware/report/report.h"
+#include "firmware/service/page/log_lines.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr std::chrono::seconds kEvery{2};
+constexpr double kMiB = 1048576.0, kWarm = 75, kHot = 90;
+
+double mib(std::size_t bytes) { return static_cast<double>(bytes) / kMiB; }
+
+ui::Mood mood_of(double used, double of) {
+  return used > of ? ui::Mood::Bad : used > 0.9 * of ? ui::Mood::Warn : ui::Mood::Good;
+}
+
+}  // namespace
+
+std::vector<Sensor> read_temperatures(const std::filesystem::path& thermal) {
+  std::vector<Sensor> sensors;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(thermal, none)) {
+    if (!entry.path().filename().string().starts_with("thermal_zone")) continue;
+    std::ifstream temperature(entry.path() / "temp"), type(entry.path() / "type");
+    double thousandths = 0;
+    std::string name;
+    if (!(temperature >> thousandths) || !std::getline(type, name)) continue;
+    sensors.push_back({name, thousandths / 1000});
+  }
+  std::sort(sensors.begin(), sensors.end(), [](const Sensor& a, const Sensor& b) { return a.name < b.name; });
+  return sensors;
+}
+
+void HealthController::opened() {
+  open_ = true;
+  ready_ = false;
+  look();
+}
+
+void HealthController::closed() { open_ = false; }
+
+void HealthController::look() {
+  looking_ = true;
+  const auto seen = std::make_shared<Seen>();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [seen, folder = services().folder](JobControl&) -> Result<void> {
+        seen->sensors = read_temperatures("/sys/class/thermal");
+        seen->process_mib = mib(peak_rss_bytes());
+        std::error_code none;
+        const auto room = std::filesystem::space(folder, none);
+        if (none) return Error{Errc::IoFailed, "the disk's room cannot be told"};
+        seen->disk_mib = mib(room.capacity);
+        seen->disk_used_mib = mib(room.capacity - room.available);
+        return {};
+      },
+      [this, seen](const std::optional<Error>& error) {
+        looking_ = false;
+        next_look_ = services().device.clock().now() + kEvery;
+        if (error) return services().log.fault(*error);
+        seen_ = std::move(*seen);
+        ready_ = true;
+      });
+}
+
+// Of the last capture: the arenas are swept between two people, their high-water marks are not names.
+void HealthController::add_memory() {
+  std::size_t peak = 0;
+  for (const StageRecord& record : services().appliance.records())
+    peak = std::max(peak, record.arena_peak_bytes);
+  const double plan = mib(budget::kOutputArenaBytes + budget::kScratchArenaBytes),
+               all = mib(budget::kApplianceBytes);
+  rows_.push_back({ui::Gauge::Stages, {}, mib(peak), plan, mood_of(mib(peak), plan)});
+  rows_.push_back({ui::Gauge::Process, {}, seen_.process_mib, all, mood_of(seen_.process_mib, all)});
+}
+
+void HealthController::add_seen() {
+  rows_.push_back({ui::Gauge::Disk,
+                   {},
+                   seen_.disk_used_mib,
+                   seen_.disk_mib,
+                   mood_of(seen_.disk_used_mib, seen_.disk_mib)});
+  for (const Sensor& sensor : seen_.sensors) {
+    const ui::Mood mood = sensor.celsius >= kHot    ? ui::Mood::Bad
+                          : sensor.celsius >= kWarm ? ui::Mood::Warn
+                                                    : ui::Mood::Good;
+    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, 0, mood});
+  }
+}
+
+void HealthController::show(ui::ServiceView& view) {
+  if (!looking_ && services().device.clock().now() >= next_look_) look();
+  if (!ready_) return;
+  rows_.clear();
+  add_memory();
+  add_seen();
+  faults_ = services().log.faults();
+  show_lines(faults_, fault_lines_);
+  view_ = {rows_, fault_lines_};
+  view.health = &view_;
+}
+
+}  // namespace relievo::firmware

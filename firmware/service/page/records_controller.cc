@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/service/page/records_controller.h"
+
+#include <string.h>
+
+#include <algorithm>
+
+#include "firmware/base/wall_time.h"
+#include "firmware/records/receipt.h"
+#include "firmware/service/pin_hash.h"
+
+namespace relievo::firmware {
+namespace {
+
+// The models on the screen are numbered apart from the visitors'.
+constexpr std::uint32_t kFirstModel = 1U << 20;
+
+}  // namespace
+
+void RecordsController::wipe(Found& found) {
+  for (std::string* text : {&found.name, &found.since, &found.code}) wipe_text(*text);
+}
+
+void RecordsController::wipe(std::vector<Found>& found) {
+  for (Found& one : found) wipe(one);
+  found.clear();
+}
+
+RecordsController::Person::~Person() {
+  wipe(found);
+  wipe_text(consent);
+  wipe_text(consented_at);
+  if (!model) return;
+  // What a face looks like goes before its memory does.
+  explicit_bzero(model->texture.rgb.data(), model->texture.rgb.size());
+  auto& vertices = model->mesh.vertices_mm;
+  explicit_bzero(vertices.data(), vertices.size() * sizeof(pipeline::Vec3f));
+}
+
+void RecordsController::opened() {
+  forget();
+  ++visit_;
+  list();
+}
+
+void RecordsController::closed() {
+  ++visit_;
+  if (exporting_) {
+    services().side_tasks.stop(JobLane::Keeper);
+    services().appliance.ask(ui::Intent::Cancel);
+  }
+  exporting_ = false;
+  forget();
+}
+
+void RecordsController::forget() {
+  wipe(found_);
+  wipe_text(searched_);
+  person_.reset();
+  rows_.clear();
+  shown_ = {};
+  view_ = {};
+  skip_ = 0;
+  ready_ = erased_ = exported_ = false;
+  outcome_ = ui::Outcome::None;
+  trace_ = {};
+  asked_ = 0;
+}
+
+void RecordsController::told(const std::optional<Error>& error) {
+  outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
+  if (error && error->code != Errc::Cancelled) services().log.fault(*error);
+}
+
+void RecordsController::ask(const ui::StaffRequest& request) {
+  if (request.verb == ui::kExportStop) return services().side_tasks.stop(JobLane::Keeper);
+  if (exporting_) return;
+  erased_ = exported_ = false;
+  outcome_ = ui::Outcome::None;
+  asked_ = 0;
+  switch (request.verb) {
+    case ui::kRecordsSearch:
+      return search(request.text());
+    case ui::kRecordsNewer:
+      skip_ = std::max<std::int64_t>(0, skip_ - kPage);
+      return list();
+    case ui::kRecordsOlder:
+      skip_ += more_ ? kPage : 0;
+      return list();
+    case ui::kRecordShow:
+      return load(request.number);
+    case ui::kRecordErase:
+      return erase(request.number);
+    case ui::kRecordExport:
+      return take_out(request.number);
+    default:
+      return;
+  }
+}
+
+void RecordsController::search(std::string_view text) {
+  wipe_text(searched_);
+  searched_ = text;
+  while (searched_.ends_with(' ')) searched_.pop_back();
+  skip_ = 0;
+  list();
+}
+
+void RecordsController::list() {
+  struct Listed {
+    std::string searched;
+    std::vector<Found> found;
+    ~Listed() {
+      wipe_text(searched);
+      wipe(found);
+    }
+  };
+  const auto listed = std::make_shared<Listed>();
+  listed->searched = searched_;
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, listed, skip = skip_](JobControl&) -> Result<void> {
+        std::vector<storage::Subject> subjects;
+        // The code that a person quotes for their erasure leads to them, too.
+        if (is_receipt(listed->searched)) {
+          if (auto subject = find_by_receipt(services().store, listed->searched))
+            subjects.push_back(std::move(*subject));
+        } else {
+          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({listed->searched, false, skip, kPage + 1}));
+        }
+        for (storage::Subject& subject : subjects) {
+          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name,
+                                   text_of(subject.created_at).substr(0, 16), receipt_of(subject),
+                                   subject.enrolments});
+          wipe_text(subject.name);
+        }
+        return {};
+      },
+      [this, listed, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) return told(error);
+        wipe(found_);
+        found_ = std::move(listed->found);
+        more_ = static_cast<std::int64_t>(found_.size()) > kPage;
+        if (more_) {
+          wipe(found_.back());
+          found_.pop_back();
+        }
+        ready_ = true;
+      });
+}
+
+void RecordsController::load(std::int64_t number) {
+  const auto person = std::make_shared<Person>();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
+        person->found = {static_cast<std::int64_t>(id), subject.name,
+                         text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments};
+        wipe_text(subject.name);
+        RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
+        if (enrolments.empty()) return {};
+        const storage::Consent& consent = enrolments.back().consent;
+        person->consent = consent.wording + " (" + consent.language + ")";
+        person->consented_at = text_of(consent.given_at).substr(0, 16);
+        RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
+        person->model.emplace(std::move(model));
+        return {};
+      },
+      [this, person, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) return told(error);
+        person_ = person;
+        ++model_number_;
+      });
+}
+
+void RecordsController::erase(std::int64_t number) {
+  person_.reset();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, id = storage::SubjectId{number}](JobControl&) { return services().store.erase_subject(id); },
+      [this, number, visit = visit_](const std::optional<Error>& error) {
+        if (!error) services().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
+        if (visit != visit_) return;
+        told(error);
+        erased_ = !error;
+        list();
+      });
+}
+
+void RecordsController::take_out(std::int64_t number) {
+  services().appliance.ask(ui::Intent::Export);
+  if (services().appliance.state() != State::Export) return;
+  std::vector<storage::SubjectId> subjects;
+  if (number != 0) subjects.push_back(storage::SubjectId{number});
+  else
+    for (const Found& found : found_) subjects.push_back(storage::SubjectId{found.number});
+  exporting_ = true;
+  asked_ = static_cast<int>(subjects.size());
+  const auto trace = std::make_shared<ExportTrace>();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, subjects = std::move(subjects), trace](JobControl& control) {
+        return export_records(services().store, services().device.media(), subjects, control, *trace);
+      },
+      [this, trace, visit = visit_](const std::optional<Error>& error) {
+        if (trace->whole > 0)
+          services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
+        if (visit == visit_) exported(error, *trace);
+      });
+}
+
+void RecordsController::exported(const std::optional<Error>& error, const ExportTrace& trace) {
+  exporting_ = false;
+  services().appliance.end_service_state(!error);
+  told(error);
+  trace_ = trace;
+  if (error) outcome_ = outcome_of_export(*error, trace);
+  exported_ = !error;
+}
+
+void RecordsController::show(ui::ServiceView& view) {
+  view.work.outcome = outcome_;
+  view.work.running = exporting_;
+  view.work.progress = exporting_ ? services().side_tasks.progress(JobLane::Keeper) : 0;
+  if (!ready_) return;
+  rows_.clear();
+  for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
+  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, {}, erased_, exported_, asked_, trace_.whole};
+  if (person_) {
+    const Found& one = person_->found;
+    shown_ = {one.number, one.name, one.since, one.code, one.portraits};
+    view_.shown = &shown_;
+    view_.consent = person_->consent;
+    view_.consented_at = person_->consented_at;
+    view.inner = true;
+    if (person_->model) view.model = &*person_->model;
+    view.model_number = kFirstModel + model_number_;
+  }
+  view.records = &view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Behind the page of records: search, show, erase, export, on the store. Every name it has read is wiped
+// when the page is left. Thread: main; the store's work runs on the keeper.
+#pragma once
+
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/service/export_records.h"
+#include "firmware/service/page_controller.h"
+#include "ui/view/records_view.h"
+
+namespace relievo::firmware {
+
+class RecordsController final : public PageController {
+ public:
+  using PageController::PageController;
+  ~RecordsController() override { forget(); }
+  void opened() override;
+  void ask(const ui::StaffRequest& request) override;
+  void show(ui::ServiceView& view) override;
+  void closed() override;
+
+ private:
+  static constexpr std::int64_t kPage = 50;
+  struct Found {
+    std::int64_t number = 0;
+    std::string name, since, code;
+    int portraits = 0;
+  };
+  struct Person {
+    Found found;
+    std::string consent, consented_at;
+    std::pmr::monotonic_buffer_resource memory;
+    std::optional<pipeline::FaceModel> model;
+    ~Person();
+  };
+  using Work = std::function<Result<void>(JobControl&)>;
+  void search(std::string_view text);
+  void list();
+  void load(std::int64_t number);
+  void erase(std::int64_t number);
+  void take_out(std::int64_t number);
+  void exported(const std::optional<Error>& error, const ExportTrace& trace);
+  void told(const std::optional<Error>& error);
+  void forget();
+  static void wipe(Found& found);
+  static void wipe(std::vector<Found>& found);
+
+  std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
+  std::string searched_;
+  std::int64_t skip_ = 0;
+  bool more_ = false, ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
+  std::vector<Found> found_;
+  std::shared_ptr<Person> person_;
+  std::uint32_t model_number_ = 0;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  ExportTrace trace_;  // of the last export
+  int asked_ = 0;      // how many records it was of
+  std::vector<ui::RecordRow> rows_;
+  ui::RecordRow shown_;
+  ui::RecordsView view_;
+};
+
+}  // namespace relievo::firmware

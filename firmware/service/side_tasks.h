@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SideTasks: work the staff's pages have others do, so that the screen never waits. Each thread does one
+// at a time, the others queue; what a side task found out is handed to `done` on the main thread.
+//
+//   send(thread, work, done) --> work() on that thread --> done(error or nothing) on main
+//
+// Work looks at its JobControl; what it writes to must live as long as it runs: keep it in a
+// shared_ptr that both closures hold. cancel() drops what waits of a page and asks what runs to end: its
+// done() is not called any more. What belongs to the device (a PIN, a setting) ends, and is heard.
+// Thread: main. Errors: those of the work.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "firmware/appliance/appliance.h"
+
+namespace relievo::firmware {
+
+class SideTasks {
+ public:
+  using Work = std::function<Result<void>(JobControl&)>;
+  using Done = std::function<void(const std::optional<Error>&)>;
+
+  enum class Whose : std::uint8_t { Page, Device };
+
+  explicit SideTasks(Appliance& appliance);
+  ~SideTasks();
+  SideTasks(const SideTasks&) = delete;
+  SideTasks& operator=(const SideTasks&) = delete;
+
+  void send(JobLane lane, Work work, Done done, Whose whose = Whose::Page);
+  // Starts what waits and can start: once every turn.
+  void turn();
+  // Asks what runs on that thread to end early; its done() hears Cancelled, or that it was done already.
+  void stop(JobLane lane) { appliance_.cancel_side_job(lane); }
+  void cancel();
+  bool busy(JobLane lane) const { return queues_[static_cast<std::size_t>(lane)].running != nullptr; }
+  float progress(JobLane lane) const { return appliance_.side_progress(lane); }
+
+ private:
+  struct SideTask final : Job {
+    Work work;
+    Done done;
+    Whose whose = Whose::Page;
+    bool forgotten = false;
+    Result<void> run(JobControl& control) override { return work(control); }
+  };
+  struct Queue {
+    std::unique_ptr<SideTask> running;
+    std::deque<std::unique_ptr<SideTask>> waiting;
+  };
+  void heard(JobLane lane, const std::optional<Error>& error);
+
+  Appliance& appliance_;
+  std::array<Queue, kJobLanes> queues_;
+};
+
+}  // namespace relievo::firmware

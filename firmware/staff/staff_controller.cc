@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/staff/staff_controller.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware/base/wall_time.h"
+#include "firmware/staff/page_controllers.h"
+#include "firmware/staff/technician_controller.h"
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::StaffPage;
+using ui::StaffRole;
+
+constexpr std::chrono::seconds kWarning{15};  // before somebody is signed out
+
+bool is_service(State state) {
+  return state == State::Staff || state == State::Calibrate || state == State::Export;
+}
+
+}  // namespace
+
+ui::Outcome outcome_of(const Error& error) {
+  switch (error.code) {
+    case Errc::Cancelled:
+      return ui::Outcome::Cancelled;
+    case Errc::MediaMissing:
+      return ui::Outcome::NoStick;
+    case Errc::MediaFull:
+      return ui::Outcome::StickFull;
+    case Errc::Disconnected:
+      return ui::Outcome::StickGone;
+    case Errc::NotFound:
+      return ui::Outcome::NotFound;
+    case Errc::InvalidInput:
+    case Errc::InvalidState:
+    case Errc::Unsupported:
+      return ui::Outcome::Refused;
+    case Errc::Timeout:
+    case Errc::NotCalibrated:
+    case Errc::NoFace:
+    case Errc::TooFewMatches:
+    case Errc::PoorGeometry:
+    case Errc::LibraryFailed:
+    case Errc::OutOfMemory:
+    case Errc::StoreCorrupt:
+    case Errc::StoreNewer:
+    case Errc::IoFailed:
+      break;
+  }
+  return ui::Outcome::Failed;
+}
+
+StaffController::StaffController(Parts parts)
+    : parts_(std::move(parts)),
+      log_(parts_.device.clock(), parts_.folder / kLogFile),
+      side_tasks_(parts_.appliance),
+      settings_(parts_.store, side_tasks_, log_, parts_.device.clock()),
+      retention_(parts_.store, side_tasks_, log_, parts_.device.clock()),
+      touch_(parts_.store, side_tasks_, log_, parts_.device.clock()),
+      consent_(parts_.folder, parts_.device.media(), side_tasks_, log_),
+      services_{parts_.appliance, parts_.device,     parts_.store, side_tasks_, log_,
+                statistics_,      settings_,         retention_,   touch_,      consent_,
+                parts_.folder,    parts_.calibration},
+      sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_,
+                parts_.device.is_live()}) {
+  fill_page_controllers(services_, pages_);
+  parts_.appliance.on_change([this](const Change& change) { noted(change); });
+}
+
+StaffController::~StaffController() {
+  parts_.appliance.on_change({});
+  close_page();
+  for (const JobLane lane : {JobLane::Capture, JobLane::Worker, JobLane::Keeper})
+    parts_.appliance.end_side_job(lane);  // it uses what is below
+}
+
+Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
+  std::unique_ptr<StaffController> staff(new StaffController(std::move(parts)));
+  RELIEVO_TRY(staff->sign_in_.look());
+  RELIEVO_TRY(staff->settings_.look());
+  RELIEVO_TRY(staff->touch_.look());
+  RELIEVO_TRY(staff->consent_.look());
+  const Result<std::string> kept = staff->parts_.store.setting(kStatisticsSetting);
+  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  if (!kept || !staff->statistics_.read(*kept))
+    staff->statistics_.begin(
+        text_of(std::chrono::floor<std::chrono::milliseconds>(staff->parts_.device.clock().wall_now()))
+            .substr(0, 10));
+  staff->log_.say(ui::LogEvent::Started);
+  return staff;
+}
+
+void StaffController::set_test_capture(std::unique_ptr<TestCapture> test_capture) {
+  test_capture_ = std::move(test_capture);
+  fill_technician_pages(services_, *test_capture_, pages_);
+}
+
+void StaffController::noted(const Change& change) {
+  std::chrono::nanoseconds total{0};
+  for (const StageRecord& record : parts_.appliance.records()) total += record.took;
+  const auto& problem = parts_.appliance.problem();
+  const bool wrong = change.event == Event::Failed || change.event == Event::StageFailed ||
+                     change.event == Event::AdviceGiven || change.event == Event::Timeout;
+  statistics_.noted(change, problem ? &*problem : nullptr, total);
+  if (wrong && problem) log_.fault(*problem);
+}
+
+bool StaffController::inside() const { return role_ != StaffRole::None; }
+
+void StaffController::touched() { last_touch_ = parts_.device.clock().now(); }
+
+void StaffController::ask(const ui::StaffRequest& request) {
+  touched();
+  if (request.verb == ui::kPageLeft) return leave();
+  const bool signs_in = request.page == StaffPage::Pin || request.page == StaffPage::FirstStart ||
+                        request.page == StaffPage::Pins;
+  if (!inside() && request.page != StaffPage::Pin && request.page != StaffPage::FirstStart) return;
+  if (request.verb == ui::kPageOpened) {
+    close_page();
+    if (signs_in) sign_in_.opened(request.page);
+    page_ = may_open(role_, request.page) ? pages_[static_cast<std::size_t>(request.page)].get() : nullptr;
+    if (page_ != nullptr) page_->opened();
+    return;
+  }
+  if (signs_in) return sign_in_.ask(request, role_);
+  if (page_ != nullptr && page_ == pages_[static_cast<std::size_t>(request.page)].get()) page_->ask(request);
+}
+
+void StaffController::close_page() {
+  if (page_ != nullptr) page_->closed();
+  page_ = nullptr;
+}
+
+// The machine lets somebody in from Idle or Fault only; from a self-test as soon as it has ended.
+void StaffController::let_in() {
+  if (const StaffRole entered = sign_in_.take_entered(); entered != StaffRole::None) waiting_ = entered;
+  if (waiting_ == StaffRole::None) return;
+  parts_.appliance.ask(ui::Intent::OpenStaff);
+  if (parts_.appliance.state() != State::Staff) return;
+  role_ = services_.role = std::exchange(waiting_, StaffRole::None);
+  touched();
+}
+
+void StaffController::leave() {
+  waiting_ = StaffRole::None;
+  sign_in_.forget();
+  if (!inside()) return;
+  if (parts_.appliance.state() != State::Staff) parts_.appliance.ask(ui::Intent::Cancel);
+  parts_.appliance.ask(ui::Intent::LeaveStaff);
+}
+
+int StaffController::seconds_left() const {
+  const auto left = std::chrono::ceil<std::chrono::seconds>(
+      last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) -
+      parts_.device.clock().now());
+  return static_cast<int>(std::max<std::int64_t>(0, left.count()));
+}
+
+void StaffController::turn() {
+  side_tasks_.turn();
+  touch_.turn();
+  let_in();
+  const State state = parts_.appliance.state();
+  // A long export or calibration is somebody's, even if nobody touches the screen.
+  if (state == State::Calibrate || state == State::Export) touched();
+  if (inside() && state == State::Staff && seconds_left() == 0) leave();
+  if (inside() && !is_service(parts_.appliance.state())) {
+    close_page();
+    side_tasks_.cancel();
+    sign_in_.forget();
+    role_ = services_.role = StaffRole::None;
+    log_.say(ui::LogEvent::SignedOut);
+  }
+  if (test_capture_ != nullptr) test_capture_->turn();
+  if (state == State::Idle || state == State::Staff) save_what_changed();
+  if (state == State::Idle) retention_.turn(settings());
+}
+
+void StaffController::save_what_changed() {
+  if (side_tasks_.busy(JobLane::Keeper)) return;
+  const bool counted = statistics_.changes() != saved_statistics_;
+  if (!counted && !log_.unsaved()) return;
+  saved_statistics_ = statistics_.changes();
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, text = counted ? statistics_.text() : std::string()](JobControl&) -> Result<void> {
+        RELIEVO_TRY(log_.save());
+        return text.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, text);
+      },
+      [](const std::optional<Error>&) {},
+      SideTasks::Whose::Device);  // a full disk must not fill the log with its own complaint
+}
+
+const ui::ServiceView& StaffController::view() {
+  view_ = {};
+  view_.role = role_;
+  if (inside() && parts_.appliance.state() == State::Staff && seconds_left() <= kWarning.count())
+    view_.leaves_in_s = seconds_left();
+  sign_in_.show(view_.access);
+  consent_.show(consent_view_);
+  view_.consent = &consent_view_;
+  if (page_ != nullptr) page_->show(view_);
+  return view_;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CameraWatch: what both cameras see and how well, for a hand at lens, lamp and cable: pictures, light and
+// focus of the middle of each, how far apart the two were exposed, what the grabber has counted, and the
+// relief when asked. It watches in the session's free slot, beside the test capture, until it is cancelled.
+// Errors of run(): the grabber's; Cancelled. Thread: run() capture; the rest main.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+#include "firmware/capture/face_light.h"
+#include "firmware/capture/live_feed.h"
+#include "firmware/technician/relief_watch.h"
+#include "firmware/work/jobs.h"
+#include "ui/technician/technician_cameras.h"
+
+namespace relievo::firmware {
+
+class CameraWatchJob final : public Job {
+ public:
+  CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device)
+      : grabber_(grabber), session_(session), device_(device) {}
+  // With the calibration in use; null: there is none, and no relief. While the job does not run.
+  void prepare(const pipeline::StereoCalibration* calibration);
+  // With every pair its relief, from the next one on.
+  void show_relief(bool on) { relief_shown_.store(on, std::memory_order_relaxed); }
+  bool shows_relief() const { return relief_shown_.load(std::memory_order_relaxed); }
+  // A third stop brighter (1) or darker (-1) from the next pair on.
+  void change_light(int steps) { steps_.fetch_add(steps, std::memory_order_relaxed); }
+  Result<void> run(JobControl& control) override;
+  // The newest pair and its figures; `watched` false before the first one.
+  ui::TechnicianCameras newest();
+  const Result<void>& outcome() const { return outcome_; }  // while it does not run
+  // As asked for last; no time: it never watched. While it does not run.
+  const hal::Exposure& light() const { return light_; }
+  void wipe();
+
+ private:
+  Result<void> watch(JobControl& control);
+  Result<void> look(const pipeline::StereoFrame& frame, JobControl& control);
+  bool draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::TechnicianCameras& now);
+  void set_light();
+
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::Device& device_;
+  std::array<LiveFeed, 3> feeds_;  // left, right, relief
+  std::array<FocusHelp, 2> focus_;
+  ReliefWatch relief_;
+  std::atomic<int> steps_{0};
+  std::atomic<bool> relief_shown_{false};
+  hal::Exposure light_;
+  std::optional<hal::Instant> last_pair_;
+  std::mutex mutex_;
+  ui::TechnicianCameras figures_;  // without pictures and texts; with those of the feeds, under the mutex
+  Result<void> outcome_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/recording_controller.h"
+
+#include <ctime>
+#include <utility>
+
+namespace relievo::firmware {
+namespace {
+
+// A name every file system of a stick takes: 2026-03-12_09-14-07, UTC.
+std::string name_at(std::chrono::system_clock::time_point when) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y-%m-%d_%H-%M-%S", &parts);
+  return name;
+}
+
+}  // namespace
+
+std::shared_ptr<ExportTrace> RecordingController::begin(bool reading) {
+  if (running_) return nullptr;
+  running_ = true;
+  reading_ = reading;
+  outcome_ = ui::Outcome::None;
+  where_.clear();
+  return std::make_shared<ExportTrace>();
+}
+
+void RecordingController::ended(const std::optional<Error>& error, const ExportTrace& trace,
+                                const std::string& where) {
+  running_ = false;
+  outcome_ = error ? outcome_of_export(*error, trace) : ui::Outcome::Done;
+  if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
+}
+
+std::string RecordingController::name_now() const { return name_at(device_.clock().wall_now()); }
+
+std::string RecordingController::saved_name(std::size_t row) const {
+  if (!names_ || row >= names_->size()) return {};
+  const std::string& file = names_->at(row);
+  return file.substr(0, file.size() - std::string_view(kSavedEnding).size());
+}
+
+void RecordingController::record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) {
+  const std::shared_ptr<ExportTrace> trace = begin(false);
+  if (trace == nullptr) return;
+  as_taken.left_ns = 0;
+  as_taken.right_ns = frame.skew_ns;
+  const auto copy = std::make_shared<const CaptureCopy>(frame, std::move(as_taken));
+  const std::string name = name_now();
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, copy, trace, name](JobControl& control) {
+        return record_capture(copy->pair(), name, device_.media(), control, *trace);
+      },
+      [this, trace, name, visit = visit_](const std::optional<Error>& error) {
+        if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
+      });
+}
+
+void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
+  if (begin(false) == nullptr) return;
+  const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  side_tasks_.send(
+      JobLane::Worker,
+      [document, make = std::move(make)](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(auto bytes, make());
+        *document = std::make_shared<const SavedBytes>(std::move(bytes));
+        return {};
+      },
+      [this, document, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) ended(error, {}, {});
+        else write(std::move(*document));
+      });
+}
+
+void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
+  const auto trace = std::make_shared<ExportTrace>();
+  const std::string name = name_now();
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, document = std::move(document), trace, name](JobControl& control) {
+        return save_reconstruction(*document, name, device_.media(), control, *trace);
+      },
+      [this, trace, name, visit = visit_](const std::optional<Error>& error) {
+        if (visit == visit_) ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
+      });
+}
+
+void RecordingController::list() {
+  if (begin(true) == nullptr) return;
+  const auto names = std::make_shared<std::vector<std::string>>();
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, names](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(device_.media(), ui::kSavedRows));
+        return {};
+      },
+      [this, names, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        running_ = false;
+        if (error) outcome_ = outcome_of_export(*error, {});
+        else names_ = std::move(*names);
+      });
+}
+
+void RecordingController::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
+                               std::function<void(const Error&)> refused) {
+  if (!names_ || row >= names_->size() || running_) return;
+  const std::string name = names_->at(row);
+  (void)begin(true);
+  hide();
+  const auto saved = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, name, saved](JobControl& control) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*saved, read_saved(name, device_.media(), control));
+        return {};
+      },
+      [this, saved, read = std::move(read), refused = std::move(refused),
+       visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        running_ = false;
+        if (!error) return read(std::move(*saved));
+        if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing)
+          outcome_ = outcome_of_export(*error, {});
+        else refused(*error);
+      });
+}
+
+void RecordingController::stop() {
+  if (running_) side_tasks_.stop(JobLane::Keeper);
+}
+
+void RecordingController::capture_gone() {
+  outcome_ = ui::Outcome::None;
+  where_.clear();
+}
+
+void RecordingController::forget() {
+  ++visit_;
+  running_ = false;
+  names_.reset();
+  capture_gone();
+}
+
+ui::TechnicianRecording RecordingController::view() const {
+  return {running_, reading_, running_ ? side_tasks_.progress(JobLane::Keeper) : 0, outcome_, where_};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RecordingController: the buttons that put the test capture (record_capture.h) or all of the reconstruction
+// (saved_reconstruction.h) on the stick, and bring a saved one back; how far it is, how it ended, and where
+// it lies. One at a time; who leaves ends it, and nothing half written stays. Thread: main; the stick is the
+// keeper's. Errors: none are returned, view() has them, but what is wrong with a document goes to `refused`.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/service/side_tasks.h"
+#include "firmware/technician/record_capture.h"
+#include "firmware/technician/saved_reconstruction.h"
+#include "ui/technician/technician_view.h"
+
+namespace relievo::firmware {
+
+class RecordingController {
+ public:
+  RecordingController(SideTasks& side_tasks, hal::Device& device)
+      : side_tasks_(side_tasks), device_(device) {}
+  // `as_taken`: exposure and serial numbers.
+  void record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken);
+  // `make` runs on the worker: the document of what is in the session.
+  void save(std::function<Result<std::vector<std::byte>>()> make);
+  // Those on the stick; shown from then on, until hide().
+  void list();
+  void hide() { names_.reset(); }
+  // `read` hears the bytes of a whole document.
+  void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
+            std::function<void(const Error&)> refused);
+  void stop();
+  // What a capture of this moment is called.
+  std::string name_now() const;
+  // Of what list() has found: without its ending.
+  std::string saved_name(std::size_t row) const;
+  // There is another capture now.
+  void capture_gone();
+  void forget();
+  ui::TechnicianRecording view() const;
+  ui::TechnicianSaved saved() const {
+    return names_ ? ui::TechnicianSaved{true, *names_} : ui::TechnicianSaved{};
+  }
+
+ private:
+  // What runs from now on; null: something else does.
+  std::shared_ptr<ExportTrace> begin(bool reading);
+  void write(std::shared_ptr<const SavedBytes> document);
+  void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
+
+  SideTasks& side_tasks_;
+  hal::Device& device_;
+  std::string where_;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  bool running_ = false, reading_ = false;
+  std::optional<std::vector<std::string>> names_;  // on the stick, while they are shown
+  std::uint32_t visit_ = 0;  // what a visit to the pages before this one asked for is not told here
+};
+
+}  // namespace relievo::firmware

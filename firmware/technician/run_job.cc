@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/run_job.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "hal/raw/raw_image.h"
+
+namespace relievo::firmware {
+
+void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration,
+                   State first, std::vector<pipeline::Match> by_hand, bool whole_view) {
+  making_.set = set;
+  making_.calibration = calibration;
+  making_.whole_view = whole_view;
+  making_.by_hand = std::move(by_hand);
+  if (wants_before()) first = std::min(first, State::Reconstruct);
+  making_.records.resize(std::min(making_.records.size(), number_of(first)));
+  first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
+  document_.reset();
+  now_.store(first_, std::memory_order_relaxed);
+}
+
+void RunJob::order(std::shared_ptr<const SavedBytes> document, Making making) {
+  document_ = std::move(document);
+  making_ = std::move(making);
+  now_.store(State::Match, std::memory_order_relaxed);
+}
+
+Result<void> RunJob::run(JobControl& control) {
+  outcome_ = Error{Errc::LibraryFailed, "the stages ended early"};  // what a library's exception leaves
+  return outcome_ = work(control);
+}
+
+Result<void> RunJob::work(JobControl& control) {
+  pictures_.wipe();
+  figures_.begin(making_.set, name_);
+  if (document_ != nullptr) return load(control);
+  session_.rework(first_);
+  for (const StageRecord& record : making_.records) figures_.add(record);
+  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(
+                                        making_.set, making_.calibration, {},
+                                        making_.whole_view ? pipeline::Region::All : pipeline::Region::Face));
+  PipelineStages stages(std::move(pipeline), WhenMoved::GoOn, WhenUnjudged::GoOn);
+  stages.add_by_hand(making_.by_hand);
+  StageJob job(stages, session_, pool_, clock_);
+  for (const State stage : kStages) {
+    if (stage < first_) continue;
+    if (stage == State::Reconstruct && wants_before()) {
+      RELIEVO_TRY(before_pairs(stages, job, control));
+    }
+    now_.store(stage, std::memory_order_relaxed);
+    job.choose(stage);
+    const Result<void> done = job.run(control);
+    if (!done && done.error().code == Errc::Cancelled) return done;
+    figures_.add(job.record());
+    if (done) {
+      making_.records.push_back(job.record());
+      continue;
+    }
+    figures_.fail(stage, done.error());
+    break;
+  }
+  return finish(control);
+}
+
+Result<void> RunJob::before_pairs(PipelineStages& stages, StageJob& job, JobControl& control) {
+  stages.add_by_hand({});
+  for (const State stage : {State::Reconstruct, State::Mesh}) {
+    now_.store(stage, std::memory_order_relaxed);
+    job.choose(stage);
+    const Result<void> done = job.run(control);
+    if (!done && done.error().code == Errc::Cancelled) return done;
+    if (!done) break;  // without the pairs there is no surface
+  }
+  if (const Products& made = session_.products(); made.mesh)
+    change_.before(making_.set, *made.pair, *made.mesh);
+  session_.rework(State::Reconstruct);
+  stages.add_by_hand(making_.by_hand);
+  return {};
+}
+
+Result<void> RunJob::load(JobControl& control) {
+  const std::shared_ptr<const SavedBytes> bytes = std::exchange(document_, nullptr);
+  change_.forget();                                                       // another capture
+  std::vector<StageRecord> records = std::exchange(making_.records, {});  // none is done before all are read
+  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(bytes->bytes()));
+  pipeline::StereoFrame frame;
+  frame.skew_ns = document.head().skew_ns;
+  for (const bool left : {true, false}) {
+    RELIEVO_TRY_ASSIGN(storage::Document::Picture picture, document.picture(left));
+    const hal::RawImage raw = hal::raw_of(picture.view);
+    const Result<ImageView> kept = left ? session_.slot().keep_left(raw) : session_.slot().keep_right(raw);
+    explicit_bzero(picture.bytes.data(), picture.bytes.size());
+    if (!kept) return kept.error();
+    (left ? frame.left : frame.right) = *kept;
+  }
+  session_.took(frame);
+  RELIEVO_TRY_ASSIGN(const State left_to_do, load_products(document, State::Review, session_, control));
+  making_.records = std::move(records);
+  for (const StageRecord& record : making_.records) figures_.add(record);
+  if (left_to_do != State::Review)
+    figures_.fail(left_to_do,
+                  {Errc::NotFound, "this stage had not been done when it was saved: calculate again"});
+  return finish(control);
+}
+
+Result<void> RunJob::finish(JobControl& control) {
+  if (session_.products().model && session_.products().model->unjudged)
+    figures_.fail(State::Assemble, *session_.products().model->unjudged);
+  EnrolmentSession::Scratch scratch(session_);
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
+                                 control.cancelled};
+  RELIEVO_TRY(figures_.measure(session_.products(), context));
+  change_.measure(making_, session_.products());
+  pictures_.draw(session_.products(), change_);
+  return {};
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// RunJob: all stages of the pipeline, or the last of them, on the test capture that lies in the session, with
+// the algorithms that were chosen, or a saved reconstruction into the session; then the pictures and figures
+// of what came out. A stage that gives up leaves what the stages before it made, and its reason in the
+// result: for a technician that is an answer, not an error. TestShotJob takes the capture. Both keep their
+// outcome until the next run. Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together);
+// OutOfMemory; the document's. Thread: order() and outcome() main, while the job does not run; run() worker
+// (TestShotJob: capture).
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/technician/saved_reconstruction.h"
+#include "firmware/technician/show/technician_figures.h"
+#include "firmware/technician/show/technician_pictures.h"
+#include "firmware/work/jobs.h"
+#include "firmware/work/pipeline_stages.h"
+#include "firmware/work/session_document.h"
+
+namespace relievo::firmware {
+
+class RunJob final : public Job {
+ public:
+  RunJob(EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : session_(session), pool_(pool), clock_(clock) {}
+  // What is in the session from now on is called.
+  void name(std::string capture) { name_ = std::move(capture); }
+  // The stages from `first` on; those before it are done, and stay.
+  // `by_hand`: matches beside the matcher's.
+  void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first,
+             std::vector<pipeline::Match> by_hand, bool whole_view = false);
+  // No stage, but what was saved of all of them; `making` is making_of(it).
+  void order(std::shared_ptr<const SavedBytes> document, Making making);
+  Result<void> run(JobControl& control) override;
+
+  State stage() const { return now_.load(std::memory_order_relaxed); }  // any thread
+  const Result<void>& outcome() const { return outcome_; }
+  TechnicianPictures& pictures() { return pictures_; }
+  TechnicianFigures& figures() { return figures_; }
+  HandChange& change() { return change_; }
+  // Of what is in the session.
+  const Making& making() const { return making_; }
+
+ private:
+  Result<void> work(JobControl& control);
+  Result<void> load(JobControl& control);
+  // The surface without pairs by hand, which those change; of what is done, only the matches stay.
+  Result<void> before_pairs(PipelineStages& stages, StageJob& job, JobControl& control);
+  Result<void> finish(JobControl& control);
+  bool wants_before() const { return !making_.by_hand.empty() && !change_.has_before(making_.set); }
+
+  EnrolmentSession& session_;
+  ThreadPool& pool_;
+  const hal::Clock& clock_;
+  std::string name_;
+  Making making_;
+  State first_ = State::Match;
+  std::shared_ptr<const SavedBytes> document_;  // to be loaded
+  TechnicianPictures pictures_;
+  TechnicianFigures figures_;
+  HandChange change_;
+  std::atomic<State> now_{State::Match};
+  Result<void> outcome_;
+};
+
+class TestShotJob final : public Job {
+ public:
+  TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool)
+      : device_(device),
+        nobody_(grabber, session, device, pool, nullptr),
+        grab_(grabber, session, device, nobody_) {}
+  Result<void> run(JobControl& control) override {
+    outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
+    outcome_ = grab_.run(control);
+    serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
+    return outcome_;
+  }
+  const Result<void>& outcome() const { return outcome_; }
+  struct Serials {
+    std::string left, right;
+  };
+  const Serials& serials() const { return serials_; }
+
+ private:
+  hal::Device& device_;
+  PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
+  GrabJob grab_;
+  Result<void> outcome_;
+  Serials serials_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/saved_reconstruction.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <system_error>
+#include <utility>
+
+#include "firmware/service/stick_folder.h"
+#include "storage/document/document.h"
+#include "storage/export/atomic_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+Error unread(const fs::path& file) {
+  return Error{Errc::IoFailed, "cannot be read from the stick: pull it out, plug it in and try again", errno}
+      .at(file.filename().string());
+}
+
+// Every piece of the file, in its order, until `take` says no.
+template <typename Take>
+Result<void> each_piece(const fs::path& file, JobControl& control, float from_share, float to_share,
+                        const Take& take) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return unread(file);
+  const auto size = static_cast<std::size_t>(in.tellg());
+  if (size > storage::kMaxDocumentBytes)
+    return Error{Errc::InvalidInput, "this file is too large for a saved reconstruction"}.at(
+        file.filename().string());
+  in.seekg(0);
+  struct Piece {
+    std::vector<std::byte> bytes;
+    ~Piece() { explicit_bzero(bytes.data(), bytes.size()); }
+  } piece{std::vector<std::byte>(std::min(size, kPieceBytes))};
+  for (std::size_t at = 0; at < size; at += kPieceBytes) {
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "it was stopped"};
+    const std::size_t bytes = std::min(kPieceBytes, size - at);
+    if (!in.read(reinterpret_cast<char*>(piece.bytes.data()), static_cast<std::streamsize>(bytes)))
+      return unread(file);
+    RELIEVO_TRY(take(std::span<const std::byte>(piece.bytes).first(bytes), at, size));
+    control.progress.done.store(from_share + (to_share - from_share) * static_cast<float>(at + bytes) /
+                                                 static_cast<float>(size));
+  }
+  return {};
+}
+
+Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal::RemovableMedia& media,
+                   StickWork& work) {
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0));
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  RELIEVO_TRY_ASSIGN(storage::PendingFile file, storage::PendingFile::create(target));
+  for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
+    RELIEVO_TRY(
+        work.reach(ExportStep::Write, 0.5F * static_cast<float>(at) / static_cast<float>(bytes.size())));
+    RELIEVO_TRY(file.write(bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at))));
+  }
+  RELIEVO_TRY(file.finish());
+  RELIEVO_TRY(work.reach(ExportStep::ReadBack, 0.5F));
+  RELIEVO_TRY(media.settle(target.parent_path()));
+  RELIEVO_TRY(
+      each_piece(file.temporary(), work.control, 0.5F, 0.95F,
+                 [&](std::span<const std::byte> piece, std::size_t at, std::size_t size) -> Result<void> {
+                   if (size != bytes.size() || !std::ranges::equal(piece, bytes.subspan(at, piece.size())))
+                     return not_as_written(target);
+                   return {};
+                 }));
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0.95F));
+  RELIEVO_TRY(file.publish());
+  return storage::sync_directory(target.parent_path());
+}
+
+}  // namespace
+
+SavedBytes::~SavedBytes() { explicit_bzero(bytes_.data(), bytes_.size()); }
+
+Result<void> save_reconstruction(const SavedBytes& document, const std::string& name,
+                                 hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
+  trace = {};
+  StickWork work{control, trace};
+  return put_on_stick(media, fs::path(kSavedFolder) / (name + kSavedEnding), &work,
+                      [&](const fs::path& target) { return write(document.bytes(), target, media, work); });
+}
+
+Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
+  const auto medium = media.current();
+  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(medium->root / kSavedFolder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with('.') && name.ends_with(kSavedEnding)) names.push_back(name);
+  }
+  std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
+  names.resize(std::min(names.size(), most));
+  return names;
+}
+
+Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
+                                                     JobControl& control) {
+  const auto medium = media.current();
+  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  std::vector<std::byte> bytes;
+  RELIEVO_TRY(
+      each_piece(medium->root / kSavedFolder / name, control, 0, 0.9F,
+                 [&bytes](std::span<const std::byte> piece, std::size_t, std::size_t size) -> Result<void> {
+                   bytes.reserve(size);
+                   bytes.insert(bytes.end(), piece.begin(), piece.end());
+                   return {};
+                 }));
+  const auto saved = std::make_shared<const SavedBytes>(std::move(bytes));
+  const auto document = storage::Document::open(saved->bytes());
+  if (!document) return document.error().at(name);
+  return saved;
+}
+
+}  // namespace relievo::firmware

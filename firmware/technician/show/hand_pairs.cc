@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/show/hand_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "firmware/technician/show/touched_point.h"
+#include "pipeline/match/window/channel_planes.h"
+#include "pipeline/match/window/row_search.h"
+#include "pipeline/match/window/window_correlation.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr int kRadiusPx = 7;         // of the windows
+constexpr float kMostUnlike = 0.5F;  // cost beyond which the finger is believed, not the windows
+constexpr float kFingerSigmaPx = 1;
+
+std::optional<pipeline::Match> alike(const pipeline::RectifiedPair& pair, pipeline::Vec2f left_px,
+                                     double least, double most) {
+  auto found = pipeline::match_on_row(pair, left_px, least, most, kRadiusPx);
+  const bool taken = found && found->cost <= kMostUnlike && found->disparity_px <= left_px.x &&
+                     left_px.x - found->disparity_px <= static_cast<float>(pair.width_px - 1);
+  return taken ? found : std::nullopt;
+}
+
+ui::TechnicianPoint begun(const pipeline::RectifiedPair& pair, float x, float y) {
+  ui::TechnicianPoint point = point_at(pair, x, y);
+  point.by_hand = point.waits_for_right = true;
+  return point;
+}
+
+}  // namespace
+
+void HandPairs::touch(const pipeline::RectifiedPair& pair, bool left, float x, float y) {
+  const float high = static_cast<float>(pair.height_px) / static_cast<float>(pair.width_px);
+  float nearest = kFingerShare;
+  std::size_t held = points_.size();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ui::TechnicianPoint& p = points_[i];
+    if (!left && !p.matched) continue;
+    const float off = std::hypot((left ? p.left_x : p.right_x) - x, (p.y - y) * high);
+    if (off < nearest) nearest = off, held = i;
+  }
+  if (held < points_.size()) {
+    chosen_ = held;
+  } else if (!left) {
+    move_right(pair, x);
+  } else if (points_.size() < ui::kMostPairs) {
+    chosen_ = points_.size();
+    points_.push_back(begun(pair, x, y));
+    move_left(pair, x, y);
+  }
+}
+
+void HandPairs::drag(const pipeline::RectifiedPair& pair, bool left, float x, float y) {
+  if (chosen_ >= points_.size()) return;
+  if (left) move_left(pair, x, y);
+  else move_right(pair, x);
+}
+
+void HandPairs::remove() {
+  if (chosen_ >= points_.size()) return;
+  points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(chosen_));
+  chosen_ -= chosen_ > 0 ? 1 : 0;
+  changed_ = true;
+}
+
+// The partner is looked for where it was, else on all of the row.
+void HandPairs::move_left(const pipeline::RectifiedPair& pair, float x, float y) {
+  const ui::TechnicianPoint before = points_[chosen_];
+  ui::TechnicianPoint& point = points_[chosen_] = begun(pair, x, y);
+  changed_ = true;
+  std::optional<pipeline::Match> found;
+  if (before.matched) {
+    const double reach = static_cast<double>(kFingerShare) * pair.width_px,
+                 was = static_cast<double>(before.disparity_px);
+    found = alike(pair, point.left_px, was - reach, was + reach);
+  }
+  const pipeline::DisparityRange range = pipeline::disparity_range(pair);
+  if (!found) found = alike(pair, point.left_px, range.first, range.last);
+  if (!found) return;
+  set_match(pair, *found, point);
+  point.waits_for_right = false;
+}
+
+void HandPairs::move_right(const pipeline::RectifiedPair& pair, float x) {
+  if (chosen_ >= points_.size()) return;
+  const pipeline::Vec2f left_px = points_[chosen_].left_px;
+  const double reach = static_cast<double>(kFingerShare) * pair.width_px,
+               said = static_cast<double>(left_px.x - pixel_at(x, pair.width_px));
+  const auto found = alike(pair, left_px, said - reach, said + reach);
+  const auto disparity = static_cast<float>(said);
+  ui::TechnicianPoint point;
+  point.touched = point.by_hand = true;
+  set_match(
+      pair,
+      found.value_or(pipeline::Match{
+          left_px, disparity, pipeline::window_cost(pair, left_px, disparity, kRadiusPx), kFingerSigmaPx, 0}),
+      point);
+  points_[chosen_] = point;
+  changed_ = true;
+}
+
+void HandPairs::show(const pipeline::RectifiedPair& pair, std::span<const pipeline::Match> matches) {
+  points_.clear();
+  changed_ = false;
+  for (pipeline::Match match : matches) {
+    match.cost = pipeline::window_cost(pair, match.left_px, match.disparity_px, kRadiusPx);
+    ui::TechnicianPoint& point = points_.emplace_back();
+    point.touched = point.by_hand = true;
+    set_match(pair, match, point);
+  }
+  chosen_ = std::min(chosen_, points_.empty() ? 0 : points_.size() - 1);
+}
+
+std::vector<pipeline::Match> HandPairs::matches() const {
+  std::vector<pipeline::Match> all;
+  for (const ui::TechnicianPoint& p : points_)
+    if (p.matched) all.push_back({p.left_px, p.disparity_px, 0, p.sigma_px, 0});
+  return all;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/show/technician_figures.h"
+
+#include <algorithm>
+
+#include "firmware/compare/page/maps.h"
+#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/self_agreement.h"
+
+namespace relievo::firmware {
+
+std::string difference_of(const pipeline::AlgorithmSet& set) {
+  std::string text;
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms()) {
+    const std::string value = set.get(option.key);
+    if (value == option.value) continue;
+    if (!text.empty()) text += '\n';
+    text += option.key + " = " + value;
+  }
+  return text;
+}
+
+void TechnicianFigures::begin(const pipeline::AlgorithmSet& set, const std::string& name) {
+  forget();
+  name_ = name;
+  set_ = set;
+  result_.there = true;
+  difference_ = difference_of(set);
+}
+
+void TechnicianFigures::add(const StageRecord& record) {
+  if (stages_ == result_.seconds.size()) return;
+  result_.seconds[stages_] = std::chrono::duration<float>(record.took).count();
+  result_.made[stages_++] = record.out;
+  result_.arena_peak_mib = std::max(
+      result_.arena_peak_mib, static_cast<float>(record.arena_peak_bytes) / static_cast<float>(budget::kMiB));
+}
+
+void TechnicianFigures::fail(State stage, const Error& error) {
+  failure_ = ui::fault_of(error);
+  result_.failed_at = number_of(stage);
+}
+
+Result<void> TechnicianFigures::measure(const Products& products, pipeline::StageContext& context) {
+  if (!products.pair || !products.matches) return {};
+  const pipeline::Keypoints nothing(&context.scratch);
+  const compare::MatchFigures figures =
+      compare::figures_of({"", set_}, nothing, *products.matches, std::nullopt, 1);
+  result_.matches = figures.matches;
+  result_.accepted = figures.accepted;
+  result_.rule_count = std::min(figures.rules.size(), ui::kTechnicianRules);
+  rules_.clear();
+  for (std::size_t i = 0; i < result_.rule_count; ++i) {
+    rules_.push_back(figures.rules[i].name);
+    result_.rules[i].rejected = figures.rules[i].rejected;
+    result_.rules[i].rgb = compare::rule_colour(i);
+  }
+  if (products.matches->epipolar_shift.measured())
+    result_.epipolar_px = static_cast<float>(products.matches->epipolar_shift.residual_px);
+  if (!products.model) return {};
+  result_.median_sigma_mm = static_cast<float>(products.model->quality.median_sigma_mm);
+  result_.coverage = static_cast<float>(products.model->quality.coverage);
+  return pipeline::run_stage(context, [&](pipeline::StageContext& c) -> Result<void> {
+    Arena::Mark mark(c.output);
+    const auto photo =
+        compare::photo_figures(*products.pair, compare::model_view(*products.pair, products.model->mesh), c);
+    result_.photo_correlation = static_cast<float>(photo.median);
+    result_.photo_windows = photo.asked;
+    return {};
+  });
+}
+
+ui::TechnicianResult TechnicianFigures::view() const {
+  ui::TechnicianResult view = result_;
+  view.name = name_;
+  view.algorithms = difference_;
+  view.failure = failure_;
+  for (std::size_t i = 0; i < rules_.size(); ++i) view.rules[i].name = rules_[i];
+  return view;
+}
+
+}  // namespace relievo::firmware

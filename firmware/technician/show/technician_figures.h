@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TechnicianFigures: what a set of algorithms cost and made, as the technician reads it: times, counts, what
+// each rule rejected, and what the result says of itself where nothing is known to be true
+// (firmware/command/compare/measure). Its texts stay where they are: view() borrows them.
+// Thread: worker while a job runs, else main. Errors of measure(): Cancelled, OutOfMemory.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware/machine/transition.h"
+#include "firmware/session/session.h"
+#include "firmware/work/stage_record.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/base/stage.h"
+#include "ui/technician/technician_result.h"
+
+namespace relievo::firmware {
+
+// What differs from the default, one "key = value" a line.
+std::string difference_of(const pipeline::AlgorithmSet& set);
+
+class TechnicianFigures {
+ public:
+  // `name`: of the capture.
+  void begin(const pipeline::AlgorithmSet& set, const std::string& name);
+  void add(const StageRecord& record);
+  void fail(State stage, const Error& error);
+  Result<void> measure(const Products& products, pipeline::StageContext& context);
+  void forget() { *this = {}; }
+
+  // Until the next change.
+  ui::TechnicianResult view() const;
+  const pipeline::AlgorithmSet& set() const { return set_; }
+  const std::string& rule(std::size_t i) const { return rules_[i]; }
+  std::size_t rule_count() const { return rules_.size(); }
+
+ private:
+  pipeline::AlgorithmSet set_;
+  ui::TechnicianResult result_;
+  std::size_t stages_ = 0;
+  std::string name_, difference_;
+  ui::Fault failure_;
+  std::vector<std::string> rules_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/show/technician_pictures.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+
+#include "firmware/checks/deviation_picture.h"
+#include "firmware/compare/page/maps.h"
+#include "firmware/measure/disparity_map.h"
+#include "firmware/measure/rule_figures.h"
+#include "firmware/work/stage_drawing.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::TechnicianStage;
+constexpr std::size_t kBytes = budget::kTechnicianPictureBytes;
+
+// No two pictures have the same number: a renderer tells by it what it has to load.
+std::uint32_t next_version() {
+  static std::atomic<std::uint32_t> count{0};
+  return ++count;
+}
+
+struct Size {
+  int width_px = 0, height_px = 0;
+};
+Size fitted(int width_px, int height_px) {
+  const double scale =
+      std::min(1.0, static_cast<double>(TechnicianPictures::kSide) / std::max(width_px, height_px));
+  return {std::max(1, static_cast<int>(width_px * scale)), std::max(1, static_cast<int>(height_px * scale))};
+}
+
+// Means over the pixels that fall into one; at(x, y, channel).
+template <typename At>
+void shrink(int width_px, int height_px, Size to, std::uint8_t* rgb, At&& at) {
+  for (int y = 0; y < to.height_px; ++y) {
+    const int v0 = y * height_px / to.height_px, v1 = std::max(v0 + 1, (y + 1) * height_px / to.height_px);
+    for (int x = 0; x < to.width_px; ++x, rgb += 3) {
+      const int u0 = x * width_px / to.width_px, u1 = std::max(u0 + 1, (x + 1) * width_px / to.width_px);
+      float sum[3] = {0, 0, 0};
+      for (int v = v0; v < v1; ++v) {
+        for (int u = u0; u < u1; ++u) {
+          for (int c = 0; c < 3; ++c) sum[c] += at(u, v, c);
+        }
+      }
+      const float share = 1.0F / static_cast<float>((u1 - u0) * (v1 - v0));
+      for (int c = 0; c < 3; ++c)
+        rgb[c] = static_cast<std::uint8_t>(std::clamp(sum[c] * share, 0.0F, 255.0F));
+    }
+  }
+}
+
+}  // namespace
+
+TechnicianPictures::TechnicianPictures() {
+  for (auto& stage : all_) {
+    for (One& one : stage) one.rgb.reset(new std::uint8_t[kBytes]);
+  }
+}
+
+TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side) {
+  One& one = all_[static_cast<std::size_t>(stage)][side];
+  one.width_px = one.height_px = kSide;
+  one.version = next_version();
+  return one;
+}
+
+void TechnicianPictures::draw_input(const ImageView& view, std::size_t side) {
+  const Size size = fitted(view.width_px, view.height_px);
+  One& one = begin(TechnicianStage::Input, side);
+  one.width_px = size.width_px;
+  one.height_px = size.height_px;
+  const int bytes = bytes_per_pixel(view.format), high = view.format == PixelFormat::Grey16 ? 1 : 0;
+  shrink(view.width_px, view.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+    const std::uint8_t* pixel = view.row(y) + static_cast<std::ptrdiff_t>(x) * bytes;
+    return static_cast<float>(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
+  });
+}
+
+void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::RectifiedPair& pair, bool colour) {
+  const Size size = fitted(pair.width_px, pair.height_px);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const pipeline::RectifiedView& view = side == 0 ? pair.left : pair.right;
+    One& one = begin(stage, side);
+    one.width_px = size.width_px;
+    one.height_px = size.height_px;
+    const bool rgb = colour && view.rgb.size() == 3 * view.grey.size();
+    shrink(pair.width_px, pair.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+      const std::size_t i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+      return rgb ? static_cast<float>(view.rgb[3 * i + static_cast<std::size_t>(c)]) : view.grey[i];
+    });
+  }
+}
+
+void TechnicianPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
+  StageCanvas canvas(begin(TechnicianStage::Matches, 0).rgb.get(), kSide);
+  draw_photograph(pair, 1, canvas);
+  const FaceWindow window(pair, kSide);
+  const std::vector<std::uint8_t> rejected = compare::rejected_map(matches, pair.width_px, pair.height_px);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
+      const std::uint8_t rule =
+          rejected[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) +
+                   static_cast<std::size_t>(u)];
+      if (rule == 0) continue;
+      const compare::Rgb c = compare::rule_colour(rule - 1U);
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+  }
+}
+
+void TechnicianPictures::draw_disparity(const pipeline::RectifiedPair& pair,
+                                        const pipeline::MatchSet& matches) {
+  constexpr int kScatteredPx = 7;
+  StageCanvas canvas(begin(TechnicianStage::Disparity, 0).rgb.get(), kSide);
+  const FaceWindow window(pair, kSide);
+  compare::DisparityMap map = compare::disparity_map(matches, pair.width_px, pair.height_px);
+  if (matches.lattice_step_px == 0) map = compare::thickened(map, kScatteredPx);
+  const compare::Reach reach = compare::reach_of(map);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      if (!map.holds(u, v) || !map.known(u, v)) continue;
+      const compare::Rgb c = compare::depth_colour((static_cast<double>(map.at(u, v)) - reach.least_px) /
+                                                   (reach.most_px - reach.least_px));
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+  }
+}
+
+void TechnicianPictures::draw_shapes(const Products& products) {
+  const pipeline::RectifiedPair& pair = *products.pair;
+  if (products.cloud) {
+    StageCanvas canvas(begin(TechnicianStage::Cloud, 0).rgb.get(), kSide);
+    draw_cloud(pair, *products.cloud, canvas);
+  }
+  const pipeline::FaceMesh* mesh = products.model  ? &products.model->mesh
+                                   : products.mesh ? &*products.mesh
+                                                   : nullptr;
+  if (mesh != nullptr) {
+    StageCanvas canvas(begin(TechnicianStage::Mesh, 0).rgb.get(), kSide);
+    draw_surface(pair, *mesh, nullptr, canvas);
+  }
+  if (products.model) {
+    StageCanvas canvas(begin(TechnicianStage::Texture, 0).rgb.get(), kSide);
+    draw_surface(pair, products.model->mesh, &products.model->texture, canvas);
+  }
+}
+
+// Where nothing is known of one of the two surfaces, the photograph stays.
+void TechnicianPictures::draw_change(const pipeline::RectifiedPair& pair, const HandChange& change) {
+  StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb.get(), kSide);
+  draw_photograph(pair, 0.5, canvas);
+  const FaceWindow window(pair, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const float nearer =
+          change.nearer_mm(static_cast<int>(window.back_x(x)), static_cast<int>(window.back_y(y)));
+      if (std::isnan(nearer)) continue;
+      const auto c = deviation_colour(static_cast<double>(nearer / change.figures().full_colour_mm));
+      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+    }
+}
+
+void TechnicianPictures::draw(const Products& products, const HandChange& change) {
+  wipe();
+  if (products.frame) {
+    draw_input(products.frame->left, 0);
+    draw_input(products.frame->right, 1);
+  }
+  if (!products.pair) return;
+  draw_pair(TechnicianStage::Rectified, *products.pair, true);
+  draw_pair(TechnicianStage::Processed, *products.pair, false);  // as the matcher was given it
+  if (products.matches) {
+    draw_rules(*products.pair, *products.matches);
+    draw_disparity(*products.pair, *products.matches);
+  }
+  draw_shapes(products);
+  if (change.figures().known) draw_change(*products.pair, change);
+}
+
+ui::TechnicianPicture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {
+  const One& one = all_[static_cast<std::size_t>(stage)][side];
+  if (one.version == 0) return {};
+  return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px,
+           PixelFormat::Rgb8},
+          one.version};
+}
+
+void TechnicianPictures::copy_from(const TechnicianPictures& other) {
+  wipe();
+  for (std::size_t stage = 0; stage < all_.size(); ++stage) {
+    const One& from = other.all_[stage][0];
+    if (from.version == 0) continue;
+    One& to = all_[stage][0];
+    to.width_px = from.width_px;
+    to.height_px = from.height_px;
+    to.version = next_version();
+    std::memcpy(
+        to.rgb.get(), from.rgb.get(),
+        std::size_t{3} * static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.height_px));
+  }
+}
+
+void TechnicianPictures::wipe() {
+  for (auto& stage : all_) {
+    for (One& one : stage) {
+      if (one.version != 0) explicit_bzero(one.rgb.get(), kBytes);
+      one.version = 0;
+    }
+  }
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TechnicianPictures: what every stage made of a test capture, drawn large for the technician. Rgb8, no side
+// longer than budget::kTechnicianPictureSidePx, in memory of fixed size; pages nobody touched cost nothing.
+//   Input, Processed, Rectified   both views, whole
+//   Matches                       the face: rejected ones in the colour of the rule that took them first
+//   Disparity, Cloud, Mesh, Texture   the face; beside the mesh what pairs by hand changed, where there are
+//   any
+// Thread: the worker draws while its job runs; main reads and wipes while none runs. No errors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "firmware/session/session.h"
+#include "firmware/technician/show/hand_change.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/base/stage.h"
+#include "ui/technician/technician_result.h"
+
+namespace relievo::firmware {
+
+class TechnicianPictures {
+ public:
+  static constexpr int kSide = budget::kTechnicianPictureSidePx;
+
+  TechnicianPictures();
+  // Draws what the products have.
+  void draw(const Products& products, const HandChange& change);
+  // The left picture (0) or the right one; empty where the stage has none.
+  ui::TechnicianPicture picture(ui::TechnicianStage stage, std::size_t side) const;
+  // The left ones.
+  void copy_from(const TechnicianPictures& other);
+  void wipe();
+
+ private:
+  struct One {
+    std::unique_ptr<std::uint8_t[]> rgb;  // not initialised: untouched
+    int width_px = 0, height_px = 0;
+    std::uint32_t version = 0;  // 0: none
+  };
+  One& begin(ui::TechnicianStage stage, std::size_t side);
+  void draw_pair(ui::TechnicianStage stage, const pipeline::RectifiedPair& pair, bool colour);
+  void draw_input(const ImageView& view, std::size_t side);
+  void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
+  void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
+  void draw_shapes(const Products& products);
+  void draw_change(const pipeline::RectifiedPair& pair, const HandChange& change);
+
+  std::array<std::array<One, 2>, ui::kTechnicianStages> all_;
+};
+
+}  // namespace relievo::firmware

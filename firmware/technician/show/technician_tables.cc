@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/show/technician_tables.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <limits>
+
+namespace relievo::firmware {
+namespace {
+
+using ui::TechnicianTable;
+using Heads = std::span<const std::string_view>;
+
+// Symbols and units: the same in every language.
+constexpr std::array<std::string_view, 8> kMatches{"n",    "x₁ px", "y₁ px", "x₂ px",
+                                                   "d px", "σ px",  "1 − ρ", "×"};
+constexpr std::array<std::string_view, 7> kPoints{"n", "X mm", "Y mm", "Z mm", "σ mm", "x₁ px", "y₁ px"};
+constexpr std::array<std::string_view, 8> kModel{"n", "X mm", "Y mm", "Z mm", "x", "y", "z", "σ mm"};
+constexpr std::array<std::string_view, 4> kCalibration{"", "1", "2", "1 → 2"};
+
+Heads heads_of(TechnicianTable table) {
+  switch (table) {
+    case TechnicianTable::Matches:
+      return kMatches;
+    case TechnicianTable::Points:
+      return kPoints;
+    case TechnicianTable::Model:
+      return kModel;
+    case TechnicianTable::Calibration:
+    case TechnicianTable::Count:
+      break;
+  }
+  return kCalibration;
+}
+
+std::size_t rows_of(TechnicianTable table, const TechnicianTables::Source& from) {
+  if (table == TechnicianTable::Calibration) return from.calibration != nullptr ? kTableRows : 0;
+  const Products* products = from.products;
+  if (products == nullptr) return 0;
+  if (table == TechnicianTable::Matches) return products->matches ? products->matches->matches.size() : 0;
+  if (table == TechnicianTable::Points) return products->cloud ? products->cloud->points.size() : 0;
+  return products->model ? products->model->mesh.vertices_mm.size() : 0;
+}
+
+}  // namespace
+
+void TechnicianTables::show(TechnicianTable table, const Source& from) {
+  table_ = table;
+  page_ = 0;
+  fill(from);
+}
+
+void TechnicianTables::turn(std::int64_t pages, const Source& from) {
+  const std::size_t rows = rows_of(table_, from);
+  const std::int64_t last = rows == 0 ? 0 : static_cast<std::int64_t>((rows - 1) / kTableRows);
+  page_ =
+      static_cast<std::size_t>(std::clamp(static_cast<std::int64_t>(page_) + pages, std::int64_t{0}, last));
+  fill(from);
+}
+
+void TechnicianTables::forget() {
+  texts_.clear();
+  cells_.clear();
+  rows_ = page_ = 0;
+  box_ = {};
+}
+
+void TechnicianTables::cell(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  texts_.emplace_back(text);
+}
+
+void TechnicianTables::word(std::string_view text) { texts_.emplace_back(text); }
+
+void TechnicianTables::fill(const Source& from) {
+  texts_.clear();
+  rows_ = rows_of(table_, from);
+  if (page_ * kTableRows >= rows_) page_ = 0;
+  first_ = page_ * kTableRows;
+  last_ = std::min(rows_, first_ + kTableRows);
+  if (table_ == TechnicianTable::Calibration) {
+    if (from.calibration != nullptr) fill_calibration(*from.calibration);
+  } else {
+    for (std::size_t row = first_; row < last_; ++row) {
+      cell("%.0f", static_cast<double>(row + 1));
+      if (table_ == TechnicianTable::Matches) fill_matches(from, row);
+      if (table_ == TechnicianTable::Points) fill_points(*from.products->cloud, row);
+      if (table_ == TechnicianTable::Model) fill_model(*from.products->model, row);
+    }
+  }
+  cells_.assign(texts_.begin(), texts_.end());
+}
+
+void TechnicianTables::fill_matches(const Source& from, std::size_t row) {
+  const pipeline::Match& m = from.products->matches->matches[row];
+  cell("%.2f", m.left_px.x);
+  cell("%.2f", m.left_px.y);
+  cell("%.3f", m.left_px.x - m.disparity_px);
+  cell("%.3f", m.disparity_px);
+  cell("%.3f", m.sigma_px);
+  cell("%.3f", m.cost);
+  const auto rule = static_cast<std::size_t>(std::countr_zero(m.rejected_by));
+  word(m.rejected_by == 0                 ? ""
+       : rule < from.figures.rule_count() ? std::string_view(from.figures.rule(rule))
+                                          : "?");
+}
+
+void TechnicianTables::fill_points(const pipeline::PointCloud& cloud, std::size_t row) {
+  const pipeline::CloudPoint& p = cloud.points[row];
+  for (const float v : {p.at_mm.x, p.at_mm.y, p.at_mm.z}) cell("%.3f", v);
+  cell("%.3f", p.sigma_mm);
+  cell("%.2f", p.left_px.x);
+  cell("%.2f", p.left_px.y);
+}
+
+void TechnicianTables::fill_model(const pipeline::FaceModel& model, std::size_t row) {
+  const auto in_head = [&](std::size_t i) {
+    const pipeline::Vec3f& v = model.mesh.vertices_mm[i];
+    return apply(model.head_from_camera, pipeline::Vec3d{v.x, v.y, v.z});
+  };
+  if (box_.of != &model || box_.half <= 0) {
+    constexpr double kFar = std::numeric_limits<double>::max();
+    pipeline::Vec3d low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+    for (std::size_t i = 0; i < model.mesh.vertices_mm.size(); ++i) {
+      const pipeline::Vec3d p = in_head(i);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    box_ = {{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2},
+            std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-9}) / 2,
+            &model};
+  }
+  const pipeline::Vec3d p = in_head(row);
+  for (const double v : {p.x, p.y, p.z}) cell("%.3f", v);
+  for (const double v : {p.x - box_.middle.x, p.y - box_.middle.y, p.z - box_.middle.z})
+    cell("%.4f", v / box_.half);
+  if (model.mesh.measured[row] != 0) cell("%.3f", model.mesh.sigma_mm[row]);
+  else word("–");
+}
+
+void TechnicianTables::fill_calibration(const pipeline::StereoCalibration& c) {
+  const auto line = [this](std::string_view name, const char* format, double left, double right,
+                           std::string_view third) {
+    word(name);
+    cell(format, left);
+    cell(format, right);
+    word(third);
+  };
+  char text[kTableRows][96] = {};
+  const auto& r = c.right_from_left.rotation.m;
+  const auto& t = c.right_from_left.translation_mm;
+  for (std::size_t i = 0; i < 3; ++i)
+    std::snprintf(text[i], sizeof text[i], "R  %+.5f  %+.5f  %+.5f", r[3 * i], r[3 * i + 1], r[3 * i + 2]);
+  std::snprintf(text[3], sizeof text[3], "t  %+.3f  %+.3f  %+.3f mm", t.x, t.y, t.z);
+  std::snprintf(text[4], sizeof text[4], "rms  %.3f px", c.rms_px);
+  std::snprintf(text[5], sizeof text[5], "№  %u", c.revision);
+  line("fx px", "%.3f", c.left.focal_px.x, c.right.focal_px.x, text[0]);
+  line("fy px", "%.3f", c.left.focal_px.y, c.right.focal_px.y, text[1]);
+  line("cx px", "%.3f", c.left.centre_px.x, c.right.centre_px.x, text[2]);
+  line("cy px", "%.3f", c.left.centre_px.y, c.right.centre_px.y, text[3]);
+  const char* const names[] = {"k₁", "k₂", "p₁", "p₂", "k₃"};
+  for (std::size_t i = 0; i < 5; ++i)
+    line(names[i], "%+.6f", c.left.distortion[i], c.right.distortion[i], text[4 + i]);
+  char left[24], right[24];
+  std::snprintf(left, sizeof left, "%d × %d", c.left.width_px, c.left.height_px);
+  std::snprintf(right, sizeof right, "%d × %d", c.right.width_px, c.right.height_px);
+  for (const std::string_view w :
+       {std::string_view("px"), std::string_view(left), std::string_view(right), std::string_view()})
+    word(w);
+}
+
+ui::TechnicianRows TechnicianTables::view() const {
+  ui::TechnicianRows view;
+  view.table = table_;
+  view.heads = heads_of(table_);
+  view.cells = cells_;
+  view.page = page_;
+  view.pages = table_ == TechnicianTable::Calibration ? 1 : (rows_ + kTableRows - 1) / kTableRows;
+  view.rows = rows_;
+  return view;
+}
+
+}  // namespace relievo::firmware

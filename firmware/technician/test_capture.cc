@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/test_capture.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "firmware/technician/show/touched_point.h"
+#include "firmware/work/first_change.h"
+
+namespace relievo::firmware {
+namespace {
+
+using ui::TechnicianAct;
+using ui::TechnicianPhase;
+
+constexpr float kTouchSteps = 4096;
+
+struct Share {
+  float x, y;
+};
+Share place_of(std::int64_t argument) {
+  return {static_cast<float>(argument >> 12 & 0xFFF) / kTouchSteps,
+          static_cast<float>(argument & 0xFFF) / kTouchSteps};
+}
+
+}  // namespace
+
+TestCapture::TestCapture(Parts parts)
+    : parts_(std::move(parts)),
+      session_(parts_.appliance.session()),
+      shot_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool),
+      run_(session_, parts_.pool, parts_.device.clock()),
+      watch_(parts_.appliance.grabber(), session_, parts_.device),
+      calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
+                 std::move(parts_.show_boards)),
+      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.side_tasks, parts_.device.media(),
+                     std::move(parts_.in_use)}),
+      recording_(parts_.side_tasks, parts_.device) {
+  algorithms_.begin(parts_.stages.algorithms());
+}
+
+// Nothing of it runs any longer than it lives.
+TestCapture::~TestCapture() {
+  parts_.side_tasks.cancel();
+  for (const JobLane lane : {JobLane::Capture, JobLane::Worker, JobLane::Keeper})
+    parts_.appliance.end_side_job(lane);
+}
+
+// What is measured with a calibration waits for one; the pages say so.
+bool TestCapture::is_calibrated() {
+  if (parts_.stages.calibration() != nullptr) return true;
+  say({Errc::NotCalibrated, "this device has no calibration yet: calibrate its cameras first"});
+  return false;
+}
+
+void TestCapture::say(const Error& error) { problem_ = ui::fault_of(error); }
+
+void TestCapture::opened(ui::TechnicianPage page) {
+  recording_.hide();
+  if (page == ui::TechnicianPage::Cameras) watch_cameras(true);
+  if (page == ui::TechnicianPage::Calibrate) calibrations_.load_history();
+  if (page == ui::TechnicianPage::Algorithms) algorithms_.act({TechnicianAct::LeaveOption, 0});
+  if (page == ui::TechnicianPage::Tables && at_rest()) tables_.turn(0, source());
+}
+
+void TestCapture::closed(ui::TechnicianPage page) {
+  if (page == ui::TechnicianPage::Cameras) watch_cameras(false);
+}
+
+void TestCapture::act(ui::TechnicianOrder order) {
+  const bool calibrating = parts_.appliance.state() == State::Calibrate;
+  const bool ends =
+      order.act == TechnicianAct::StopCalibration || order.act == TechnicianAct::CancelCalibration;
+  if (ends ? !calibrating : parts_.appliance.state() != State::Staff) return;
+  switch (order.act) {
+    case TechnicianAct::None:
+      break;
+    case TechnicianAct::Capture:
+      return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
+    case TechnicianAct::Run:
+      return run(order.argument);
+    case TechnicianAct::Stop:
+      return stop();
+    case TechnicianAct::ShowStage:
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::TechnicianStage::Count))
+        stage_ = static_cast<ui::TechnicianStage>(order.argument);
+      return;
+    case TechnicianAct::Point:
+    case TechnicianAct::PointRight:
+    case TechnicianAct::Drag:
+    case TechnicianAct::DragRight:
+      return point(order);
+    case TechnicianAct::RemovePair:
+      return pairs_.remove();
+    case TechnicianAct::ByHand:
+      by_hand_ = !by_hand_;
+      point_ = {};
+      return;
+    case TechnicianAct::ApplySet:
+      return apply_set();
+    case TechnicianAct::KeepResult:
+      return keep_result();
+    case TechnicianAct::DropResult:
+      return kept_.drop(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+    case TechnicianAct::ShowTable:
+      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::TechnicianTable::Count))
+        tables_.show(static_cast<ui::TechnicianTable>(order.argument), source());
+      return;
+    case TechnicianAct::TurnPage:
+      return tables_.turn(order.argument, source());
+    case TechnicianAct::WatchCameras:
+      return watch_cameras(!watching_);
+    case TechnicianAct::ShowRelief:
+      return watch_.show_relief(!watch_.shows_relief());
+    case TechnicianAct::BrighterShot:
+      return watch_.change_light(1);
+    case TechnicianAct::DarkerShot:
+      return watch_.change_light(-1);
+    case TechnicianAct::BeginCalibration:
+      return wait_for_cameras(Next::Calibration);
+    case TechnicianAct::StopCalibration:
+      return calibrate_.finish();
+    case TechnicianAct::CancelCalibration:
+      return parts_.side_tasks.stop(JobLane::Capture);
+    case TechnicianAct::StoreCalibration:
+    case TechnicianAct::Columns:
+    case TechnicianAct::Rows:
+    case TechnicianAct::Square:
+    case TechnicianAct::Charuco:
+    case TechnicianAct::ExportCalibration:
+    case TechnicianAct::ImportCalibration:
+    case TechnicianAct::Activate:
+      return calibrations_.act(order);
+    case TechnicianAct::Record:
+      return record();
+    case TechnicianAct::StopRecording:
+      return recording_.stop();
+    case TechnicianAct::Save:
+      return save();
+    case TechnicianAct::ListSaved:
+      problem_ = {};
+      return recording_.list();
+    case TechnicianAct::LeaveSaved:
+      return recording_.hide();
+    case TechnicianAct::Load:
+    case TechnicianAct::LoadBeside:
+      return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)),
+                  order.act == TechnicianAct::LoadBeside);
+    case TechnicianAct::ChooseKind:
+    case TechnicianAct::ChooseName:
+    case TechnicianAct::EditOption:
+    case TechnicianAct::TypeDigit:
+    case TechnicianAct::EraseDigit:
+    case TechnicianAct::UseTyped:
+    case TechnicianAct::UseDefault:
+    case TechnicianAct::LeaveOption:
+    case TechnicianAct::ResetSet:
+      return choose(order);
+  }
+}
+
+// What takes pictures begins when nobody else does any more.
+void TestCapture::wait_for_cameras(Next what) {
+  if (phase_ != TechnicianPhase::Capturing && phase_ != TechnicianPhase::Running) next_ = what;
+  watch_cameras(false);
+}
+
+void TestCapture::choose(ui::TechnicianOrder order) {
+  algorithms_.act(order);
+  changed_ = first_change(run_.making().set, algorithms_.set()) != State::Review;
+  applied_ = false;
+}
+
+void TestCapture::keep_result() {
+  if (!at_rest() || !run_.figures().view().there || kept_.has(model_number_)) return;
+  const Products* made = products();
+  kept_.keep(run_.figures(), run_.pictures(), made != nullptr && made->model ? &*made->model : nullptr,
+             model_number_);
+}
+
+void TestCapture::record() {
+  const Products* made = products();
+  if (made == nullptr || !made->frame) return;
+  const bool set_by_hand = !parts_.side_tasks.busy(JobLane::Capture) && watch_.light().time.count() > 0;
+  const hal::Exposure light =
+      set_by_hand ? watch_.light() : hal::Exposure{parts_.device.preferred_mode().exposure, 1};
+  hal::RecordedPair as_taken;
+  as_taken.exposure_us = light.time.count();
+  as_taken.gain = light.gain;
+  as_taken.left_serial = loaded_ ? calibration()->cameras.left : shot_.serials().left;
+  as_taken.right_serial = loaded_ ? calibration()->cameras.right : shot_.serials().right;
+  recording_.record(*made->frame, std::move(as_taken));
+}
+
+// What fills the slot of the test capture waits until nobody else is at the cameras.
+void TestCapture::begin_next() {
+  if (next_ == Next::None || parts_.side_tasks.busy(JobLane::Capture) ||
+      parts_.side_tasks.busy(JobLane::Worker))
+    return;
+  const Next what = std::exchange(next_, Next::None);
+  problem_ = {};
+  point_ = {};
+  pairs_.forget();
+  run_.change().forget();
+  recording_.capture_gone();
+  tables_.forget();
+  run_.pictures().wipe();
+  run_.figures().forget();
+  phase_ = TechnicianPhase::Empty;
+  loaded_ = false;
+  if (session_.is_open()) session_.retake();
+  else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
+  if (what == Next::Shot) shoot();
+  else if (what == Next::Calibration) calibrate();
+  else take_over();
+}
+
+void TestCapture::shoot() {
+  phase_ = TechnicianPhase::Capturing;
+  run_.name(recording_.name_now());
+  parts_.side_tasks.send(
+      JobLane::Capture, [this](JobControl& control) { return shot_.run(control); },
+      [this](const std::optional<Error>& error) { shot_done(error); });
+}
+
+void TestCapture::calibrate() {
+  calibrate_.order(calibrations_.order());
+  parts_.appliance.ask(ui::Intent::Calibrate);
+  if (parts_.appliance.state() != State::Calibrate) return;
+  calibrations_.begun();
+  parts_.side_tasks.send(
+      JobLane::Capture, [this](JobControl& control) { return calibrate_.run(control); },
+      [this](const std::optional<Error>& error) {
+        calibrations_.ended();
+        parts_.appliance.end_service_state(!error);
+      });
+}
+
+// What a loaded reconstruction was made with, else what is in use.
+const pipeline::StereoCalibration* TestCapture::calibration() const {
+  return loaded_ ? &run_.making().calibration : parts_.stages.calibration();
+}
+
+// Nothing is done again that the algorithms have not changed, but for what is asked for by its stage.
+void TestCapture::run(std::int64_t latest) {
+  if (!at_rest() || !session_.is_open() || !session_.products().frame || (!loaded_ && !is_calibrated()))
+    return;
+  State changed = first_change(run_.making().set, algorithms_.set());
+  if (pairs_.changed()) changed = std::min(changed, State::Reconstruct);
+  State first = changed == State::Review ? State::Match : changed;
+  if (latest >= 1 && latest <= 4)
+    first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
+  run_.order(algorithms_.set(), *calibration(), first, pairs_.matches(), loaded_ && run_.making().whole_view);
+  send_run();
+}
+
+void TestCapture::send_run() {
+  problem_ = {};
+  point_ = {};
+  tables_.forget();
+  changed_ = false;
+  phase_ = TechnicianPhase::Running;
+  parts_.side_tasks.send(
+      JobLane::Worker, [this](JobControl& control) { return run_.run(control); },
+      [this](const std::optional<Error>& error) { run_done(error); });
+}
+
+void TestCapture::save() {
+  const Products* made = products();
+  if (made == nullptr || !made->frame) return;
+  recording_.save([this] { return make_document(session_.products(), run_.making()); });
+}
+
+// What is in the session stays until a whole document has been read.
+void TestCapture::load(std::size_t row, bool beside) {
+  const std::string name = recording_.saved_name(row);
+  recording_.load(
+      row,
+      [this, name, beside](std::shared_ptr<const SavedBytes> saved) {
+        const auto document = storage::Document::open(saved->bytes());
+        auto making = document ? making_of(*document) : Result<Making>(document.error());
+        if (!making) return say(making.error());
+        if (beside) keep_result();
+        saved_ = std::move(saved);
+        saved_name_ = name;
+        saved_making_ = *std::move(making);
+        wait_for_cameras(Next::Loaded);
+      },
+      [this](const Error& error) { say(error); });
+}
+
+void TestCapture::take_over() {
+  algorithms_.begin(saved_making_->set);
+  run_.name(saved_name_);
+  run_.order(std::exchange(saved_, nullptr), *std::exchange(saved_making_, std::nullopt));
+  loaded_ = true;
+  send_run();
+}
+
+void TestCapture::stop() {
+  if (phase_ == TechnicianPhase::Capturing) parts_.side_tasks.stop(JobLane::Capture);
+  if (phase_ == TechnicianPhase::Running) parts_.side_tasks.stop(JobLane::Worker);
+}
+
+void TestCapture::shot_done(const std::optional<Error>& error) {
+  phase_ = TechnicianPhase::Failed;
+  if (error) return say(*error);
+  run(1);
+}
+
+void TestCapture::run_done(const std::optional<Error>& error) {
+  phase_ = error ? TechnicianPhase::Failed : TechnicianPhase::Ready;
+  ++model_number_;
+  if (error) say(*error);
+  if (const Products* made = products(); made != nullptr && made->pair) {
+    pairs_.show(*made->pair, run_.making().by_hand);
+    run_.change().tell(pairs_.points());
+  }
+  tables_.show(tables_.view().table, source());
+}
+
+void TestCapture::point(ui::TechnicianOrder order) {
+  const Products* made = products();
+  if (made == nullptr || !made->pair) return;
+  const Share at = place_of(order.argument);
+  if (!by_hand_ && order.act == TechnicianAct::Point && made->matches)
+    point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
+  if (!by_hand_) return;
+  const bool left = order.act == TechnicianAct::Point || order.act == TechnicianAct::Drag;
+  if (order.act == TechnicianAct::Point || order.act == TechnicianAct::PointRight)
+    pairs_.touch(*made->pair, left, at.x, at.y);
+  else pairs_.drag(*made->pair, left, at.x, at.y);
+}
+
+// The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
+void TestCapture::apply_set() {
+  if (applying_ || !is_calibrated()) return;
+  applying_ = true;
+  const auto made = std::make_shared<std::optional<pipeline::Pipeline>>();
+  const pipeline::AlgorithmSet set = algorithms_.set();
+  parts_.side_tasks.send(
+      JobLane::Keeper,
+      [this, made, set](JobControl&) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, *parts_.stages.calibration()));
+        return parts_.store.set_setting(kAlgorithmsSetting, set.to_text());
+      },
+      [this, made](const std::optional<Error>& error) {
+        applying_ = false;
+        if (error) return say(*error);
+        parts_.stages.replace(*std::move(*made));
+        applied_ = true;
+        problem_ = {};
+      });
+}
+
+void TestCapture::watch_cameras(bool on) {
+  if (on == watching_) return;
+  if (!on) return parts_.side_tasks.stop(JobLane::Capture);
+  if (parts_.side_tasks.busy(JobLane::Capture) || phase_ == TechnicianPhase::Capturing) return;
+  if (!session_.is_open() && !session_.open("")) return;
+  problem_ = {};
+  watch_.prepare(parts_.stages.calibration());
+  watching_ = true;
+  parts_.side_tasks.send(
+      JobLane::Capture, [this](JobControl& control) { return watch_.run(control); },
+      [this](const std::optional<Error>& error) {
+        watching_ = false;
+        watch_.wipe();
+        if (error && error->code != Errc::Cancelled) say(*error);
+      });
+}
+
+// The appliance has stopped the work and closed the session on its way to another state.
+void TestCapture::leave() {
+  watch_.show_relief(false);
+  watching_ = by_hand_ = changed_ = applied_ = applying_ = false;
+  next_ = Next::None;
+  saved_.reset();
+  saved_making_.reset();
+  loaded_ = false;
+  watch_.wipe();
+  run_.pictures().wipe();
+  run_.figures().forget();
+  kept_.wipe();
+  tables_.forget();
+  calibrations_.forget();
+  recording_.forget();
+  point_ = {};
+  pairs_.forget();
+  run_.change().forget();
+  phase_ = TechnicianPhase::Empty;
+  problem_ = {};
+  algorithms_.begin(parts_.stages.algorithms());
+}
+
+void TestCapture::turn() {
+  const State state = parts_.appliance.state();
+  const bool mine = state == State::Staff || state == State::Calibrate || state == State::Export;
+  if (!mine) {
+    if (!std::exchange(left_, true)) leave();
+    return;
+  }
+  left_ = false;
+  // It took longer than the state may: what has been seen is not worked out.
+  if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(JobLane::Capture);
+  begin_next();
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TestCapture: what the technician's picture pages work on. A test capture is a session without a subject:
+// its pictures and what the stages make of them lie in the appliance's own memory while the state is
+// Staff, and are wiped when the technician leaves or is away too long. Its jobs run on the appliance's
+// threads; the screen never waits.
+//
+//   Empty --Capture--> Capturing --> Running --> Ready or Failed --Run--> Running ...     another state -->
+//   Empty any but Capturing and Running --Load--> Running --> Ready or Failed: what was saved, with its
+//   calibration and algorithms
+//
+// It borrows the session from the appliance and sends its work as side tasks (firmware/service/side_tasks.h);
+// it listens only in the states Staff and Calibrate, and forgets everything in any other. Thread: main.
+// Errors: none are returned; the view has them as a sentence.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware/appliance/appliance.h"
+#include "firmware/service/side_tasks.h"
+#include "firmware/technician/algorithm_controller.h"
+#include "firmware/technician/calibration_controller.h"
+#include "firmware/technician/camera_watch.h"
+#include "firmware/technician/recording_controller.h"
+#include "firmware/technician/run_job.h"
+#include "firmware/technician/show/hand_pairs.h"
+#include "firmware/technician/show/kept_results.h"
+#include "firmware/technician/show/technician_tables.h"
+#include "ui/technician/technician_view.h"
+
+namespace relievo::firmware {
+
+class TestCapture {
+ public:
+  struct Parts {
+    Appliance& appliance;
+    SideTasks& side_tasks;
+    hal::Device& device;
+    PipelineStages& stages;
+    ThreadPool& pool;
+    storage::Store& store;
+    ShowBoards show_boards;                                          // see CalibrateJob
+    std::function<void(const pipeline::StereoCalibration&)> in_use;  // another calibration is
+  };
+  explicit TestCapture(Parts parts);
+  ~TestCapture();
+  TestCapture(const TestCapture&) = delete;
+  TestCapture& operator=(const TestCapture&) = delete;
+
+  // What a page asked for.
+  void act(ui::TechnicianOrder order);
+  // What a page has under way only while it is open begins and ends with it.
+  void opened(ui::TechnicianPage page);
+  void closed(ui::TechnicianPage page);
+  // Every turn of the main loop, whatever page is open.
+  void turn();
+  // Valid until the next turn() or act().
+  const ui::TechnicianView& view();
+
+ private:
+  enum class Next : std::uint8_t { None, Shot, Calibration, Loaded };  // waits for the capture thread
+  bool at_rest() const {
+    return phase_ == ui::TechnicianPhase::Ready || phase_ == ui::TechnicianPhase::Failed;
+  }
+  Products* products();
+  TechnicianTables::Source source();
+  void leave();
+  void wait_for_cameras(Next what);
+  void begin_next();
+  void shoot();
+  void calibrate();
+  void run(std::int64_t latest);
+  void send_run();
+  void save();
+  void load(std::size_t row, bool beside);
+  void take_over();
+  const pipeline::StereoCalibration* calibration() const;
+  void stop();
+  void shot_done(const std::optional<Error>& error);
+  void run_done(const std::optional<Error>& error);
+  void point(ui::TechnicianOrder order);
+  void apply_set();
+  void watch_cameras(bool on);
+  void choose(ui::TechnicianOrder order);
+  void keep_result();
+  void record();
+  bool is_calibrated();
+  void say(const Error& error);
+  void look();
+
+  Parts parts_;
+  EnrolmentSession& session_;
+  TestShotJob shot_;
+  RunJob run_;
+  CameraWatchJob watch_;
+  CalibrateJob calibrate_;
+  CalibrationController calibrations_;
+  RecordingController recording_;
+  AlgorithmController algorithms_;
+  TechnicianTables tables_;
+  KeptResults kept_;
+  ui::TechnicianPhase phase_ = ui::TechnicianPhase::Empty;
+  ui::TechnicianStage stage_ = ui::TechnicianStage::Rectified;
+  ui::TechnicianPoint point_;
+  HandPairs pairs_;
+  Next next_ = Next::None;
+  std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
+  std::string saved_name_;
+  std::optional<Making> saved_making_;
+  bool loaded_ = false;  // what is in the session was, with a calibration of its own
+  bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
+       left_ = true;
+  ui::Fault problem_;
+  std::uint32_t model_number_ = 0;
+  ui::TechnicianView view_;
+};
+
+}  // namespace relievo::firmware

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the picture pages show: borrowed from its parts, and from the session only while nobody works on it.
+#include "firmware/technician/test_capture.h"
+
+namespace relievo::firmware {
+
+Products* TestCapture::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
+
+TechnicianTables::Source TestCapture::source() { return {products(), run_.figures(), calibration()}; }
+
+void TestCapture::look() {
+  view_ = {};
+  view_.phase = phase_;
+  view_.calibrated = calibration() != nullptr;
+  view_.problem = problem_;
+  view_.stage = stage_;
+  view_.point = by_hand_ ? pairs_.chosen() : point_;
+  view_.by_hand = by_hand_;
+  view_.recording = recording_.view();
+  view_.saved = recording_.saved();
+  view_.applied = applied_;
+  view_.choice = algorithms_.view();
+  view_.calibration = calibrations_.view();
+  view_.rows = tables_.view();
+  if (watching_) view_.cameras = watch_.newest();
+  view_.put_aside = kept_.count();
+  for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
+  if (phase_ == ui::TechnicianPhase::Running) {
+    view_.working_on = static_cast<std::uint8_t>(number_of(run_.stage()));
+    view_.progress = parts_.side_tasks.progress(JobLane::Worker);
+  }
+  const Products* made = products();
+  if (made == nullptr) return;
+  view_.can_record = made->frame.has_value();
+  view_.result = run_.figures().view();
+  view_.choice.changed = changed_;
+  for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
+  if (made->model) view_.model = &*made->model;
+  if (made->cloud) view_.cloud = &*made->cloud;
+  view_.model_number = model_number_;
+  view_.pairs = pairs_.points();
+  view_.pairs_changed = pairs_.changed();
+  view_.change = run_.change().figures();
+  view_.compared[view_.put_aside] = {view_.result, run_.pictures().picture(stage_, 0), view_.model,
+                                     model_number_};
+}
+
+const ui::TechnicianView& TestCapture::view() {
+  look();
+  return view_;
+}
+
+}  // namespace relievo::firmware

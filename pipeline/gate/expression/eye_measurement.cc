@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/expression/eye_measurement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kPupilMm = 31.5;  // from the middle of the face; people: 27 to 37
+constexpr double kHalfWidthMm = 20, kTopMm = -58, kBottomMm = -6;
+constexpr double kSearchRightMm = 7, kHighestMm = -50, kLowestMm = -25;  // where an iris can be
+constexpr std::array kRadiiMm{5.4, 5.9, 6.4};
+constexpr double kAcrossMm = 1.0;     // to both sides of the edge
+constexpr double kSidesMm = 3.0;      // rows above and below the middle that are looked at
+constexpr double kGlareShare = 1.35;  // of skin and sclera
+constexpr double kScleraShare = 1.1;  // of the skin, where that is dark
+constexpr double kBurntOut = 245;
+// A lamp that is mirrored in glasses shines before eye and lids alike; sclera and the lamp in a cornea end
+// where the lids begin.
+constexpr double kEyeHalfWidthMm = 13, kEyeHalfHeightMm = 5;
+constexpr double kShineRightMm = 20, kShineDownMm = 14;  // how far about the iris it is looked for
+constexpr double kBesideEyeMm2 = 15;
+constexpr double kLostShare = 0.5;  // of the other eye's contrast: this one is covered
+
+struct Circle {
+  double right = 0, down = 0, radius = 0, contrast = 0;
+};
+
+// Sclera less iris in one row of the circle: left, right.
+std::array<double, 2> sides(const FaceWindow& w, const Circle& c, double row_mm) {
+  const double half = std::sqrt(std::max(0.0, c.radius * c.radius - row_mm * row_mm)), y = c.down + row_mm;
+  const auto edge = [&](double outside, double inside) {
+    const double a = w.between(outside, y), b = w.between(inside, y);
+    return (a - b) / std::max(a + b, 1.0);  // the shade of lids and brows falls on both
+  };
+  return {edge(c.right - half - kAcrossMm, c.right - half + kAcrossMm),
+          edge(c.right + half + kAcrossMm, c.right + half - kAcrossMm)};
+}
+
+double contrast(const FaceWindow& w, const Circle& c) {
+  double left = 0, right = 0;
+  int rows = 0;
+  for (double row = -kSidesMm; row <= kSidesMm + 0.01; row += 1, ++rows) {
+    const auto [a, b] = sides(w, c, row);
+    left += a, right += b;
+  }
+  return std::min(left, right) / rows;
+}
+
+Circle find_iris(const FaceWindow& w, double side) {
+  Circle best;
+  best.contrast = -1e9;
+  const auto look = [&](Circle c) {
+    c.contrast = contrast(w, c);
+    if (c.contrast > best.contrast) best = c;
+  };
+  for (double down = kHighestMm; down <= kLowestMm; down += 1)
+    for (double right = side * kPupilMm - kSearchRightMm; right <= side * kPupilMm + kSearchRightMm;
+         right += 1)
+      for (const double radius : kRadiiMm) look({right, down, radius, 0});
+  const Circle rough = best;
+  for (double down = -0.5; down <= 0.5; down += 0.5)
+    for (double right = -0.5; right <= 0.5; right += 0.5)
+      look({rough.right + right, rough.down + down, rough.radius, 0});
+  return best;
+}
+
+// The rows about the middle in which both sides are edges.
+double aperture(const FaceWindow& w, const Circle& c) {
+  const auto seen = [&](double row) {
+    const auto [a, b] = sides(w, c, row);
+    return (a + b) / 2 > 0.4 * c.contrast && std::min(a, b) > 0.15 * c.contrast;
+  };
+  double up = 0, down = 0;
+  while (up < 0.92 * c.radius && seen(-up)) up += 0.25;
+  while (down < 0.92 * c.radius && seen(down)) down += 0.25;
+  return up + down;
+}
+
+double disc(const FaceWindow& w, const Circle& c) {
+  constexpr double kReachMm = 4;
+  double sum = 0;
+  int count = 0;
+  for (double y = -kReachMm; y <= kReachMm; y += 1)
+    for (double x = -kReachMm; x <= kReachMm; x += 1)
+      if (x * x + y * y <= kReachMm * kReachMm) sum += w.between(c.right + x, c.down + y), ++count;
+  return sum / count;
+}
+
+// What shines, piece by piece: samples within the opening of an eye there, and beyond it.
+class Shine {
+ public:
+  Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
+      : w_(window),
+        eye_(eye),
+        x0_(std::max(0, static_cast<int>(w_.column(eye.x - kShineRightMm)))),
+        x1_(std::min(w_.columns - 1, static_cast<int>(w_.column(eye.x + kShineRightMm)))),
+        y0_(std::max(0, static_cast<int>(w_.row(eye.y - kShineDownMm)))),
+        y1_(std::min(w_.rows - 1, static_cast<int>(w_.row(eye.y + kShineDownMm)))),
+        open_(&context.scratch),
+        todo_(&context.scratch) {
+    open_.assign(w_.grey.size(), 0);
+    for (int y = y0_; y <= y1_; ++y)
+      for (int x = x0_; x <= x1_; ++x) open_[index(x, y)] = w_.at(x, y) > bright ? 1 : 0;
+    todo_.reserve(w_.grey.size());
+  }
+  // Of the opening, behind pieces that also shine beside it.
+  double before_eye_mm2() {
+    constexpr double kSampleMm2 = FaceWindow::kStepMm * FaceWindow::kStepMm;
+    int sum = 0;
+    for (int y = y0_; y <= y1_; ++y)
+      for (int x = x0_; x <= x1_; ++x) {
+        if (open_[index(x, y)] == 0) continue;
+        const auto [within, beyond] = piece(x, y);
+        if (beyond * kSampleMm2 >= kBesideEyeMm2) sum += within;
+      }
+    return sum * kSampleMm2;
+  }
+
+ private:
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * w_.columns + x); }
+  void take(int x, int y) {
+    if (x < x0_ || x > x1_ || y < y0_ || y > y1_ || open_[index(x, y)] == 0) return;
+    open_[index(x, y)] = 0;
+    todo_.push_back({x, y});
+  }
+  std::array<int, 2> piece(int from_x, int from_y) {
+    std::array<int, 2> samples{};
+    todo_.clear();
+    take(from_x, from_y);
+    for (std::size_t i = 0; i < todo_.size(); ++i) {
+      const auto [x, y] = todo_[i];
+      const double u = (w_.right_mm(x) - eye_.x) / kEyeHalfWidthMm,
+                   v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm;
+      ++samples[u * u + v * v < 1 ? 0 : 1];
+      take(x - 1, y), take(x + 1, y), take(x, y - 1), take(x, y + 1);
+    }
+    return samples;
+  }
+
+  const FaceWindow& w_;
+  Vec2d eye_;
+  int x0_, x1_, y0_, y1_;
+  std::pmr::vector<std::uint8_t> open_;  // shines and has not been counted yet
+  std::pmr::vector<std::array<int, 2>> todo_;
+};
+
+double skin_of(const FaceWindow& w, double side, StageContext& context) {
+  const double middle = side * kPupilMm;
+  return std::max(1.0, quantile(w, {middle - 8, middle + 14, -18, kBottomMm}, 0.5, context));
+}
+
+double glare(const FaceWindow& w, double side, Vec2d eye, StageContext& context) {
+  const double skin = skin_of(w, side, context),
+               sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75,
+                                 context);  // or the glare itself
+  const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
+  return Shine(w, eye, static_cast<float>(bright), context).before_eye_mm2();
+}
+
+EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& context) {
+  EyeMeasurement eye;
+  if (w.empty()) return eye;
+  eye.known = true;
+  const double skin = skin_of(w, side, context);
+  const Circle iris = find_iris(w, side);
+  eye.right_mm = iris.right, eye.down_mm = iris.down;
+  eye.contrast = iris.contrast;
+  eye.aperture_mm = iris.contrast > 0 ? aperture(w, iris) : 0;
+  eye.iris = disc(w, iris) / skin;
+  eye.brightness =
+      quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;
+  return eye;
+}
+
+}  // namespace
+
+std::array<EyeMeasurement, 2> measure_eyes(const FacePhoto& photo, StageContext& context) {
+  constexpr std::array kSides{-1.0, 1.0};
+  const auto window = [&](double side) {
+    return cut_window(
+        photo, {side * kPupilMm - kHalfWidthMm, side * kPupilMm + kHalfWidthMm, kTopMm, kBottomMm}, context);
+  };
+  const std::array windows{window(kSides[0]), window(kSides[1])};
+  std::array<EyeMeasurement, 2> eyes;
+  for (std::size_t i = 0; i < 2; ++i) eyes[i] = measure_eye(windows[i], kSides[i], context);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!eyes[i].known) continue;
+    const EyeMeasurement& other = eyes[1 - i];
+    const bool covered = other.known && eyes[i].contrast < kLostShare * other.contrast;
+    eyes[i].glare_mm2 = glare(
+        windows[i], kSides[i],
+        covered ? Vec2d{-other.right_mm, other.down_mm} : Vec2d{eyes[i].right_mm, eyes[i].down_mm}, context);
+  }
+  return eyes;
+}
+
+}  // namespace relievo::pipeline

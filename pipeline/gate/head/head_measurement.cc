@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gate/head/head_measurement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "pipeline/gate/head/mirror_plane.h"
+#include "pipeline/gate/head/nose_tip.h"
+#include "pipeline/match/region/three_terms.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kReachMm = 78;  // of the tip of the nose: brows and chin, little hair
+constexpr std::size_t kLeastPoints = 60;
+constexpr double kNoseReachMm = 27;    // left out where the slope of the face is measured
+constexpr double kMeanSlopeDeg = 2.6;  // of the average head that looks straight (hal/sim, seeds 1 and 2)
+constexpr double kSettledMm = 6;       // a tip found anew within that of the old one: the mirror plane holds
+constexpr int kRounds = 3;             // of that
+constexpr double kLeastNoseMm = 10;    // a nose stands out further
+constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
+
+std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
+  std::pmr::vector<Vec3d> points(&context.scratch);
+  const Vec2d at = relief.pixel(tip);
+  const int reach = static_cast<int>(kReachMm * relief.focal_px / tip.z) + 1;
+  const int stride = std::max(1, reach / 14);
+  points.reserve(static_cast<std::size_t>((2 * reach / stride + 1) * (2 * reach / stride + 1)));
+  for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; y += stride)
+    for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
+      if (!relief.inside(x, y) || !relief.known(x, y)) continue;
+      const Vec3d p = relief.point(x, y), d = minus(p, tip);
+      if (dot(d, d) < kReachMm * kReachMm && d.z > -12 && points.size() < points.capacity())
+        points.push_back(p);
+    }
+  return points;
+}
+
+// How far the face lies behind its nose: behind = level + slope * down + bend * right^2, by least squares,
+// three times: the later ones without what the one before calls strange.
+struct FaceForm {
+  double level = 0, slope = 0, bend = 0;
+  bool known = false;
+  double behind(double right, double down) const { return level + slope * down + bend * right * right; }
+};
+
+FaceForm fit_form(std::span<const Vec3d> points, const HeadMeasurement& head) {
+  FaceForm form;
+  for (int round = 0; round < 3; ++round) {
+    ThreeTerms terms;
+    for (const Vec3d& p : points) {
+      const Vec3d d = minus(p, head.tip_mm);
+      const double right = dot(d, head.right), down = dot(d, head.down), behind = dot(d, head.away);
+      if (right * right + down * down < kNoseReachMm * kNoseReachMm) continue;
+      if (form.known && std::abs(behind - form.behind(right, down)) > 15) continue;
+      terms.add({1, down, right * right}, behind);
+    }
+    const auto k = terms.solve();
+    if (!k) return {};
+    form = {(*k)[0], (*k)[1], (*k)[2], true};
+  }
+  return form;
+}
+
+// How far the cheeks beside the nose lie behind its tip; both sides together, so that a turn hardly matters.
+double nose_height(std::span<const Vec3d> points, const HeadMeasurement& head) {
+  std::array<double, 2> sum{}, count{};
+  for (const Vec3d& p : points) {
+    const Vec3d d = minus(p, head.tip_mm);
+    const double right = dot(d, head.right), down = dot(d, head.down);
+    if (std::abs(right) < 22 || std::abs(right) > 46 || down < -14 || down > 22) continue;
+    sum[right > 0 ? 1 : 0] += dot(d, head.away);
+    count[right > 0 ? 1 : 0] += 1;
+  }
+  if (count[0] < 3 && count[1] < 3) return 0;
+  if (count[0] < 3 || count[1] < 3)
+    return (sum[0] + sum[1]) / (count[0] + count[1]);  // the far cheek is out of sight
+  return (sum[0] / count[0] + sum[1] / count[1]) / 2;
+}
+
+// What of the face is hidden: by something before it, or from one of the cameras.
+void measure_cover(const Relief& relief, const FaceForm& form, HeadMeasurement& head) {
+  const double pixel_mm = head.tip_mm.z / relief.focal_px, step = std::max(1.5, pixel_mm);
+  int all = 0, before = 0, unknown = 0;
+  for (double down = -kUpMm; down <= kDownMm; down += step)
+    for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
+      const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
+      if (u * u + v * v > 1) continue;
+      const Vec3d level = along(along(head.tip_mm, right, head.right), down, head.down);
+      const Vec3d guess = along(level, std::max(0.0, form.behind(right, down)), head.away);
+      const Vec2d at = relief.pixel(guess);
+      const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
+      ++all;
+      if (!relief.inside(x, y) || !relief.known(x, y)) {
+        ++unknown;
+        continue;
+      }
+      const double behind = dot(minus(relief.point(x, y), head.tip_mm), head.away);
+      const bool nose = std::abs(right) < 25 && down > -50 && down < 15;
+      if (behind < (nose ? -12 : form.behind(right, down) - 16)) ++before;
+    }
+  head.in_front_share = static_cast<double>(before) / std::max(1, all);
+  head.unknown_share = static_cast<double>(unknown) / std::max(1, all);
+}
+
+// Axes of a head whose mirror plane this is, upright but for its roll.
+void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadMeasurement& head) {
+  head.right = normal_of(plane, axes);
+  head.down = unit(along(axes.down, -dot(axes.down, head.right), head.right));
+  head.away = cross(head.right, head.down);
+}
+
+// What follows from the tip and the axes. False where no face can be fitted.
+bool fit_face(std::span<const Vec3d> points, HeadMeasurement& head, FaceForm& form) {
+  form = fit_form(points, head);
+  head.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
+  head.relief_mm = nose_height(points, head);
+  return form.known;
+}
+
+// Everything that follows from where the tip is. False where no face can be fitted.
+bool measure_about(const Relief& relief, StageContext& context, HeadMeasurement& head, FaceForm& form) {
+  const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
+  if (points.size() < kLeastPoints) return false;
+  const HeadAxes axes = axes_facing_the_rig(head.tip_mm, relief.baseline_mm);
+  HeadMeasurement best;
+  double least = 0;
+  for (const MirrorPlane& plane : find_mirror_planes(relief, points, head.tip_mm, axes, kAsymmetryLimitMm)) {
+    HeadMeasurement tried = head;
+    take_axes(plane, axes, tried);
+    tried.yaw_deg = plane.yaw_deg;
+    tried.roll_deg = plane.roll_deg;
+    tried.asymmetry_mm = plane.rms_mm;
+    tried.relief_mm = nose_height(points, tried);
+    tried.known = true;
+    const bool has_nose = tried.relief_mm > kLeastNoseMm, best_has = best.relief_mm > kLeastNoseMm;
+    if (!best.known || (has_nose != best_has ? has_nose : plane.price < least))
+      best = tried, least = plane.price;
+  }
+  head = best;
+  return fit_face(points, head, form);
+}
+
+// The tip out of the profile: where it has hardly moved, the mirror plane holds, else that is looked for
+// again about the new one.
+void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& context, HeadMeasurement& head,
+                FaceForm& form) {
+  for (int round = 0; round < kRounds; ++round) {
+    HeadMeasurement again = head;
+    FaceForm form_again;
+    if (!tip_of_profile(relief, hint, head, context, again.tip_mm)) return;
+    const bool settled = length(minus(again.tip_mm, head.tip_mm)) < kSettledMm;
+    if (!(settled ? fit_face(points_about(relief, again.tip_mm, context), again, form_again)
+                  : measure_about(relief, context, again, form_again)))
+      return;
+    head = again;
+    form = form_again;
+    if (settled) return;
+  }
+}
+
+}  // namespace
+
+HeadMeasurement measure_head(const Relief& relief, const HeadHint& hint, StageContext& context) {
+  HeadMeasurement head;
+  if (!(hint.width_px > 0) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px))
+    return head;
+  Arena::Mark mark(context.scratch);
+  if (!rough_tip(relief, hint, context, head.tip_mm)) return head;
+  FaceForm form;
+  if (!measure_about(relief, context, head, form)) return {};
+  settle_tip(relief, hint, context, head, form);
+  measure_cover(relief, form, head);
+  return head;
+}
+
+FacePlace place_on(const Relief& relief, const HeadMeasurement& head, double right_mm, double down_mm) {
+  Vec3d p = along(along(head.tip_mm, right_mm, head.right), down_mm, head.down);
+  FacePlace place;
+  for (int round = 0; round < 3; ++round) {  // along the line of sight onto the surface
+    const Vec2d at = relief.pixel(p);
+    place.x = Relief::nearest(at.x), place.y = Relief::nearest(at.y);
+    place.inside = relief.inside(place.x, place.y);
+    if (!place.inside || !relief.known(place.x, place.y)) return place;
+    const double behind = dot(minus(relief.point(place.x, place.y), p), head.away);
+    p = along(p, behind, head.away);
+  }
+  return place;
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A sheet of paper with a QR code before the simulated cameras: read by the kiosk as it was printed, on
+// the page for the name and nowhere else. What is printed is known; nothing else is taken for a code.
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/objdetect.hpp>
+
+#include "firmware/kiosk/code/code_reader.h"
+#include "hal/monotonic_clock.h"
+#include "hal/sim/device.h"
+#include "hal/sim/sheet/sheet_photo.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr double kScale = 0.5;  // of the rig's pictures
+
+// White paper with the code in its middle, ten pixels a module.
+hal::Picture printed(const std::string& text) {
+  cv::Mat code;
+  cv::QRCodeEncoder::create()->encode(text, code);
+  constexpr int kModule = 10, kMargin = 4;
+  hal::Picture sheet;
+  sheet.width_px = sheet.height_px = (code.cols + 2 * kMargin) * kModule;
+  sheet.format = PixelFormat::Grey8;
+  sheet.bytes.assign(static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px),
+                     std::byte{255});
+  for (int y = 0; y < code.rows * kModule; ++y)
+    for (int x = 0; x < code.cols * kModule; ++x)
+      sheet.bytes[static_cast<std::size_t>(y + kMargin * kModule) * static_cast<std::size_t>(sheet.width_px) +
+                  static_cast<std::size_t>(x + kMargin * kModule)] =
+          std::byte{code.at<std::uint8_t>(y / kModule, x / kModule)};
+  return sheet;
+}
+
+hal::sim::SheetPhotoOptions held(double width_mm, hal::sim::HeadPose pose) {
+  hal::sim::SheetPhotoOptions options;
+  options.rig.width_px = static_cast<int>(options.rig.width_px * kScale);
+  options.rig.height_px = static_cast<int>(options.rig.height_px * kScale);
+  options.sheet.width_mm = width_mm;
+  options.sheet.pose = pose;
+  return options;
+}
+
+TEST(CodeReader, ReadsWhatIsPrintedHoweverItIsHeld) {
+  const auto reader = CodeReader::make();
+  ThreadPool pool(2);
+  const auto see = [&](const std::string& text, double width_mm, hal::sim::HeadPose pose) {
+    const auto options = held(width_mm, pose);
+    const auto scene = hal::sim::make_sheet_scene(printed(text), options.sheet);
+    EXPECT_TRUE(scene.has_value());
+    const auto pair =
+        hal::sim::render_pair(**scene, hal::sim::make_rig(options.rig), options.sensor, 7, pool);
+    EXPECT_EQ(reader->read(pair.left.view()), text);
+    EXPECT_EQ(reader->read(pair.right.view()), text);
+  };
+  see("A-2041", 160, {12, -8, 20, 500, 30, -20});
+  see("Grace Hopper 1906", 200, {-15, 10, -90, 600, 0, 0});
+}
+
+TEST(CodeReader, NothingIsReadWhereNothingIs) {
+  const auto reader = CodeReader::make();
+  std::vector<std::byte> noise(640 * 480);
+  cv::RNG random(5);
+  for (std::byte& b : noise) b = static_cast<std::byte>(random.uniform(0, 256));
+  EXPECT_FALSE(reader->read({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
+  std::fill(noise.begin(), noise.end(), std::byte{90});
+  EXPECT_FALSE(reader->read({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
+}
+
+class CodeScannerTest : public KioskHands {
+ protected:
+  CodeScannerTest() { EXPECT_TRUE(ui::prepare_languages().has_value()); }
+  void show(const hal::Picture& sheet) {
+    ASSERT_TRUE(hal::sim::photograph_sheet(sheet, held(180, {0, 0, 8, 560, 0, 0}), folder.path() / "held")
+                    .has_value());
+    services.open_device = [this](std::string_view) {
+      return hal::make_folder_device(folder.path() / "held");
+    };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    args.store = folder.path() / "store";
+    args.calibration = folder.path() / "held" / "rig.yml";
+    auto opened = Kiosk::open(args, services);
+    ASSERT_TRUE(opened.has_value()) << opened.error().where() << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+  void turns(int count) {
+    for (int turn = 0; turn < count; ++turn) {
+      kiosk->turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  std::string_view name() const { return kiosk->ui().visit().name(); }
+
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{.console = console, .clock = clock};
+  KioskArgs args;
+};
+
+TEST_F(CodeScannerTest, ACodeStandsInTheFieldAfterTheConsentAndIsConfirmedByTouch) {
+  show(printed("A-2041"));
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  turns(20);
+  EXPECT_EQ(name(), "") << "before anybody is there";
+  tap("start");
+  turns(50);
+  EXPECT_EQ(name(), "") << "before the consent no camera looks";
+  tap("agree");
+  ASSERT_TRUE(until([this] { return name() == "A-2041"; })) << name();
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Name) << "to be confirmed";
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+  tap("erase");
+  EXPECT_EQ(name(), "A-204");
+  turns(30);
+  EXPECT_EQ(name(), "A-204") << "what was typed is not written over";
+  tap("key 1");
+  tap("done");
+  ASSERT_TRUE(reach(ui::Step::Position));
+  EXPECT_EQ(kiosk->view().subject, "A-2041");
+  EXPECT_LE(kiosk->ui().visit().touches, 2);
+}
+
+TEST_F(CodeScannerTest, AnAddressIsNoNameAndWhoLeavesIsForgotten) {
+  show(printed("https://example.org"));
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  tap("start");
+  tap("agree");
+  turns(150);
+  EXPECT_EQ(name(), "");
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Name);
+  tap("back");
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Consent);
+}
+
+}  // namespace
+}  // namespace relievo::firmware

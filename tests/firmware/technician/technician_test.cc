@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's picture pages, by touch, on the simulated rig: every page changes something real, and what
+// it changed is read back from the object behind it.
+#include "tests/firmware/technician/technician_fixture.h"
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "firmware/measure/self_agreement.h"
+#include "storage/model_blob.h"
+
+namespace relievo::firmware {
+namespace {
+
+TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
+  capture();
+  for (std::size_t i = 0; i < ui::kTechnicianStages; ++i) {
+    rig().tap("stage " + std::to_string(i));
+    EXPECT_EQ(rig().now().stage, static_cast<TechnicianStage>(i));
+    EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
+    EXPECT_EQ(rig().now().shown[1].pixels.empty(), i > 2) << i;
+    const auto& drawn =
+        rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianLeft)];
+    EXPECT_EQ(drawn.version, rig().now().shown[0].version) << i;
+  }
+  const ui::TechnicianResult result = rig().now().result;
+  EXPECT_EQ(result.matches, products().matches->matches.size());
+  std::uint64_t rejected = 0;
+  for (std::size_t i = 0; i < result.rule_count; ++i) rejected += result.rules[i].rejected;
+  EXPECT_EQ(result.accepted + rejected, result.matches)
+      << "every rejected match has the rule that took it first";
+  EXPECT_GT(result.photo_correlation, 0.5F);
+  rig().open(StaffPage::Compare);
+  EXPECT_TRUE(rig().shows("windows")) << "a correlation says little without the area it is of";
+  EXPECT_GT(result.photo_windows, 100U);
+
+  rig().open(StaffPage::Tables);
+  rig().tap("table 0");
+  rig().tap("page on");
+  const ui::TechnicianRows rows = rig().now().rows;
+  ASSERT_EQ(rows.cells.size(), kTableRows * rows.heads.size());
+  EXPECT_EQ(rows.cells[0], std::to_string(kTableRows + 1));
+  const pipeline::Match& match = products().matches->matches[kTableRows];
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", static_cast<double>(match.disparity_px));
+  EXPECT_EQ(rows.cells[4], text);
+  rig().tap("table 2");
+  for (std::size_t i = 0; i < rig().now().rows.cells.size(); i += 8) {
+    for (std::size_t k = 4; k < 7; ++k)
+      EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
+  }
+  rig().tap("table 3");
+  std::snprintf(text, sizeof text, "%.3f", rig().stages->calibration()->left.focal_px.x);
+  EXPECT_EQ(rig().now().rows.cells[1], text);
+}
+
+TEST_F(TechnicianTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
+  capture();
+  rig().tap("stage 2");
+  const pipeline::RectifiedPair& pair = *products().pair;
+  const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
+  const float x = share(pair.face_centre_px.x, pair.width_px),
+              y = share(pair.face_centre_px.y, pair.height_px);
+  rig().tap("left", x, y);
+  const ui::TechnicianPoint found = rig().now().point;
+  ASSERT_TRUE(found.matched);
+  EXPECT_NEAR(found.left_px.x, pair.face_centre_px.x, 0.02 * pair.width_px);
+  // The middle of the face stands where the simulated person stands.
+  EXPECT_NEAR(found.at_mm.z, 560, 80);
+  EXPECT_GT(found.sigma_mm, 0);
+  EXPECT_TRUE(rig().shows("left mark") && rig().shows("right mark"));
+
+  rig().tap("by hand");
+  rig().tap("left", share(found.left_px.x, pair.width_px), share(found.left_px.y, pair.height_px));
+  EXPECT_TRUE(rig().now().point.matched) << "a partner is proposed";
+  EXPECT_NEAR(rig().now().point.disparity_px, found.disparity_px, 2.0);
+  rig().tap("right", share(found.right_px.x, pair.width_px), share(found.right_px.y, pair.height_px));
+  const ui::TechnicianPoint by_hand = rig().now().point;
+  ASSERT_TRUE(by_hand.matched && by_hand.by_hand);
+  // A finger is a pixel or two off; the likeness is not.
+  EXPECT_NEAR(by_hand.disparity_px, found.disparity_px, 2.0);
+  EXPECT_NEAR(by_hand.at_mm.z, found.at_mm.z, 8.0);
+  EXPECT_GT(by_hand.sigma_mm, 0);
+  rig().tap("remove pair");
+  rig().tap("by hand");
+}
+
+TEST_F(TechnicianTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
+  capture();
+  const std::uint64_t accepted = rig().now().result.accepted;
+  ASSERT_EQ(rig().now().result.rule_count, 3U);
+  rig().open(StaffPage::Compare);
+  rig().tap("keep");
+
+  rig().open(StaffPage::Algorithms);
+  rig().tap(kind("constraints"));
+  rig().tap(name("continuity"));
+  EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "similarity+uniqueness");
+  EXPECT_TRUE(rig().now().choice.changed);
+  rig().tap(kind("matcher"));
+  rig().tap(name("zmncc"));
+  // An option beyond its bounds is refused and stays; within them it is taken.
+  const std::string window = option("zmncc.window_px");
+  rig().tap(window);
+  for (const char digit : std::string("9999")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  rig().tap("option use");
+  EXPECT_TRUE(rig().shows("option refused"));
+  for (int i = 0; i < 4; ++i) rig().tap("type erase");
+  for (const char digit : std::string("9")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  rig().tap("option use");
+  EXPECT_FALSE(rig().shows("option use")) << "taken";
+  again();
+  const ui::TechnicianView& now = rig().now();
+  EXPECT_EQ(now.result.rule_count, 2U);
+  EXPECT_NE(now.result.accepted, accepted);
+  EXPECT_NE(now.result.algorithms.find("zmncc.window_px = 9"), std::string_view::npos)
+      << now.result.algorithms;
+  EXPECT_NE(now.result.algorithms.find("matcher = zmncc"), std::string_view::npos);
+
+  rig().open(StaffPage::Compare);
+  ASSERT_EQ(rig().now().put_aside, 1U);
+  EXPECT_EQ(rig().now().compared[0].result.accepted, accepted) << "the one put aside stays as it was";
+  EXPECT_EQ(rig().now().compared[0].result.algorithms, "");
+  EXPECT_EQ(rig().now().compared[0].result.name, rig().now().compared[1].result.name) << "the same capture";
+  EXPECT_FALSE(rig().now().compared[0].picture.pixels.empty() ||
+               rig().now().compared[1].picture.pixels.empty());
+  EXPECT_NE(rig().now().compared[0].picture.version, rig().now().compared[1].picture.version);
+  rig().tap("drop 0");
+  EXPECT_EQ(rig().now().put_aside, 0U);
+
+  rig().open(StaffPage::Algorithms);
+  EXPECT_EQ(rig().stages->algorithms().get("matcher"), "refined") << "visitors' are another choice";
+  rig().tap("apply");
+  ASSERT_TRUE(rig().until([] { return rig().now().applied; })) << rig().now().problem.detail;
+  EXPECT_EQ(rig().stages->algorithms().get("zmncc.window_px"), "9");
+  const auto kept = pipeline::AlgorithmSet::from_text(*rig().store->setting("algorithms"));
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(kept->get("constraints"), "similarity+uniqueness");
+  rig().tap("reset");
+  rig().tap("apply");
+  ASSERT_TRUE(rig().until([] { return rig().stages->algorithms().get("matcher") == "refined"; }));
+}
+
+TEST_F(TechnicianTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
+  rig().open(StaffPage::Cameras);
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched && rig().now().cameras.pairs > 1; }))
+      << rig().now().problem.detail;
+  for (const ui::TechnicianCamera& camera : rig().now().cameras.camera) {
+    EXPECT_FALSE(camera.picture.pixels.empty());
+    EXPECT_GT(camera.mean, 0.05F);
+    EXPECT_GT(camera.focus, 0.5F);
+  }
+  rig().open(StaffPage::Stages);
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
+  EXPECT_FALSE(rig().now().cameras.watched);
+  EXPECT_TRUE(rig().now().cameras.camera[0].picture.pixels.empty());
+}
+
+// The person is nearer than the room: of the middle of the relief most is known, and bright.
+TEST_F(TechnicianTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
+  rig().open(StaffPage::Cameras);
+  ASSERT_TRUE(rig().until([] { return rig().shows("show relief"); }))
+      << rig().now().problem.detail;  // with the first pair
+  EXPECT_FALSE(rig().shows("relief"));
+  rig().tap("show relief");
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief.pixels.empty(); }))
+      << rig().now().cameras.problem.detail;
+  rig().turn();
+  EXPECT_TRUE(rig().shows("relief") && rig().shows("left live"));
+  EXPECT_FALSE(rig().shows("right live"));
+  const ImageView relief = rig().now().cameras.relief.pixels;
+  int bright = 0, all = 0;
+  for (int y = 2 * relief.height_px / 5; y < 3 * relief.height_px / 5; ++y)
+    for (int x = 9 * relief.width_px / 20; x < 11 * relief.width_px / 20; ++x, ++all)
+      bright += relief.row(y)[3 * x] > 100 ? 1 : 0;
+  EXPECT_GT(bright, all / 2);
+  const auto& drawn =
+      rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianRight)];
+  EXPECT_EQ(drawn.pixels.width_px, relief.width_px);
+  EXPECT_EQ(drawn.version & 0x80000000U, 0x80000000U) << "the relief, not the right picture";
+  const std::uint32_t first = rig().now().cameras.relief.version;
+  ASSERT_TRUE(rig().until([first] { return rig().now().cameras.relief.version > first; }))
+      << "drawn with every pair";
+  rig().tap("show relief");
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.relief_shown; }));
+  rig().turn();
+  EXPECT_TRUE(rig().shows("right live"));
+  rig().open(StaffPage::Stages);
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
+}
+
+TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
+  rig().open(StaffPage::Calibrate);
+  rig().tap("columns less");
+  EXPECT_EQ(rig().now().calibration.columns, 9);
+  rig().tap("columns more");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 1; }));
+  rig().tap("calibration begin");
+  ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.views > 0; }));
+  EXPECT_FALSE(rig().now().calibration.pictures[0].pixels.empty());
+  EXPECT_TRUE(rig().shows("advice"));
+  ASSERT_TRUE(
+      rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+  if (rig().now().calibration.running) rig().tap("calibration finish");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
+      << rig().now().calibration.problem.detail;
+  const ui::TechnicianCalibration made = rig().now().calibration;
+  ASSERT_NE(made.verdict, ui::TechnicianVerdict::Refuse)
+      << (made.reasons.empty() ? "" : made.reasons.front());
+  ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
+  const auto& between = rig().stages->calibration()->right_from_left.translation_mm;
+  EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
+  EXPECT_EQ(rig().appliance->state(), State::Staff);
+
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 2; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().revision, 2U);
+  EXPECT_EQ(rig().stages->calibration()->revision, 2U) << "visitors are measured with it";
+  EXPECT_EQ(rig().store->active_calibration()->revision, 2U);
+  // The one before it comes back by a touch.
+  rig().tap("calibration 1");
+  ASSERT_TRUE(rig().until([] { return rig().revision == 1U; })) << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().stages->calibration()->revision, 1U);
+
+  // By stick: what was exported comes back as one more of the history.
+  rig().plug_in();
+  rig().tap("calibration export");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.exported.empty(); }))
+      << rig().now().calibration.problem.detail;
+  const auto exported = rig().stick() / rig().now().calibration.exported;
+  EXPECT_TRUE(std::filesystem::exists(exported)) << exported;
+  rig().plug_in();
+  rig().tap("calibration import");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count == 3; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().store->active_calibration()->right_from_left.translation_mm.x,
+            rig().store->calibration(1)->right_from_left.translation_mm.x);
+  std::filesystem::remove_all(rig().stick() / "calibrations");
+}
+
+// The last: it leaves.
+TEST_F(TechnicianTest, WhoLeavesLeavesNothing) {
+  capture();
+  rig().open(StaffPage::Compare);
+  rig().tap("keep");
+  rig().tap("run");  // and goes in the middle of it
+  rig().appliance->ask(ui::Intent::LeaveStaff);
+  rig().turn();
+  EXPECT_EQ(rig().appliance->state(), State::Idle);
+  EXPECT_FALSE(rig().appliance->session().is_open());
+  for (const std::byte byte : rig().memory.frames().first(4096)) ASSERT_EQ(byte, std::byte{0});
+  EXPECT_EQ(rig().now().phase, TechnicianPhase::Empty);
+  EXPECT_EQ(rig().now().put_aside, 0U);
+  EXPECT_TRUE(rig().now().shown[0].pixels.empty() && rig().now().compared[0].picture.pixels.empty());
+}
+
+}  // namespace
+}  // namespace relievo::firmware

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Calibration at the screen: the board and what is stored; then what the cameras see of it, what to show next
+// and how much has been seen; then the verdict in millimetres.
+#include <algorithm>
+#include <cstdio>
+
+#include "ui/screens/service/technician/technician_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+const char* words_of(const Words& tr, BoardAdvice advice) {
+  switch (advice) {
+    case BoardAdvice::ShowBoard:
+      return tr("Show the whole board to both cameras");
+    case BoardAdvice::LeftCameraMissesIt:
+      return tr("The left camera does not see all of it");
+    case BoardAdvice::RightCameraMissesIt:
+      return tr("The right camera does not see all of it");
+    case BoardAdvice::HoldStill:
+      return tr("Hold it still");
+    case BoardAdvice::TooBlurred:
+      return tr("It is not sharp: more light, or another distance");
+    case BoardAdvice::Closer:
+      return tr("Closer");
+    case BoardAdvice::Farther:
+      return tr("Farther away");
+    case BoardAdvice::Left:
+      return tr("To the left of the picture");
+    case BoardAdvice::Right:
+      return tr("To the right of the picture");
+    case BoardAdvice::Up:
+      return tr("Higher");
+    case BoardAdvice::Down:
+      return tr("Lower");
+    case BoardAdvice::TiltLeft:
+      return tr("Its left edge nearer to the cameras");
+    case BoardAdvice::TiltRight:
+      return tr("Its right edge nearer to the cameras");
+    case BoardAdvice::TiltForward:
+      return tr("Its upper edge nearer to the cameras");
+    case BoardAdvice::TiltBack:
+      return tr("Its lower edge nearer to the cameras");
+    case BoardAdvice::TurnClockwise:
+      return tr("Turn it clockwise");
+    case BoardAdvice::TurnCounterclockwise:
+      return tr("Turn it counterclockwise");
+    case BoardAdvice::AlreadyHave:
+      return tr("This view is known: another one, please");
+    case BoardAdvice::SwappedCameras:
+      return tr("The cameras have changed places: swap them and begin again");
+    case BoardAdvice::Done:
+      break;
+  }
+  return tr("Enough has been seen");
+}
+
+const char* words_of(const Words& tr, BoardEnd end) {
+  switch (end) {
+    case BoardEnd::GoalReached:
+      return tr("The goal is reached.");
+    case BoardEnd::Plateau:
+      return tr("More views would hardly improve it.");
+    case BoardEnd::Full:
+      return tr("As many views as are wanted.");
+    case BoardEnd::NotYet:
+      break;
+  }
+  return tr("It was ended early.");
+}
+
+// How much of the picture has been seen: the more corners in a part, the fuller its square. As large as the
+// picture above it.
+void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
+  const auto& seen = f.view.calibration.seen[side];
+  Node frame = f.page.grown(f.page.box(Flow::Stack));
+  frame.aspect = aspect;
+  f.page.tree.open(frame);
+  Node map = f.page.box(Flow::Column, 3);
+  map.id = side == 0 ? "left coverage" : "right coverage";
+  map.name = side == 0 ? f.tr("Seen by the left camera") : f.tr("Seen by the right camera");
+  map.role = Role::Picture;
+  f.page.tree.open(map);
+  for (std::size_t row = 0; row < kCoverageCells; ++row) {
+    Node line = f.page.grown(f.page.box(Flow::Row, 3));
+    line.box.left_to_right = true;
+    f.page.tree.open(line);
+    for (std::size_t column = 0; column < kCoverageCells; ++column) {
+      Node cell = f.page.grown(f.page.box(Flow::Column));
+      const float share = std::min(1.0F, static_cast<float>(seen[row * kCoverageCells + column]) / 40);
+      cell.box.fill =
+          share > 0 ? f.page.palette.accent.with_alpha(0.45F + 0.55F * share) : f.page.palette.track;
+      cell.box.radius = f.page.px(3);
+      f.page.tree.leaf(cell);
+    }
+    f.page.tree.close();
+  }
+  f.page.tree.close();
+  f.page.tree.close();
+}
+
+// The pictures above, what of each has been seen below.
+void live_pictures(TechnicianFrame& f) {
+  const auto pair = [&](const auto& one) {
+    Node row = f.page.grown(f.page.box(Flow::Row, space::kS));
+    row.box.left_to_right = true;
+    f.page.tree.open(row);
+    for (std::size_t side = 0; side < 2; ++side) one(side);
+    f.page.tree.close();
+  };
+  Node column = f.page.grown(f.page.box(Flow::Column, space::kS), f.picture_share(1.6F));
+  f.page.tree.open(column);
+  pair([&](std::size_t side) {
+    f.open_picture(side == 0 ? "left board" : "right board",
+                   side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.view.calibration.pictures[side],
+                   side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight);
+    f.close_picture();
+  });
+  pair([&](std::size_t side) {
+    const ImageView& seen = f.view.calibration.pictures[side].pixels;
+    coverage(f, side,
+             seen.empty() ? 1.0F : static_cast<float>(seen.width_px) / static_cast<float>(seen.height_px));
+  });
+  f.page.tree.close();
+}
+
+void bar(TechnicianFrame& f, std::string_view id, const char* label, float share) {
+  f.page.tree.open(f.page.box(Flow::Column, 4, 0, 7));
+  f.page.tree.leaf(f.page.text(label, 18, Weight::Medium, f.page.palette.ink));
+  f.page.progress(id, share);
+  f.page.tree.close();
+}
+
+void running(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  Node said = f.page.text(words_of(f.tr, c.advice), type::kHeading, Weight::Bold, f.page.palette.link,
+                          TextAlign::Centre);
+  said.id = "advice";
+  said.role = Role::Status;
+  said.style.size_px = f.page.px(type::kHeading * (1 + (f.page.text_share - 1) * 0.5F));
+  f.page.tree.leaf(said);
+  f.page.tree.open(f.page.grown(f.page.box(f.page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  live_pictures(f);
+  f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
+  f.page.begin_panel("progress list");
+  f.page.row("views", f.tr("Views taken"), f.page.number(c.views));
+  f.page.row("error", f.tr("Predicted error"),
+             c.error_mm > 0 ? f.page.number(static_cast<double>(c.error_mm), 3, "mm") : std::string_view("–"),
+             c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
+  f.page.row("goal", f.tr("Goal"), f.page.number(static_cast<double>(c.goal_mm), 3, "mm"));
+  if (c.disagreeing > 0)
+    f.page.row("disagreeing", f.tr("Views that disagree"), f.page.number(c.disagreeing), Mood::Warn);
+  const char* const names[] = {f.tr("Across"), f.tr("Up and down"), f.tr("Size"), f.tr("Tilt")};
+  for (std::size_t i = 0; i < c.bars.size(); ++i) bar(f, f.id("bar", i), names[i], c.bars[i]);
+  f.page.tree.close();
+  f.page.tree.close();
+  f.page.tree.close();
+  const float grow = f.open_buttons();
+  f.page.small_button("calibration cancel", f.tr("Cancel"), icon::kClose, ButtonLook::Quiet,
+                      technician_action(TechnicianAct::CancelCalibration), grow);
+  f.page.small_button("calibration finish", f.tr("Enough: work it out"), icon::kCheck, ButtonLook::Main,
+                      technician_action(TechnicianAct::StopCalibration), grow);
+  f.page.tree.close();
+}
+
+void verdict(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  if (!c.ended) return;
+  const bool good = c.verdict == TechnicianVerdict::Good, refused = c.verdict == TechnicianVerdict::Refuse;
+  const Mood mood = good ? Mood::Good : refused ? Mood::Bad : Mood::Warn;
+  const char* said = good      ? f.tr("Good")
+                     : refused ? f.tr("Refused: it would measure wrongly")
+                               : f.tr("Usable, with doubts");
+  f.page.section(f.tr("The new calibration"));
+  f.page.row("verdict", f.tr("Verdict"), said, mood);
+  for (const std::string& reason : c.reasons) f.page.detail(reason);
+  if (!c.reasons.empty()) f.page.rule();
+  f.page.row("ended", words_of(f.tr, c.end), {});
+  f.page.row("depth error", f.tr("Error of a face's distance"),
+             f.page.number(static_cast<double>(c.depth_error_mm), 3, "mm"), mood);
+  f.page.row("rms", f.tr("Disagreement with the board"),
+             f.page.number(static_cast<double>(c.rms_px), 3, "px"));
+  f.page.row("baseline", f.tr("Distance of the cameras"),
+             f.page.number(static_cast<double>(c.baseline_mm), 2, "mm"));
+  f.page.row("views used", f.tr("Views taken"), f.page.number(c.views));
+  if (c.stored) f.page.row("stored", f.tr("Stored, and in use from now on"), {}, Mood::Good);
+}
+
+void history(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  f.page.section(f.tr("Stored calibrations: touch one to use it"));
+  if (c.history_count == 0) f.page.row("no history", f.tr("There is none yet"), {});
+  for (std::size_t i = 0; i < c.history_count; ++i) {
+    const TechnicianCalibrationRow& row = c.history[i];
+    const std::string_view label =
+        f.joined(f.page.number(row.revision), "\u00a0· ", f.page.date(row.made_at));
+    const std::string_view value = row.active ? std::string_view(f.tr("in use"))
+                                   : row.depth_error_mm > 0
+                                       ? f.page.number(static_cast<double>(row.depth_error_mm), 3, "mm")
+                                       : std::string_view("–");
+    f.page.row(
+        f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
+        row.active ? Action{} : technician_action(TechnicianAct::Activate, static_cast<std::int32_t>(i)));
+  }
+  if (f.view.calibrated)
+    f.page.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
+               technician_action(TechnicianAct::ExportCalibration));
+  f.page.row("calibration import", f.tr("Import from the stick"), {}, Mood::Plain,
+             technician_action(TechnicianAct::ImportCalibration));
+}
+
+void board(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  const auto stepper = [&](std::string_view id, const char* label, std::string_view value, TechnicianAct act,
+                           std::int32_t step) {
+    f.page.stepper(id, label, value, icon::kLess, technician_action(act, -step), icon::kMore,
+                   technician_action(act, step));
+  };
+  f.page.section(f.tr("The board"));
+  stepper("columns", f.tr("Inner corners across"), f.page.number(c.columns), TechnicianAct::Columns, 1);
+  stepper("rows", f.tr("Inner corners down"), f.page.number(c.rows), TechnicianAct::Rows, 1);
+  stepper("square", f.tr("Side of a square"), f.page.number(static_cast<double>(c.square_mm), 1, "mm"),
+          TechnicianAct::Square, 5);
+  f.page.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
+             technician_action(TechnicianAct::Charuco));
+}
+
+void at_rest(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  f.page.begin_list("calibration");
+  verdict(f);
+  board(f);
+  history(f);
+  f.page.tree.close();
+  const float grow = f.open_buttons();
+  const bool store =
+      c.ended && !c.stored && c.verdict != TechnicianVerdict::Refuse && c.verdict != TechnicianVerdict::None;
+  f.page.small_button("calibration begin", f.tr("Calibrate"), icon::kCamera,
+                      store ? ButtonLook::Quiet : ButtonLook::Main,
+                      technician_action(TechnicianAct::BeginCalibration), grow);
+  if (store)
+    f.page.small_button("calibration store", f.tr("Store and use it"), icon::kDisk, ButtonLook::Main,
+                        technician_action(TechnicianAct::StoreCalibration), grow);
+  f.page.tree.close();
+}
+
+}  // namespace
+
+void technician_calibrate_page(StaffFrame& page) {
+  if (page.staff.technician == nullptr) return;
+  TechnicianFrame f(page);
+  if (!f.view.calibration.exported.empty())
+    page.status("calibration exported",
+                page.filled(f.tr("Recorded on the stick as {}. It can be pulled out."),
+                            f.left_to_right(f.view.calibration.exported)),
+                Mood::Good);
+  f.problem(f.view.calibration.problem.empty() ? page.view.calibration_note : f.view.calibration.problem);
+  if (f.view.calibration.running) running(f);
+  else at_rest(f);
+}
+
+}  // namespace relievo::ui

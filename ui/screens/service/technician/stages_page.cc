@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every stage of the test capture as a picture: the pair with its epipolar lines, where a touch shows a
+// point's partner and pairs are made by hand; the matches in the colours of the rules; depth, points, surface
+// with what the pairs by hand moved of it, texture.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "ui/screens/service/technician/technician_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr int kLines = 8;
+constexpr Colour kFaint{255, 255, 255, 70}, kTouched{255, 170, 40, 255}, kOther{110, 210, 255, 255};
+
+bool is_pair(TechnicianStage stage) {
+  return stage == TechnicianStage::Input || stage == TechnicianStage::Processed ||
+         stage == TechnicianStage::Rectified;
+}
+
+bool makes_pairs(const TechnicianFrame& f) {
+  return f.view.by_hand && f.view.stage == TechnicianStage::Rectified;
+}
+
+void tabs(TechnicianFrame& f) {
+  const std::size_t across = f.across(kTechnicianStages);
+  for (std::size_t first = 0; first < kTechnicianStages; first += across) {
+    f.page.tree.open(f.page.box(Flow::Row, 6));
+    for (std::size_t i = first; i < first + across; ++i) {
+      const auto stage = static_cast<TechnicianStage>(i);
+      const bool chosen = stage == f.view.stage;
+      Node tab = f.page.grown(f.page.box(Flow::Row, 0, 4, 4));
+      tab.id = f.id("stage", i);
+      tab.name = title_of(f.tr, stage);
+      tab.role = Role::Button;
+      tab.action = technician_action(TechnicianAct::ShowStage, static_cast<std::int32_t>(i));
+      tab.box.justify = Justify::Centre;
+      tab.box.align = Align::Centre;
+      tab.box.min_height = f.page.px(size::kStaffTarget);
+      tab.box.radius = f.page.px(14);
+      tab.box.fill = chosen ? f.page.palette.accent : f.page.palette.quiet;
+      tab.box.border = chosen ? f.page.palette.accent : f.page.palette.quiet_border;
+      tab.box.border_px = f.page.px(2);
+      f.page.tree.open(tab);
+      f.page.tree.leaf(f.page.text(
+          title_of(f.tr, stage), f.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,
+          chosen ? f.page.palette.accent_ink : f.page.palette.link, TextAlign::Centre));
+      f.page.tree.close();
+    }
+    f.page.tree.close();
+  }
+}
+
+void pin_pairs(TechnicianFrame& f, std::size_t side) {
+  for (const TechnicianPoint& p : f.view.pairs.first(std::min(f.view.pairs.size(), kMostPairs)))
+    if (side == 0 || p.matched) f.pin_dot(side == 0 ? p.left_x : p.right_x, p.y, kOther, {});
+}
+
+void pair_pictures(TechnicianFrame& f) {
+  const bool touchable = f.view.stage == TechnicianStage::Rectified;
+  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
+  row.box.left_to_right = true;
+  f.page.tree.open(row);
+  for (std::size_t side = 0; side < 2; ++side) {
+    Action action{}, dragged{};
+    if (touchable) action = technician_action(side == 0 ? TechnicianAct::Point : TechnicianAct::PointRight);
+    if (makes_pairs(f))
+      dragged = technician_action(side == 0 ? TechnicianAct::Drag : TechnicianAct::DragRight);
+    f.open_picture(side == 0 ? "left" : "right", side == 0 ? f.tr("Left camera") : f.tr("Right camera"),
+                   f.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
+                   action, dragged);
+    if (f.view.stage != TechnicianStage::Input) {
+      for (int i = 1; i < kLines; ++i) f.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
+    }
+    if (makes_pairs(f)) pin_pairs(f, side);
+    const TechnicianPoint& point = f.view.point;
+    if (touchable && point.touched) f.pin_line(point.y, kTouched, 2);
+    if (touchable && point.touched && side == 0) f.pin_dot(point.left_x, point.y, kTouched, "left mark");
+    if (touchable && point.matched && side == 1) f.pin_dot(point.right_x, point.y, kTouched, "right mark");
+    f.close_picture();
+  }
+  f.page.tree.close();
+}
+
+void one_picture(TechnicianFrame& f) {
+  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
+  f.page.tree.open(row);
+  f.open_picture("picture", title_of(f.tr, f.view.stage), f.view.shown[0], PictureSlot::TechnicianLeft);
+  f.close_picture();
+  if (!f.view.shown[1].pixels.empty()) {
+    f.open_picture("change", f.tr("What the pairs by hand moved"), f.view.shown[1],
+                   PictureSlot::TechnicianRight);
+    f.close_picture();
+  }
+  f.page.tree.close();
+}
+
+std::string_view coordinates(TechnicianFrame& f, const pipeline::Vec2f& px) {
+  return f.several({static_cast<double>(px.x), static_cast<double>(px.y)}, 2, "px");
+}
+
+std::string_view plus_minus(TechnicianFrame& f, double value, double sigma, int decimals,
+                            const char* unit_name) {
+  return f.joined(f.page.number(value, decimals), "\u00a0±\u00a0", f.page.number(sigma, decimals, unit_name));
+}
+
+void point_rows(TechnicianFrame& f) {
+  const TechnicianPoint& point = f.view.point;
+  if (!point.touched) {
+    f.page.tree.leaf(f.page.text(
+        f.view.by_hand
+            ? f.tr(
+                  "Touch a point in the left picture. Its partner is proposed in the right one: touch or drag to correct it.")
+            : f.tr("Touch the left picture: the line and the match of that point are shown."),
+        type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+    return;
+  }
+  f.page.row("point left", f.tr("Left"), coordinates(f, point.left_px));
+  if (point.waits_for_right) {
+    f.page.tree.leaf(f.page.text(f.tr("Now touch its partner on the orange line in the right picture."),
+                                 type::kSmall, Weight::Medium, f.page.palette.ink));
+    return;
+  }
+  if (!point.matched) {
+    f.page.row("point none", f.tr("No match here"), {}, Mood::Warn);
+    return;
+  }
+  if (point.new_surface) f.page.row("point moved", f.tr("Surface here"), f.tr("new"), Mood::Good);
+  else if (!std::isnan(point.moved_mm))
+    f.page.row("point moved", f.tr("Surface came nearer by"),
+               f.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
+  f.page.row("point right", f.tr("Right"), coordinates(f, point.right_px));
+  f.page.row(
+      "point disparity", f.tr("Disparity"),
+      plus_minus(f, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
+  f.page.row("point likeness", f.tr("Likeness"), f.page.number(1 - static_cast<double>(point.cost), 3));
+  if (!point.rejected_by.empty())
+    f.page.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
+  else if (!point.by_hand) f.page.row("point accepted", f.tr("Accepted"), f.tr("yes"), Mood::Good);
+  f.page.row("point space", f.tr("In space"),
+             f.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y),
+                        static_cast<double>(point.at_mm.z)},
+                       1, "mm"));
+  f.page.row("point sigma", f.tr("Depth uncertainty"),
+             f.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+}
+
+void change_rows(TechnicianFrame& f) {
+  if (f.view.pairs.empty()) return;
+  f.page.rule();
+  f.page.row("pairs", f.tr("Pairs by hand"), f.page.number(static_cast<double>(f.view.pairs.size())));
+  const TechnicianChange& change = f.view.change;
+  if (!change.known) return;
+  f.page.row("moved", f.tr("Surface moved"), f.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));
+  f.page.row("new", f.tr("New surface"), f.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
+  f.page.row("farthest", f.tr("Largest move"),
+             f.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
+  if (f.view.stage == TechnicianStage::Mesh)
+    f.page.tree.leaf(
+        f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
+                                  f.page.number(static_cast<double>(change.full_colour_mm), 2, "mm")),
+                    type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+}
+
+void pair_buttons(TechnicianFrame& f) {
+  f.choice("by hand", f.tr("Match by hand"), f.view.by_hand, technician_action(TechnicianAct::ByHand), 0);
+  if (!f.view.by_hand) return;
+  if (f.view.point.touched)
+    f.page.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
+                        technician_action(TechnicianAct::RemovePair));
+  if (f.view.pairs_changed)
+    f.page.small_button("run pairs", f.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
+                        technician_action(TechnicianAct::Run));
+}
+
+void rule_rows(TechnicianFrame& f) {
+  const TechnicianResult& r = f.view.result;
+  f.page.row("matches", f.tr("Matches"), f.page.number(static_cast<double>(r.matches)));
+  f.page.row("accepted", f.tr("Accepted matches"), f.page.number(static_cast<double>(r.accepted)));
+  f.page.section(f.tr("Rejected by"));
+  for (std::size_t i = 0; i < r.rule_count; ++i) {
+    const TechnicianRule& rule = r.rules[i];
+    Node row = f.page.box(Flow::Row, space::kS, 0, 6);
+    row.id = f.id("rule", i);
+    row.box.align = Align::Centre;
+    f.page.tree.open(row);
+    Node patch = f.page.sized(f.page.box(Flow::Column), 26, 26);
+    patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
+    patch.box.radius = f.page.px(6);
+    f.page.tree.leaf(patch);
+    f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
+    f.page.tree.leaf(f.page.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.page.palette.ink));
+    f.page.tree.close();
+    f.page.tree.leaf(f.page.text(f.page.number(static_cast<double>(rule.rejected)), type::kSmall,
+                                 Weight::Regular, f.page.palette.ink_soft));
+    f.page.tree.close();
+  }
+}
+
+void time_rows(TechnicianFrame& f) {
+  const TechnicianResult& r = f.view.result;
+  const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
+                              f.tr("Landmarks")};
+  for (std::size_t i = 0; i < r.seconds.size(); ++i) {
+    f.page.section(work_of(f.tr, i));
+    f.page.row(f.id("time", i), f.tr("Time"), f.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
+    f.page.row(f.id("made", i), made[i], f.page.number(static_cast<double>(r.made[i])));
+  }
+}
+
+void side_rows(TechnicianFrame& f) {
+  f.failure();
+  if (f.view.stage == TechnicianStage::Rectified) {
+    point_rows(f);
+    return change_rows(f);
+  }
+  if (f.view.stage == TechnicianStage::Mesh) change_rows(f);
+  if (f.view.stage == TechnicianStage::Matches) return rule_rows(f);
+  time_rows(f);
+}
+
+}  // namespace
+
+void technician_stages_page(StaffFrame& page) {
+  if (page.staff.technician == nullptr) return;
+  TechnicianFrame f(page);
+  if (f.view.saved.listed) return f.saved_list(TechnicianAct::Load);
+  const bool there = f.capture_state();
+  if (there) {
+    tabs(f);
+    page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+    if (is_pair(f.view.stage)) pair_pictures(f);
+    else one_picture(f);
+    Node side = page.grown(page.box(Flow::Column, space::kXs));
+    page.tree.open(side);
+    page.begin_panel("facts");
+    side_rows(f);
+    page.tree.close();
+    if (f.view.stage == TechnicianStage::Rectified) pair_buttons(f);
+    page.tree.close();
+    page.tree.close();
+  }
+  f.stick_state();
+  f.capture_buttons(false, true);
+}
+
+}  // namespace relievo::ui

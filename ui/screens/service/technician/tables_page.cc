@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The numbers behind the pictures, a page at a time.
+#include <algorithm>
+
+#include "ui/screens/service/technician/technician_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr float kGap = 6;  // between columns
+constexpr std::int32_t kFarPages = 100;
+
+const char* name_of_table(const Words& tr, TechnicianTable table) {
+  switch (table) {
+    case TechnicianTable::Matches:
+      return tr("Matches");
+    case TechnicianTable::Points:
+      return tr("Points");
+    case TechnicianTable::Model:
+      return tr("Model");
+    case TechnicianTable::Calibration:
+    case TechnicianTable::Count:
+      break;
+  }
+  return tr("Calibration");
+}
+
+struct Wide {  // a column of words, and how much wider than one of numbers
+  std::size_t column = ~std::size_t{0};
+  float share = 1;
+  float number = 4.95F;  // sizes of its letters that a column of numbers is wide: "−108.114"
+};
+
+// A number, several of them, or the rule that judged.
+std::string_view said(TechnicianFrame& f, std::string_view text) {
+  const std::string_view numbers = f.page.with_numbers(text);
+  return numbers == text ? f.rule_name(text) : numbers;
+}
+
+// How a record of the table is divided: where its columns have no room abreast, it goes on in the line below.
+struct Shape {
+  std::size_t columns = 0, abreast = 0;
+  Wide wide;
+};
+
+float letters_dp(const StaffFrame& page) { return page.portrait ? 15.0F : 18.0F; }
+
+Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
+  constexpr float kMargins = 112;  // of page, card and row
+  Shape shape{columns, columns, wide};
+  const float all = static_cast<float>(columns) - 1 + (wide.column < columns ? wide.share : 1);
+  const float gaps = kGap * (static_cast<float>(columns) - 1);
+  if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins)
+    shape.abreast = (columns + 1) / 2;
+  return shape;
+}
+
+void cell(TechnicianFrame& f, std::string_view words, bool heading) {
+  if (words.empty()) return;
+  Node node = f.page.text(f.left_to_right(heading ? words : said(f, words)), letters_dp(f.page),
+                          heading ? Weight::Bold : Weight::Regular,
+                          heading ? f.page.palette.ink : f.page.palette.ink_soft, TextAlign::Start);
+  node.style.tabular = true;
+  node.style.size_px =
+      f.page.px(letters_dp(f.page) * f.page.text_share);  // figures are as wide in every language
+  f.page.tree.leaf(node);
+}
+
+// Numbers stay left to right, as in any table of measurements.
+void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
+  const bool divided = shape.abreast < shape.columns;
+  for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
+    Node row = f.page.box(Flow::Row, kGap, 4, 0);
+    row.box.left_to_right = true;
+    row.box.min_height = f.page.px(36);
+    row.box.align = Align::Centre;
+    f.page.tree.open(row);
+    for (std::size_t i = first; i < first + shape.abreast; ++i) {
+      f.page.tree.open(f.page.grown(f.page.box(Flow::Column),
+                                    !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
+      if (i < shape.columns) cell(f, texts[i], heading);
+      f.page.tree.close();
+    }
+    f.page.tree.close();
+  }
+  if (divided) f.page.rule();
+}
+
+void pager(TechnicianFrame& f) {
+  const TechnicianRows& rows = f.view.rows;
+  if (rows.pages < 2) return;
+  Node row = f.page.box(Flow::Row, space::kS);
+  row.box.align = Align::Centre;
+  row.box.justify = Justify::Centre;
+  row.box.left_to_right = true;
+  f.page.tree.open(row);
+  const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
+    Node node =
+        f.page.sized(f.page.box(Flow::Row),
+                     std::min(96 * f.page.text_share, f.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
+    node.id = id;
+    node.name = spoken;
+    node.role = Role::Button;
+    node.action = technician_action(TechnicianAct::TurnPage, pages);
+    node.box.justify = Justify::Centre;
+    node.box.align = Align::Centre;
+    node.box.radius = f.page.px(18);
+    node.box.fill = f.page.palette.quiet;
+    node.box.border = f.page.palette.quiet_border;
+    node.box.border_px = f.page.px(2);
+    f.page.tree.open(node);
+    Node sign = f.page.text(f.left_to_right(label), type::kSmall, Weight::Bold, f.page.palette.link,
+                            TextAlign::Centre);
+    f.page.tree.leaf(sign);
+    f.page.tree.close();
+  };
+  turn("far back", f.tr("A hundred pages back"), "− 100", -kFarPages);
+  turn("page back", f.tr("One page back"), "−", -1);
+  const auto number = [&](std::size_t value) { return f.page.number(static_cast<double>(value)); };
+  Node where = f.page.text(f.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall,
+                           Weight::Medium, f.page.palette.ink, TextAlign::Centre);
+  where.id = "page number";
+  f.page.tree.leaf(where);
+  turn("page on", f.tr("One page on"), "+", 1);
+  turn("far on", f.tr("A hundred pages on"), "+ 100", kFarPages);
+  f.page.tree.close();
+}
+
+}  // namespace
+
+void technician_tables_page(StaffFrame& page) {
+  if (page.staff.technician == nullptr) return;
+  TechnicianFrame f(page);
+  const TechnicianRows& rows = f.view.rows;
+  const std::size_t across = page.portrait || page.text_share > 1.3F ? 2 : kTechnicianTables;
+  for (std::size_t first = 0; first < kTechnicianTables; first += across) {
+    page.tree.open(page.box(Flow::Row, space::kXs));
+    for (std::size_t i = first; i < first + across; ++i) {
+      const auto table = static_cast<TechnicianTable>(i);
+      f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
+               technician_action(TechnicianAct::ShowTable, static_cast<std::int32_t>(i)));
+    }
+    page.tree.close();
+  }
+  if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.view.calibrated)) {
+    if (f.capture_state()) {
+      page.nothing("no rows", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
+    }
+    return f.capture_buttons(false);
+  }
+  const std::size_t columns = rows.heads.size(), places = rows.cells.size();
+  if (columns == 0) return;
+  const Wide wide = rows.table == TechnicianTable::Calibration
+                        ? Wide{3, page.portrait && page.text_share > 1.2F ? 2.0F : 3.0F}
+                    : rows.table == TechnicianTable::Matches ? Wide{columns - 1, 1.8F, 4.4F}
+                                                             : Wide{};
+  page.begin_list("table");
+  const Shape shape = rows.table == TechnicianTable::Calibration ? Shape{columns, columns, wide}
+                                                                 : shape_of(page, columns, wide);
+  record(f, rows.heads, true, shape);
+  for (std::size_t at = 0; at + columns <= places; at += columns)
+    record(f, rows.cells.subspan(at, columns), false, shape);
+  page.tree.close();
+  pager(f);
+}
+
+}  // namespace relievo::ui

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TechnicianFrame: what the technician's picture pages share on top of StaffFrame: pictures that can be
+// touched and marked, rows of choices, the state of the test capture with the buttons that lead on. Lengths
+// in dp. Thread: main. Errors: none.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "ui/screens/service/staff_frame.h"
+#include "ui/technician/technician_act.h"
+#include "ui/technician/technician_view.h"
+
+namespace relievo::ui {
+
+inline Action technician_action(TechnicianAct act, std::int32_t argument = 0) {
+  return {ActionKind::StaffDo, static_cast<std::int32_t>(act), argument};
+}
+
+class TechnicianFrame {
+ public:
+  explicit TechnicianFrame(StaffFrame& page_in)
+      : page(page_in), tr(page_in.tr), view(*page_in.staff.technician) {}
+  StaffFrame& page;
+  const Words& tr;
+  const TechnicianView& view;
+
+  // A name made of two parts, kept for the frame: "stage 3".
+  std::string_view id(std::string_view what, std::size_t number) const;
+  // Figures and identifiers: left to right in every language.
+  std::string_view left_to_right(std::string_view text) const;
+  // Parts that stand on one line, kept for the frame.
+  std::string_view joined(std::string_view a, std::string_view between, std::string_view b) const;
+  // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands
+  // between them.
+  std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name) const;
+  // What a rule for matches is called (pipeline/algorithms); a name nobody knows, as it is.
+  std::string_view rule_name(std::string_view key) const;
+  // Names of algorithms and options, which may be divided where their parts meet.
+  std::string_view breakable(std::string_view names) const;
+  // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows
+  // by.
+  float open_buttons() const;
+  // One of several: the chosen one is filled and ticked.
+  void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
+  // Pages whose words are large, or narrow ones, put less beside each other.
+  std::size_t across(std::size_t most) const {
+    return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most;
+  }
+  // How much wider than the figures beside them pictures are: large words take room from them.
+  float picture_share(float usual) const {
+    return page.portrait ? 1.0F : page.text_share > 1.2F ? usual * 0.65F : usual;
+  }
+
+  // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
+  // to it (Node::pinned). Touched, `action` says where; `dragged` as in Node.
+  void open_picture(std::string_view id, std::string_view spoken, const TechnicianPicture& picture,
+                    PictureSlot slot, Action action = {}, Action dragged = {});
+  void close_picture();
+  // On the open picture: a line over its whole width, a ring; shares of the picture.
+  void pin_line(float y, Colour colour, float thick_dp);
+  void pin_dot(float x, float y, Colour colour, std::string_view id);
+
+  // The way into every page that needs a capture: nothing there, under way, or what went wrong; true when
+  // there is a result to be shown below it.
+  bool capture_state();
+  // In their place while there is no calibration: what to do first.
+  void uncalibrated();
+  // The buttons under the pages of the test capture.
+  // `with_stick`: also those between the reconstruction and the stick.
+  void capture_buttons(bool with_run, bool with_stick = false);
+  void problem(const Fault& fault);  // empty: nothing is shown
+  void failure();                    // of the present result's stages
+  // The reconstructions on the stick, in place of the page: a touch asks for `load`.
+  void saved_list(TechnicianAct load);
+  // What becomes of a recording, above the buttons that lead on.
+  void stick_state();
+
+ private:
+  void alert(std::string_view words, std::string_view detail);
+  void stick_buttons();
+};
+
+const char* title_of(const Words& tr, TechnicianStage stage);
+// Has it a surface, to be turned with a finger?
+inline bool is_turned(TechnicianStage stage) {
+  return stage == TechnicianStage::Mesh || stage == TechnicianStage::Texture;
+}
+const char* work_of(const Words& tr, std::size_t stage);  // of kStages
+
+// The pictures and the model of these pages; false where `page` is none of them.
+bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit, StaffPage page);
+
+// The pages; each draws nothing but "not here" without a TechnicianView.
+void technician_stages_page(StaffFrame& page);
+void technician_model_page(StaffFrame& page);
+void technician_tables_page(StaffFrame& page);
+void technician_algorithms_page(StaffFrame& page);
+void technician_compare_page(StaffFrame& page);
+void technician_cameras_page(StaffFrame& page);
+void technician_calibrate_page(StaffFrame& page);
+
+}  // namespace relievo::ui

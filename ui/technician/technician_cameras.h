@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the cameras say while they are watched, and a live calibration from its first pair to its verdict.
+// Texts and pictures are borrowed for a frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ui/technician/technician_result.h"
+
+namespace relievo::ui {
+
+struct TechnicianCamera {
+  TechnicianPicture picture;
+  float mean = 0, clipped = 0;  // of the middle: 1 is white; the share that is burnt out
+  float focus = 0;              // how sharp the middle is against the sharpest seen since the watch began
+  std::uint64_t frames = 0, lost = 0, damaged = 0;
+};
+struct TechnicianCameras {
+  bool watched = false;
+  std::array<TechnicianCamera, 2> camera;  // left, right
+  float skew_us = 0, pairs_per_second = 0;
+  std::uint64_t pairs = 0, apart = 0;
+  float exposure_us = 0, gain = 0;  // as asked for last
+  bool can_be_set = false;
+  bool relief_shown = false;
+  TechnicianPicture relief;  // near is bright, black is unknown
+  Fault problem;             // why there is no relief
+};
+
+inline constexpr std::size_t kCalibrationRows = 6, kCoverageCells = 8;
+struct TechnicianCalibrationRow {
+  std::uint32_t revision = 0;
+  bool active = false;
+  std::string_view made_at, note;
+  float rms_px = 0, depth_error_mm = 0;  // 0: not known
+};
+// As in pipeline/calibrate/live/live_advice.h, one for one. Sides are those of the left camera's picture.
+enum class BoardAdvice : std::uint8_t {
+  ShowBoard,
+  LeftCameraMissesIt,
+  RightCameraMissesIt,
+  HoldStill,
+  TooBlurred,
+  Closer,
+  Farther,
+  Left,
+  Right,
+  Up,
+  Down,
+  TiltLeft,
+  TiltRight,
+  TiltForward,
+  TiltBack,
+  TurnClockwise,
+  TurnCounterclockwise,
+  AlreadyHave,
+  SwappedCameras,
+  Done
+};
+enum class BoardEnd : std::uint8_t { NotYet, GoalReached, Plateau, Full };
+enum class TechnicianVerdict : std::uint8_t { None, Good, Warn, Refuse };
+struct TechnicianCalibration {
+  int columns = 10, rows = 7;
+  float square_mm = 20;
+  bool charuco = false;
+  bool running = false, ended = false, stored = false;
+  std::array<TechnicianPicture, 2> pictures;  // with the corners and the wanted board drawn in
+  BoardAdvice advice = BoardAdvice::ShowBoard;
+  BoardEnd end = BoardEnd::NotYet;
+  bool a_little = false;
+  int pairs = 0, views = 0, disagreeing = 0;
+  std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
+  std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>
+      seen{};                       // corners in each part of the pictures, row by row
+  float error_mm = 0, goal_mm = 0;  // predicted, of distances, one standard deviation
+  TechnicianVerdict verdict = TechnicianVerdict::None;
+  float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
+  std::span<const std::string> reasons;  // why it is good, doubted or refused, most important first; English
+  std::string_view exported;             // the folder on the stick; empty: none was
+  Fault problem;                         // what went wrong
+  std::array<TechnicianCalibrationRow, kCalibrationRows> history{};
+  std::size_t history_count = 0;
+};
+
+}  // namespace relievo::ui

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// TechnicianView: everything the technician's picture pages may draw, as plain data. No person's name comes
+// here. Everything is borrowed from firmware/technician for the length of one frame. Thread: main.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/point_cloud.h"
+#include "ui/technician/technician_cameras.h"
+#include "ui/technician/technician_choice.h"
+#include "ui/technician/technician_result.h"
+#include "ui/view/service_view.h"
+
+namespace relievo::ui {
+
+// The pages that have something under way only while they are open.
+enum class TechnicianPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
+
+// The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
+struct TechnicianRecording {
+  bool running = false;
+  bool reading = false;  // what runs
+  float progress = 0;
+  Outcome outcome = Outcome::None;
+  std::string_view where;  // the folder on the stick; empty: nothing is there
+};
+
+inline constexpr std::size_t kSavedRows = 6;
+struct TechnicianSaved {
+  bool listed = false;                 // shown in place of the capture
+  std::span<const std::string> names;  // the newest first, kSavedRows at most
+};
+
+// A result beside others: what it made of the stage that is shown.
+inline constexpr std::size_t kCompared = 4;
+struct TechnicianCompared {
+  TechnicianResult result;
+  TechnicianPicture picture;                   // empty: the stage made none
+  const pipeline::FaceModel* model = nullptr;  // of a surface: to be turned; missing: none, or too large
+  std::uint32_t model_number = 0;
+};
+
+struct TechnicianView {
+  TechnicianPhase phase = TechnicianPhase::Empty;
+  bool calibrated =
+      true;  // without a calibration there is no test capture, unless it was loaded with its own
+  float progress = 0;
+  std::uint8_t working_on = 0;  // of the stages, while phase is Running
+  Fault problem;
+  TechnicianStage stage = TechnicianStage::Rectified;
+  std::array<TechnicianPicture, 2> shown{};  // of the stage; the second is empty where there is one only
+  TechnicianPoint point;
+  bool by_hand = false;  // touches make pairs; `point` is the chosen one
+  std::span<const TechnicianPoint> pairs;
+  bool pairs_changed = false;  // since they were calculated with
+  TechnicianChange change;
+  bool can_record = false;  // there is a capture, and nobody is at work on it
+  TechnicianRecording recording;
+  TechnicianSaved saved;
+  TechnicianResult result;                               // the present one
+  std::array<TechnicianCompared, kCompared> compared{};  // those put aside, and behind them the present one
+  std::size_t put_aside = 0;                             // so many of them
+  bool applied = false;  // visitors are measured with the chosen algorithms now
+  const pipeline::FaceModel* model = nullptr;
+  const pipeline::PointCloud* cloud = nullptr;
+  std::uint32_t model_number = 0;
+  TechnicianChoice choice;
+  TechnicianRows rows;
+  TechnicianCameras cameras;
+  TechnicianCalibration calibration;
+};
+
+}  // namespace relievo::ui
