@@ -77,8 +77,8 @@ Appliance::Appliance(Parts parts)
       pose_(grabber_, session_, parts.device, parts.pool, parts.judge),
       grab_(grabber_, session_, parts.device, pose_),
       stage_(parts.stages, session_, parts.pool, parts.device.clock()),
-      keep_(std::move(parts.keep), session_),
-      look_up_(std::move(parts.look_up)),
+      keep_(parts.records, session_),
+      look_up_(parts.records),
       capture_(reports_),
       worker_(reports_),
       keeper_(reports_) {
@@ -92,16 +92,31 @@ float Appliance::progress() const { return running_ != nullptr ? running_->progr
 
 void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::StillHere) return machine_.renew(device_.clock().now());
-  if (intent == ui::Intent::LookUp) {
-    if (machine_.state() == State::Idle && running_ == nullptr) start(keeper_, look_up_);
-    return;
-  }
   handle(event_of(intent));
+  if (!session_.is_open()) record_ = {};
 }
 
-void Appliance::forget_subject() {
-  explicit_bzero(next_subject_.data(), next_subject_.size());
-  next_subject_.clear();
+void Appliance::ask_records(RecordQuestion question) {
+  if (looks_up_) return;
+  answer_ = {question.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode};
+  if (machine_.state() != State::Idle || running_ != nullptr) return;
+  look_up_.give(std::move(question));
+  answer_ = {ui::Known::Asking};
+  looks_up_ = true;
+  start(keeper_, look_up_);
+}
+
+void Appliance::forget_answer() {
+  answer_ = {};
+  drops_answer_ = looks_up_;
+}
+
+// The job has ended; what it was asked goes, too.
+void Appliance::heard_answer() {
+  looks_up_ = false;
+  const RecordAnswer answer = look_up_.take();
+  look_up_.give({});
+  if (!std::exchange(drops_answer_, false)) answer_ = answer;
 }
 
 void Appliance::step(std::chrono::milliseconds wait) {
@@ -174,6 +189,11 @@ void Appliance::heard(const JobReport& report) {
   if (report.job != job_) return;  // of a state that was left
   running_ = nullptr;
   job_ = 0;
+  if (looks_up_) {
+    heard_answer();
+    if (report.error) note(*report.error);
+    return;
+  }
   const State state = machine_.state();
   if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
   if (state == State::Match && session_.products().drift) note(*session_.products().drift);
@@ -184,6 +204,7 @@ void Appliance::heard(const JobReport& report) {
            : advise                                                 ? Event::AdviceGiven
                                                                     : Event::StageFailed);
   } else {
+    if (state == State::Store) kept_ = keep_.take();
     if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
     handle(state == State::SelfTest  ? Event::Passed
            : state == State::Capture ? Event::Triggered
@@ -208,6 +229,7 @@ void Appliance::stop_job() {
   running_->wait_until_idle();
   running_ = nullptr;
   job_ = 0;
+  if (looks_up_) heard_answer();
 }
 
 bool Appliance::open_session() {
@@ -215,7 +237,7 @@ bool Appliance::open_session() {
   problem_.reset();
   drift_.reset();
   records_.clear();
-  const Result<void> opened = session_.open(next_subject_);
+  const Result<void> opened = session_.open(record_.name.view());
   if (opened) return true;
   note(opened.error());
   handle(Event::Cancel);
@@ -266,6 +288,8 @@ void Appliance::close_session() {
     thread->cancel();
     thread->wait_until_idle();
   }
+  if (session_.is_open()) record_ = {};
+  keep_.give({});
   session_.close();
 }
 
@@ -291,6 +315,9 @@ void Appliance::entered(const Change& change) {
       break;
     case State::Store:
       problem_.reset();
+      record_.stages = records_;
+      record_.drift = drift_;
+      keep_.give(record_);
       start(keeper_, keep_);
       break;
     case State::Idle:

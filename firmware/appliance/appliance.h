@@ -38,19 +38,24 @@ class Appliance {
     StageRunner& stages;
     const BootMemory& memory;
     ThreadPool& pool;
-    Keep keep;
+    VisitRecords& records;
     LiveJudge* judge = nullptr;  // advice for a person at the screen; without one the picture alone is shown
-    std::function<Result<void>()> look_up = {};  // on the keeper, for Intent::LookUp: asks the records
   };
   explicit Appliance(Parts parts);
   ~Appliance();
   Appliance(const Appliance&) = delete;
   Appliance& operator=(const Appliance&) = delete;
 
-  // Whom the next Begin enrols.
-  void set_subject(std::string_view name) { next_subject_ = name; }
-  // Nobody's name is remembered longer than a session.
-  void forget_subject();
+  // What the next visit is stored as. It is remembered no longer than that visit's session; without one it
+  // goes with the next intent.
+  void expect(VisitRecord record) { record_ = std::move(record); }
+  // Of the visit that was stored last, until it is forgotten.
+  const KeptVisit& kept() const { return kept_; }
+  void forget_kept() { kept_ = {}; }
+  // Asks the records, while nobody's session is open; Asking until they have answered.
+  void ask_records(RecordQuestion question);
+  const RecordAnswer& answer() const { return answer_; }
+  void forget_answer();
   void ask(ui::Intent intent);
   // Waits at most `wait` for something to happen, and deals with it.
   void step(std::chrono::milliseconds wait);
@@ -110,6 +115,7 @@ class Appliance {
   void heard_side(std::size_t lane, const JobReport& report);
   void heard(const JobReport& report);
   void close_session();
+  void heard_answer();
   void note(const Error& error);
   void note(const pipeline::DriftJudgement& drift);
 
@@ -123,7 +129,10 @@ class Appliance {
   StageJob stage_;
   KeepJob keep_;
   LookUpJob look_up_;
-  std::string next_subject_;
+  VisitRecord record_;
+  KeptVisit kept_;
+  RecordAnswer answer_;
+  bool looks_up_ = false, drops_answer_ = false;
   int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
   bool attended_ = false;  // a person is at the screen: advice instead of another try
   std::optional<Error> problem_;

@@ -11,6 +11,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/command/subject_lookup.h"
 #include "firmware/jobs/pool_size.h"
+#include "firmware/kiosk/stored_visits.h"
 #include "firmware/report/report.h"
 #include "firmware/work/pipeline_stages.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -119,16 +120,24 @@ void tell(const Change& change, const Appliance& appliance, Console& console) {
   }
 }
 
-std::string report_of(const Appliance& appliance, const PipelineStages& stages, const Calibrated& calibrated,
-                      const pipeline::FaceModel& model) {
-  Report report{calibrated.name,     stages.algorithms().to_text(),
-                appliance.records(), {},
-                peak_rss_bytes(),    model.quality,
-                appliance.drift(),   {},
-                model.landmarks,     model.head_from_camera};
-  for (const StageRecord& stage : report.stages) report.total += stage.took;
-  return report_json(report);
-}
+// What a model was measured with must be found again, also when its file is gone.
+class EnrolledVisits final : public StoredVisits {
+ public:
+  EnrolledVisits(storage::Store& store, const hal::Clock& clock, const Path& folder, const Calibrated& used)
+      : StoredVisits(store, clock, folder), store_(store), used_(used) {}
+  Result<KeptVisit> keep(const VisitRecord& record, const pipeline::FaceModel& model) override {
+    VisitRecord known = record;
+    if (known.calibration == 0) {
+      RELIEVO_TRY_ASSIGN(known.calibration,
+                         store_.know_calibration(used_.calibration, "of an enrolment, from " + used_.note));
+    }
+    return StoredVisits::keep(known, model);
+  }
+
+ private:
+  storage::Store& store_;
+  const Calibrated& used_;
+};
 
 // The log of events remembers every face that spoke against the calibration; nobody's name goes into it.
 Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated, storage::Store& store) {
@@ -146,39 +155,29 @@ Result<void> run_enrol(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, device->preferred_mode(), services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
-  RELIEVO_TRY_ASSIGN(const storage::SubjectChoice subject, choose_subject(*store, args.subject));
+  RELIEVO_TRY_ASSIGN(const std::optional<storage::SubjectId> subject, choose_subject(*store, args.subject));
 
   const BootMemory memory;
   ThreadPool pool(pool_size());
   PipelineStages stages(std::move(pipeline));
-  const Appliance* records = nullptr;
-  storage::EnrolmentId enrolment{};
-  // Runs on the keeper while this thread only waits for it.
-  const Keep keep = [&](std::string_view, const pipeline::FaceModel& model) -> Result<void> {
-    const auto now = std::chrono::floor<std::chrono::milliseconds>(device->clock().wall_now());
-    const std::string report = report_of(*records, stages, calibrated, model);
-    const std::string algorithms = stages.algorithms().to_text();
-    // What a model was measured with must be found again, also when the file is gone.
-    std::uint32_t revision = calibrated.revision;
-    if (revision == 0) {
-      RELIEVO_TRY_ASSIGN(revision, store->know_calibration(calibrated.calibration,
-                                                           "of an enrolment, from " + calibrated.note));
-    }
-    RELIEVO_TRY_ASSIGN(
-        enrolment,
-        store->add_enrolment(subject, {model, {kConsentWording, "en", now}, revision, algorithms, report}));
-    return {};
-  };
-  Appliance appliance({*device, stages, memory, pool, keep});
-  records = &appliance;
+  EnrolledVisits visits(*store, device->clock(), store_folder(args.store), calibrated);
+  Appliance appliance({*device, stages, memory, pool, visits});
   appliance.grabber().expect(calibrated.calibration.cameras);
-  appliance.set_subject(args.subject);
+  VisitRecord record;
+  record.name = std::string_view(args.subject);
+  record.whose = subject;
+  record.consent = {kConsentWording, "en",
+                    std::chrono::floor<std::chrono::milliseconds>(device->clock().wall_now())};
+  record.calibration = calibrated.revision;
+  record.calibration_note = calibrated.name;
+  record.algorithms = stages.algorithms().to_text();
+  appliance.expect(record);
   appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
   const Result<void> done = drive(appliance, services.console);
   const Result<void> logged = log_drift(appliance, calibrated, *store);
   if (!done) return done.error().where().empty() ? done.error().at(args.device) : done.error();
   services.console.say("stored: " + args.subject + ", enrolment " +
-                       std::to_string(static_cast<std::int64_t>(enrolment)));
+                       std::to_string(static_cast<std::int64_t>(appliance.kept().enrolment)));
   return logged;
 }
 

@@ -48,14 +48,14 @@ Result<void> check_subject(std::string_view name_or_number) {
       .at("--subject");
 }
 
-Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number) {
+Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
+                                                         std::string_view name_or_number) {
   if (const auto id = number_in(name_or_number)) {
     RELIEVO_TRY_ASSIGN(const auto known, store.subject(*id));
-    return storage::SubjectChoice(known.id);
+    return std::optional(known.id);
   }
   RELIEVO_TRY_ASSIGN(const auto found, of_name(store, name_or_number));
-  if (!found.empty()) return storage::SubjectChoice(found.front().id);
-  return storage::SubjectChoice(storage::NewSubject{std::string(name_or_number)});
+  return found.empty() ? std::nullopt : std::optional(found.front().id);
 }
 
 }  // namespace relievo::firmware

@@ -16,6 +16,7 @@ namespace relievo::firmware {
 Result<void> check_subject(std::string_view name_or_number);
 Result<storage::Subject> find_subject(storage::Store& store, std::string_view name_or_number);
 // The one of that name, or somebody new.
-Result<storage::SubjectChoice> choose_subject(storage::Store& store, std::string_view name_or_number);
+Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
+                                                         std::string_view name_or_number);
 
 }  // namespace relievo::firmware

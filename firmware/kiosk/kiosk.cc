@@ -9,21 +9,9 @@
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
 #include "firmware/jobs/pool_size.h"
-#include "firmware/kiosk/code/code_guard.h"
-#include "firmware/records/disk_room.h"
-#include "firmware/records/receipt.h"
-#include "firmware/report/report.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
-namespace {
-
-void wipe(std::string& text) {
-  explicit_bzero(text.data(), text.size());
-  text.clear();
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& services) {
   std::unique_ptr<Kiosk> kiosk(new Kiosk);
@@ -36,9 +24,6 @@ Kiosk::~Kiosk() {
   staff_.reset();
   if (appliance_) appliance_->end_side_job(JobLane::Capture);
   appliance_.reset();
-  wipe(receipt_);
-  wipe(claimed_);
-  wipe(quoted_);
 }
 
 // None: nobody has calibrated this device yet.
@@ -97,7 +82,6 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   ui_ = std::make_unique<ui::Ui>(std::move(text));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
   may_tell_known_ = args.tells_known;
-  folder_ = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
   restarted_ = run_mark_->ended_early();
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
@@ -108,18 +92,9 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
-  const Keep put_away = [this](std::string_view subject, const pipeline::FaceModel& model) {
-    return keep(subject, model);
-  };
+  visits_ = std::make_unique<StoredVisits>(*store_, device_->clock(), store_folder(args.store));
   appliance_ = std::make_unique<Appliance>(
-      Appliance::Parts{*device_, *stages_, *memory_, *pool_, put_away, judge_.get(), [this] {
-                         Result<void> asked = look_up();
-                         // Whom the records cannot answer for is somebody new; a code they cannot answer for
-                         // is none.
-                         if (!asked)
-                           found_.store(quoted_.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode);
-                         return asked;
-                       }});
+      Appliance::Parts{*device_, *stages_, *memory_, *pool_, *visits_, judge_.get()});
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
@@ -154,59 +129,20 @@ std::unique_ptr<TestCapture> Kiosk::make_test_capture(const KioskArgs& args, Ser
                          }});
 }
 
-// On the keeper, while the main thread only draws.
-Result<void> Kiosk::keep(std::string_view subject, const pipeline::FaceModel& model) {
-  RELIEVO_TRY(disk_has_room(folder_, consented_.least_room_mib));
-  Report report{"store revision " + std::to_string(revision_),
-                stages_->algorithms().to_text(),
-                appliance_->records(),
-                {},
-                peak_rss_bytes(),
-                model.quality,
-                appliance_->drift(),
-                {},
-                model.landmarks,
-                model.head_from_camera};
-  for (const StageRecord& stage : report.stages) report.total += stage.took;
-  const std::string json = report_json(report), algorithms = report.algorithms;
-  const storage::Consent consent{consented_.wording, consented_.language,
-                                 std::chrono::floor<std::chrono::milliseconds>(consented_.at)};
-  // Somebody new, unless a code was quoted: that two people have one name must mix nothing up.
-  const bool known = consented_.enrolment_kind != ui::EnrolmentKind::NewSubject;
-  const storage::SubjectChoice whose =
-      known ? storage::SubjectChoice(record_) : storage::NewSubject{std::string(subject)};
-  RELIEVO_TRY_ASSIGN(const storage::EnrolmentId id,
-                     store_->add_enrolment(whose, {model, consent, revision_, algorithms, json,
-                                                   consented_.enrolment_kind == ui::EnrolmentKind::Renewal}));
-  RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_->enrolment(id));
-  RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_->subject(stored.subject));
-  receipt_ = receipt_of(whom);
-  return {};
-}
-
-// On the keeper. Nothing but whether there is such a record leaves this function.
-Result<void> Kiosk::look_up() {
-  ui::Known said = ui::Known::Nobody;
-  if (!quoted_.empty()) {
-    said = ui::Known::NoSuchCode;
-    CodeGuard guard(*store_, device_->clock());
-    RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
-    const Result<storage::Subject> subject =
-        listens ? find_by_receipt(*store_, quoted_)
-                : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
-    if (!subject && subject.error().code != Errc::NotFound) return subject.error();
-    if (subject && subject->name == claimed_) {
-      RELIEVO_TRY(guard.was_right());
-      said = ui::Known::Code;
-      record_ = subject->id;
-    }
-  } else if (tells_known_) {
-    const auto same = store_->subjects({.name = claimed_, .whole_name = true, .limit = 1});
-    if (!same) return same.error();
-    said = same->empty() ? ui::Known::Nobody : ui::Known::Name;
-  }
-  found_.store(said, std::memory_order_release);
-  return {};
+VisitRecord Kiosk::record_of(const ui::VisitRequest& request) const {
+  VisitRecord record;
+  const bool known = request.enrolment_kind != ui::EnrolmentKind::NewSubject;
+  record.name = known ? claimed_.view() : request.name;
+  if (known) record.whose = appliance_->answer().record;
+  record.renews = request.enrolment_kind == ui::EnrolmentKind::Renewal;
+  record.consent = {view_.consent != nullptr ? view_.consent->version : std::string(request.wording),
+                    std::string(request.language),
+                    std::chrono::floor<std::chrono::milliseconds>(request.agreed_at)};
+  record.calibration = revision_;
+  record.calibration_note = "store revision " + std::to_string(revision_);
+  record.algorithms = stages_->algorithms().to_text();
+  record.least_room_mib = view_.settings.of(ui::Setting::LeastRoomMib);
+  return record;
 }
 
 // A consent must not bear a date before the newest record's, nor one before this program was; and nobody is
@@ -226,7 +162,7 @@ void Kiosk::look() {
   view_ = view_of(*appliance_);
   view_.now = device_->clock().now();
   view_.wall_now = device_->clock().wall_now();
-  if (appliance_->state() != State::Store) view_.receipt = receipt_;
+  if (appliance_->state() != State::Store) view_.receipt = appliance_->kept().receipt.view();
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
   for (std::size_t i = 0; i < ui::kLanguages; ++i)
@@ -238,7 +174,7 @@ void Kiosk::look() {
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
   while (!view_.languages[static_cast<std::size_t>(view_.home)])
     view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
-  view_.known = found_.load(std::memory_order_acquire);
+  view_.known = appliance_->answer().known;
   const Result<void> cameras = appliance_->grabber().check_cameras();
   exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
@@ -269,32 +205,16 @@ void Kiosk::ask(ui::Intent intent) {
   if (!measures && appliance_->state() == State::Idle &&
       (intent == ui::Intent::Pose || intent == ui::Intent::Begin))
     return;
-  if (intent == ui::Intent::Pose && appliance_->state() == State::Idle) {
+  if (intent == ui::Intent::Pose && appliance_->state() == State::Idle)
+    appliance_->expect(record_of(ui_->request()));
+  if (intent == ui::Intent::LookUp && appliance_->answer().known != ui::Known::Asking) {
     const ui::VisitRequest request = ui_->request();
-    consented_ = {view_.consent != nullptr ? view_.consent->version : std::string(request.wording),
-                  std::string(request.language), request.agreed_at, request.enrolment_kind,
-                  view_.settings.of(ui::Setting::LeastRoomMib)};
-    appliance_->set_subject(
-        request.enrolment_kind == ui::EnrolmentKind::NewSubject ? request.name : std::string_view(claimed_));
-  }
-  if (intent == ui::Intent::LookUp && found_.load() != ui::Known::Asking) {
-    const ui::VisitRequest request = ui_->request();
+    if (!request.quotes_code) quoted_.wipe();
     (request.quotes_code ? quoted_ : claimed_) = request.name;
-    if (!request.quotes_code) wipe(quoted_);
-    tells_known_ = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
-    found_.store(ui::Known::Asking);
+    const bool tells = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
+    appliance_->ask_records({claimed_, quoted_, tells});
   }
-  appliance_->ask(intent);
-  appliance_->forget_subject();  // the session has it
-}
-
-// Who was asked about; not while the keeper still reads it.
-void Kiosk::forget_asked() {
-  wipe(claimed_);
-  wipe(quoted_);
-  record_ = {};
-  found_.store(ui::Known::NotAsked);
-  forgets_asked_ = false;
+  if (intent != ui::Intent::LookUp) appliance_->ask(intent);
 }
 
 void Kiosk::turn() {
@@ -311,7 +231,7 @@ void Kiosk::turn() {
   look();
   if (auto shown = code_scanner_->turn(ui_->visit(), view_.now)) {
     ui_->visit().enter(*shown, view_.now);
-    wipe(*shown);
+    explicit_bzero(shown->data(), shown->size());
   }
   // What fingers asked for comes first: a frame must not take an older answer for the new one's.
   while (const auto intent = ui_->take_intent()) {
@@ -333,12 +253,12 @@ void Kiosk::turn() {
   }
   told_ = told_ || ui_->visit().step == ui::Step::Trouble;
   if (ui_->take_forgotten()) {
-    wipe(receipt_);
-    forgets_asked_ = true;
-    consented_ = {};
+    appliance_->forget_kept();
+    appliance_->forget_answer();
+    claimed_.wipe();
+    quoted_.wipe();
     forgotten_ = true;
   }
-  if (forgets_asked_ && found_.load() != ui::Known::Asking) forget_asked();
 }
 
 }  // namespace relievo::firmware

@@ -11,7 +11,6 @@
 // Errors of open(): those of device, store, fonts, words and algorithms.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +20,7 @@
 #include "firmware/kiosk/invitation_head.h"
 #include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/run_mark.h"
+#include "firmware/kiosk/stored_visits.h"
 #include "firmware/services/services.h"
 #include "firmware/staff/staff_controller.h"
 #include "firmware/work/camera_look.h"
@@ -51,12 +51,6 @@ class Kiosk {
   const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
 
  private:
-  struct Consented {
-    std::string wording, language;
-    std::chrono::system_clock::time_point at;
-    ui::EnrolmentKind enrolment_kind = ui::EnrolmentKind::NewSubject;
-    std::int32_t least_room_mib = 0;
-  };
   Kiosk() = default;
   Result<void> prepare(const KioskArgs& args, Services& services);
   Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args,
@@ -64,10 +58,8 @@ class Kiosk {
   Result<pipeline::AlgorithmSet> chosen_algorithms(const KioskArgs& args);
   Result<void> set_up_measuring(const KioskArgs& args, Services& services);
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
-  Result<void> look_up();
-  void forget_asked();
   ui::Trouble out_of_order() const;
-  Result<void> keep(std::string_view subject, const pipeline::FaceModel& model);
+  VisitRecord record_of(const ui::VisitRequest& request) const;
   void look();
   void ask(ui::Intent intent);
 
@@ -80,24 +72,18 @@ class Kiosk {
   std::unique_ptr<InvitationHead> invitation_head_;
   std::unique_ptr<ui::Ui> ui_;
   std::uint32_t revision_ = 0;
-  Consented consented_;
   std::bitset<ui::kLanguages> languages_;
-  // A name that is asked about, a code that is quoted, and the record both belong to. Main's, but while
-  // the keeper looks up: then Asking is to be seen, and found_ is written last.
-  std::string claimed_, quoted_;
+  WipedText claimed_, quoted_;  // a name that is asked about, a code that is quoted
   std::unique_ptr<CameraLook> camera_look_;
   ui::Fault exchanged_;  // which cameras are not the calibrated ones; empty: they are
-  storage::SubjectId record_{};
-  std::atomic<ui::Known> found_{ui::Known::NotAsked};
-  bool may_tell_known_ = true, tells_known_ = true, forgets_asked_ = false;
-  Path folder_;  // of the store
+  bool may_tell_known_ = true;
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
   bool restarted_ = false, told_ = false;
   storage::WallTime newest_record_{};
-  std::string receipt_;  // written by the keeper while the state is Store
   ui::ViewState view_;
   bool forgotten_ = false;
+  std::unique_ptr<StoredVisits> visits_;
   std::unique_ptr<Appliance> appliance_;    // its threads use everything above
   std::unique_ptr<StaffController> staff_;  // these two use the appliance
   std::unique_ptr<CodeScanner> code_scanner_;

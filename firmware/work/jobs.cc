@@ -124,7 +124,15 @@ Result<void> KeepJob::run(JobControl& control) {
   // Asked before the transaction begins: once it runs, it ends, whole or not at all.
   if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
   RELIEVO_ASSERT(session_.products().model.has_value());
-  return keep_(session_.subject(), *session_.products().model);
+  RELIEVO_TRY_ASSIGN(kept_, records_.keep(record_, *session_.products().model));
+  return {};
+}
+
+Result<void> LookUpJob::run(JobControl&) {
+  // Whom the records cannot answer for is somebody new; a code they cannot answer for is none.
+  answer_.known = question_.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode;
+  RELIEVO_TRY_ASSIGN(answer_, records_.look_up(question_));
+  return {};
 }
 
 }  // namespace relievo::firmware

@@ -5,7 +5,7 @@
 //   capture: OpenCamerasJob, PoseJob, GrabJob    worker: StageJob    keeper: KeepJob, LookUpJob
 #pragma once
 
-#include <functional>
+#include <utility>
 
 #include "firmware/capture/burst.h"
 #include "firmware/capture/exposure_control.h"
@@ -14,6 +14,7 @@
 #include "firmware/jobs/job_thread.h"
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
+#include "firmware/work/visit_records.h"
 #include "hal/base/thread_pool.h"
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -101,27 +102,34 @@ class StageJob final : public Job {
   StageRecord record_;
 };
 
-// Puts a finished model away; how, the appliance's maker says (a store, or a test's memory).
-using Keep = std::function<Result<void>(std::string_view subject, const pipeline::FaceModel& model)>;
-
+// Puts a finished model away. What it works with is given before it starts, what it found taken when it has
+// ended: both by the main thread.
 class KeepJob final : public Job {
  public:
-  KeepJob(Keep keep, EnrolmentSession& session) : keep_(std::move(keep)), session_(session) {}
+  KeepJob(VisitRecords& records, EnrolmentSession& session) : records_(records), session_(session) {}
+  void give(VisitRecord record) { record_ = std::move(record); }
+  KeptVisit take() { return std::exchange(kept_, {}); }
   Result<void> run(JobControl& control) override;
 
  private:
-  Keep keep_;
+  VisitRecords& records_;
   EnrolmentSession& session_;
+  VisitRecord record_;
+  KeptVisit kept_;
 };
 
-// Asks the records while nobody's session is open.
+// Asks the records while nobody's session is open; given and taken as a KeepJob's.
 class LookUpJob final : public Job {
  public:
-  explicit LookUpJob(std::function<Result<void>()> look_up) : look_up_(std::move(look_up)) {}
-  Result<void> run(JobControl&) override { return look_up_(); }
+  explicit LookUpJob(VisitRecords& records) : records_(records) {}
+  void give(RecordQuestion question) { question_ = std::move(question); }
+  RecordAnswer take() { return std::exchange(answer_, {}); }
+  Result<void> run(JobControl& control) override;
 
  private:
-  std::function<Result<void>()> look_up_;
+  VisitRecords& records_;
+  RecordQuestion question_;
+  RecordAnswer answer_;
 };
 
 }  // namespace relievo::firmware

@@ -79,7 +79,7 @@ TEST_F(ApplianceTest, ACameraThatMovedTooFarIsAFault) {
 
 TEST_F(ApplianceTest, ANameThatIsTooLongIsToldAndNothingBegins) {
   ASSERT_TRUE(reach(State::Idle));
-  appliance.set_subject(std::string(500, 'x'));
+  appliance.expect(named(std::string(500, 'x')));
   appliance.ask(ui::Intent::Begin);
   EXPECT_EQ(appliance.state(), State::Idle);
   EXPECT_EQ(appliance.problem()->code, Errc::InvalidInput);
@@ -92,8 +92,10 @@ TEST(ApplianceSelfTest, ACameraThatDoesNotOpenIsAFault) {
   TestStages stages;
   const BootMemory memory(2 * 7 * 16, 1 << 16, 1 << 16);
   ThreadPool pool(1);
-  Appliance appliance({device, stages, memory, pool,
-                       [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
+  std::string kept;
+  std::deque<Errc> errors;
+  TestRecords records{kept, errors};
+  Appliance appliance({device, stages, memory, pool, records});
   while (appliance.state() == State::SelfTest) appliance.step(milliseconds(1));
   EXPECT_EQ(appliance.state(), State::Fault);
   EXPECT_EQ(appliance.problem()->code, Errc::IoFailed);

@@ -102,4 +102,33 @@ TEST_F(ApplianceTest, ATechnicianComesAndGoes) {
 }
 
 }  // namespace
+TEST_F(ApplianceTest, WhatTheRecordsAnsweredIsHeardWhenTheyHave) {
+  ASSERT_TRUE(reach(State::Idle));
+  records.known = {ui::Known::Code, storage::SubjectId{7}};
+  records.held.store(true);
+  appliance.ask_records({WipedText("Ada"), WipedText("4821"), true});
+  EXPECT_EQ(appliance.answer().known, ui::Known::Asking);
+  appliance.step(milliseconds(5));
+  EXPECT_EQ(appliance.answer().known, ui::Known::Asking);
+  records.held.store(false);
+  for (int turn = 0; turn < 60'000 && appliance.answer().known == ui::Known::Asking; ++turn)
+    appliance.step(milliseconds(1));
+  EXPECT_EQ(appliance.answer().known, ui::Known::Code);
+  EXPECT_EQ(appliance.answer().record, storage::SubjectId{7});
+  EXPECT_EQ(records.asked, "Ada/4821");
+  EXPECT_EQ(appliance.state(), State::Idle);
+}
+
+TEST_F(ApplianceTest, AnAnswerThatComesWhenItsVisitorHasGoneIsNobodys) {
+  ASSERT_TRUE(reach(State::Idle));
+  records.known = {ui::Known::Code, storage::SubjectId{7}};
+  records.held.store(true);
+  appliance.ask_records({WipedText("Ada"), WipedText("4821"), true});
+  appliance.forget_answer();
+  records.held.store(false);
+  for (int turn = 0; turn < 100; ++turn) appliance.step(milliseconds(1));
+  EXPECT_EQ(appliance.answer().known, ui::Known::NotAsked);
+  EXPECT_EQ(appliance.answer().record, storage::SubjectId{});
+}
+
 }  // namespace relievo::firmware

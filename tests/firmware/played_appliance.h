@@ -13,6 +13,7 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/appliance/view_of.h"
 #include "firmware/base/budget.h"
+#include "tests/firmware/test_records.h"
 #include "tests/support/played_device.h"
 
 namespace relievo::firmware {
@@ -46,7 +47,7 @@ class TestStages final : public StageRunner {
 class ApplianceTest : public testing::Test {
  protected:
   ApplianceTest() {
-    appliance.set_subject("Ada");
+    appliance.expect(named("Ada"));
     appliance.on_change([this](const Change& change) { path += std::string(name_of(change.to)) + " "; });
   }
   // Turns the main loop until the state is reached; a minute is "never".
@@ -76,16 +77,8 @@ class ApplianceTest : public testing::Test {
   std::deque<Errc> keep_errors;
   std::string kept;
   std::string path;
-  Appliance appliance{
-      {device, stages, memory, pool, [this](std::string_view subject, const pipeline::FaceModel&) {
-         if (!keep_errors.empty()) {
-           const Errc code = keep_errors.front();
-           keep_errors.pop_front();
-           return Result<void>(Error{code, "as the test says"});
-         }
-         kept += subject;
-         return Result<void>();
-       }}};
+  TestRecords records{kept, keep_errors};
+  Appliance appliance{{device, stages, memory, pool, records}};
 };
 
 }  // namespace relievo::firmware

@@ -21,6 +21,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
+#include "tests/firmware/test_records.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/ui.h"
@@ -49,9 +50,7 @@ class TechnicianRig {
     EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());
     stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
     screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
-    appliance = std::make_unique<Appliance>(
-        Appliance::Parts{*device, *stages, memory, pool,
-                         [](std::string_view, const pipeline::FaceModel&) { return Result<void>(); }});
+    appliance = std::make_unique<Appliance>(Appliance::Parts{*device, *stages, memory, pool, records});
     side_tasks = std::make_unique<SideTasks>(*appliance);
     test_capture = std::make_unique<TestCapture>(TestCapture::Parts{
         *appliance, *side_tasks, *device, *stages, pool, *store, show_boards,
@@ -140,6 +139,9 @@ class TechnicianRig {
   std::unique_ptr<storage::Store> store;
   std::unique_ptr<PipelineStages> stages;
   std::unique_ptr<ui::Ui> screen;
+  std::string names;
+  std::deque<Errc> errors;
+  TestRecords records{names, errors};
   std::unique_ptr<Appliance> appliance;
   std::unique_ptr<SideTasks> side_tasks;
   std::unique_ptr<TestCapture> test_capture;

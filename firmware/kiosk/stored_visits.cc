@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/stored_visits.h"
+
+#include "firmware/kiosk/code/code_guard.h"
+#include "firmware/records/disk_room.h"
+#include "firmware/records/receipt.h"
+#include "firmware/report/report.h"
+
+namespace relievo::firmware {
+
+Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::FaceModel& model) {
+  RELIEVO_TRY(disk_has_room(folder_, record.least_room_mib));
+  Report report{record.calibration_note, record.algorithms,     record.stages, {},
+                peak_rss_bytes(),        model.quality,         record.drift,  {},
+                model.landmarks,         model.head_from_camera};
+  for (const StageRecord& stage : report.stages) report.total += stage.took;
+  const std::string json = report_json(report);
+  // Somebody new, unless a record was named by its code: that two people have one name must mix nothing up.
+  const storage::SubjectChoice whose = record.whose ? storage::SubjectChoice(*record.whose)
+                                                    : storage::NewSubject{std::string(record.name.view())};
+  KeptVisit kept;
+  RELIEVO_TRY_ASSIGN(kept.enrolment, store_.add_enrolment(whose, {model, record.consent, record.calibration,
+                                                                  record.algorithms, json, record.renews}));
+  RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_.enrolment(kept.enrolment));
+  RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_.subject(stored.subject));
+  kept.receipt = receipt_of(whom);
+  return kept;
+}
+
+// Nothing but whether there is such a record leaves this function.
+Result<RecordAnswer> StoredVisits::look_up(const RecordQuestion& question) {
+  if (!question.code.empty()) {
+    CodeGuard guard(store_, clock_);
+    RELIEVO_TRY_ASSIGN(const bool listens, guard.spend());
+    const Result<storage::Subject> subject =
+        listens ? find_by_receipt(store_, question.code.view())
+                : Result<storage::Subject>(Error{Errc::NotFound, "no code of a record"});
+    if (!subject && subject.error().code != Errc::NotFound) return subject.error();
+    if (!subject || subject->name != question.name.view()) return RecordAnswer{ui::Known::NoSuchCode};
+    RELIEVO_TRY(guard.was_right());
+    return RecordAnswer{ui::Known::Code, subject->id};
+  }
+  if (!question.tells_names) return RecordAnswer{ui::Known::Nobody};
+  RELIEVO_TRY_ASSIGN(
+      const auto same,
+      store_.subjects({.name = std::string(question.name.view()), .whole_name = true, .limit = 1}));
+  return RecordAnswer{same.empty() ? ui::Known::Nobody : ui::Known::Name};
+}
+
+}  // namespace relievo::firmware
